@@ -1,0 +1,7 @@
+"""``python -m drillctl``."""
+
+import sys
+
+from drillctl.cli import main
+
+sys.exit(main())

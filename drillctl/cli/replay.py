@@ -1,0 +1,31 @@
+"""``drillctl replay TRACE...``: runs recorded traces again and names the first tick that differs."""
+
+import argparse
+from pathlib import Path
+
+from drillctl.cli import options
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("replay", help="run traces again and compare", description=__doc__)
+    verb.add_argument("traces", nargs="+", type=Path, metavar="TRACE")
+    options.add_tables(verb)
+    verb.add_argument("--same-tables", action="store_true", help="other tables than the recorded ones are a failure")
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """Replays each; 1 where one differs. A trace that can't be read is an error, as everywhere."""
+    from drillctl.replay import replay
+
+    library = options.library(arguments)
+    differing = 0
+    for file in arguments.traces:
+        verdict = replay(file, library)
+        failed = verdict.failed(arguments.same_tables)
+        differing += failed
+        print(f"{file}: {'DIFFERS' if failed else 'same'}, {verdict.remark()}")
+        if failed:
+            print(verdict.message())
+    return 1 if differing else 0

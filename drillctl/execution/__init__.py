@@ -1,0 +1,20 @@
+"""LAYER 3: turns commands into one port image a tick. Integers only; no clock, file, float or word in here.
+
+    tick.py        one INT8: read this first
+    controller.py  all that a tick works on, allocated once
+    axis.py        one motor: the automaton over its ramp, the columns of its phase table
+    line.py        axes linked in a straight line
+    commands.py    how each KMD command starts and ends
+    homing.py      initialisation, by the machine's table of steps
+    guard.py       sensors, ranges, times
+    stops.py       requests and faults: hold, stop, emergency stop, return
+    report.py      writes the status record
+
+May import kmd, ports and machine.
+"""
+
+from drillctl.execution.controller import Controller
+from drillctl.execution.report import report
+from drillctl.execution.tick import tick
+
+__all__ = ["Controller", "report", "tick"]

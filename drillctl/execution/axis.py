@@ -1,0 +1,185 @@
+"""One motor: where it is, which state of its ramp it is in, which column of its phase table is out.
+
+Rule: ``interrupt`` is called once a tick while the axis is awake; it waits the interval of its state, puts the next
+column out, and after each whole step asks the ramp for the next state (paper, section 4; machine/ramp.py).
+Called by tick, commands, homing, guard and stops. Positions are steps; nothing here knows of sensors.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from drillctl.machine import AxisTable
+
+if TYPE_CHECKING:
+    from drillctl.execution.line import Line
+
+
+class Axis:
+    """The running state of one axis. Created once; every field is an integer, a flag or a table."""
+
+    __slots__ = (
+        "awake", "base", "bits", "braked", "clear_mask", "column", "columns_per_step", "count", "counting", "cut",
+        "direction", "drive", "floor", "held", "high", "hot", "interval", "led", "length", "limits", "line", "low", "made",
+        "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target", "travelled",
+        "wait",
+    )  # fmt: skip
+
+    def __init__(self, table: AxisTable, limits: tuple[int, int, int]):
+        self.ramp = table.ramp
+        self.interval = table.ramp.interval
+        self.columns_per_step = table.columns_per_step
+        self.length = table.phase.columns
+        self.sense = -1 if table.invert else 1
+        self.low, self.high, self.span = table.low_steps, table.high_steps, table.span_steps
+        self.limits = limits  # input bits of the end sensors: index 1 for +, -1 for - (0 unused)
+        self.shown = _patterns(table, forcing=True)
+        self.resting = _patterns(table, forcing=False)
+        self.column = self.length - 1  # so that the first step forward puts the first column out
+        self.position = self.target = self.base = self.made = self.travelled = 0
+        self.state = self.count = self.part = self.floor = 0
+        self.direction = 1
+        self.wait = self.interval[0]
+        self.drive = table.motor.pulse is not None
+        self.counting = self.awake = self.hot = self.braked = self.held = self.cut = self.led = False
+        self.seek_mask = self.clear_mask = 0
+        self.bits = 0
+        self.line: Line | None = None
+
+    def aim(self, target: int, floor: int) -> None:
+        """A new target, with the slowest allowed interval. In state 0 the count restarts; in motion it goes on."""
+        self.target = target
+        self.floor = floor
+        self.braked = False
+        if self.state == 0 and self.part == 0:
+            self.start()
+
+    def start(self) -> None:
+        """From state 0: counts towards the target, or stays where it is."""
+        self.counting = self.target != self.position
+        if self.counting:
+            self.direction = 1 if self.target > self.position else -1
+            self.count = 0
+            self.wait = max(self.interval[0], self.floor)
+            self.awake = True
+            if self.drive:  # its direction wire must stand before the first pulse
+                self.bits = self.resting[self.direction * self.sense][self.column]
+
+    def interrupt(self) -> bool:
+        """One tick. True while the axis still counts afterwards."""
+        if not self.counting:
+            self.cool()
+            return False
+        self.count += 1
+        if self.count >= self.wait:
+            self.count = 0
+            self._advance()
+        return self.counting
+
+    def hold(self) -> None:
+        """Brake down the ramp, keeping the target."""
+        self.held = True
+        self._rest_if_still()
+
+    def resume(self) -> None:
+        """Lift a hold: accelerate again, or count anew from state 0."""
+        self.held = False
+        self.braked = False
+        if self.state == 0 and self.part == 0 and not self.counting and not self.led:
+            self.start()
+
+    def give_up(self) -> None:
+        """Brake down the ramp; where the axis comes to rest is its target."""
+        self.cut = True
+        self._rest_if_still()
+
+    def halt(self) -> None:
+        """Stop in this tick, without a ramp, keeping the current: from states 0 and 1 nothing is lost."""
+        self.state = self.count = self.part = 0
+        self.cut = True
+        self._rest()
+        self.held = False
+
+    def release(self) -> None:
+        """Stop and take the current off all phases."""
+        self.halt()
+        self.bits = 0
+        self.hot = self.awake = False
+
+    def zero(self) -> None:
+        """This place is machine zero."""
+        self.position = self.target = self.base = 0
+
+    def cool(self) -> None:
+        """At rest: the column's 5 V bits stay, forcing goes off; 24 V held would burn the winding."""
+        self.awake = False
+        if self.hot:
+            self.hot = False
+            self.bits = self.resting[self.direction * self.sense][self.column]
+
+    def put_column(self) -> bool:
+        """Puts the next column out; True when that completes a step."""
+        turn = self.direction * self.sense
+        self.column = (self.column + turn) % self.length
+        self.bits = self.shown[turn][self.column]
+        self.hot = True
+        self.travelled += self.direction
+        self.part += 1
+        if self.part < self.columns_per_step:
+            return False
+        self.part = 0
+        self.position += self.direction
+        self.made += 1
+        return True
+
+    def _advance(self) -> None:
+        if self.line is not None:
+            self.line.carry()
+        if self.put_column():
+            self._settle()
+
+    def _settle(self) -> None:
+        """After a whole step: the next state. A hold or a stop takes one state off after every step."""
+        state, direction = self.state, self.direction
+        to_go = (self.target - self.position) * direction
+        if self.held or self.cut:
+            after = state - direction if state else 0
+        else:
+            after = self.ramp.after_step(
+                state, direction, to_go, not self.braked and self.interval[state] > self.floor
+            )
+        self.state = after
+        if after == 0:
+            self._at_state_zero(to_go)
+        else:
+            self.braked = self.braked or after * direction < state * direction
+            self.wait = max(self.interval[after], self.floor)
+
+    def _at_state_zero(self, to_go: int) -> None:
+        self.braked = False
+        if to_go == 0 or self.held or self.cut:
+            self._rest()
+        else:
+            self.start()
+
+    def _rest_if_still(self) -> None:
+        if self.state == 0 and self.part == 0:
+            self._rest()
+
+    def _rest(self) -> None:
+        self.counting = False
+        self.awake = self.hot
+        if self.cut:
+            self.target = self.position
+            self.cut = False
+        if self.line is not None:
+            self.line.rest()
+
+
+def _patterns(table: AxisTable, forcing: bool) -> tuple[tuple[int, ...], ...]:
+    """Port images of all columns: index 1 for forward, -1 for backward (0 unused); one tuple where they agree."""
+    wires = [(w, bit) for w, bit in zip(table.phase.wires, table.wire_bits, strict=True) if forcing or not w.forcing]
+    columns = range(table.phase.columns)
+    forward = tuple(sum(1 << bit for wire, bit in wires if wire.forward[column]) for column in columns)
+    backward = tuple(sum(1 << bit for wire, bit in wires if wire.backward[column]) for column in columns)
+    return ((), forward, forward if backward == forward else backward)

@@ -1,0 +1,255 @@
+"""How each KMD command starts and ends. Two tables at the end are the whole of it.
+
+Rule: a command is checked when it is taken from the queue, and nothing moves unless all of it may; it ends in the
+tick in which everything rests and its own condition holds. Called by tick.
+"""
+
+from collections.abc import Callable, Mapping
+
+from drillctl.execution.axis import Axis
+from drillctl.execution.controller import Controller
+from drillctl.execution.homing import begin_homing, carry_homing
+from drillctl.execution.stops import raise_fault
+from drillctl.kmd import Command, Fault, Op
+from drillctl.kmd.commands import Flag
+
+UP, DOWN = -1, 1
+
+
+def start_next(m: Controller) -> bool:
+    """Takes the next command of this epoch from the queue and starts it. False where there is none."""
+    command = m.command
+    while m.queue.take(command):
+        if command.epoch == m.epoch:
+            m.busy = m.job = True
+            m.elapsed = 0
+            started = _STARTED.get(command.opcode)
+            fault = started(m, command) if started else Fault.BAD_COMMAND
+            if fault:
+                raise_fault(m, fault)
+            return True
+    return False
+
+
+def finish(m: Controller) -> None:
+    """Nothing moves: ends the current command if its own condition holds too."""
+    ended = _ENDED.get(m.command.opcode)
+    if ended is None or ended(m, m.command):
+        m.busy = False
+        m.time_limit = 0
+        m.done = m.command.sequence
+
+
+def _move(m: Controller, command: Command) -> int:
+    fault = _set_targets(m, command)
+    if fault:
+        return fault
+    if command.flags & Flag.LINKED:
+        return _start_line(m, command)
+    for index, axis in enumerate(m.axes):
+        if command.axes >> index & 1:
+            axis.aim(axis.target, command.floor_ticks)
+    return Fault.NONE
+
+
+def _set_targets(m: Controller, command: Command) -> int:
+    """Checks every axis first, then sets all targets; the axes rest."""
+    for index, axis in enumerate(m.axes):
+        if command.axes >> index & 1:
+            fault = _refused(m, axis, _target(axis, command, index), command.flags & Flag.ABSOLUTE)
+            if fault:
+                return fault
+    for index, axis in enumerate(m.axes):
+        if command.axes >> index & 1:
+            axis.target = _target(axis, command, index)
+            axis.seek_mask = axis.clear_mask = 0
+    return Fault.NONE
+
+
+def _target(axis: Axis, command: Command, index: int) -> int:
+    return command.args[index] + (axis.base if command.flags & Flag.ABSOLUTE else axis.position)
+
+
+def _refused(m: Controller, axis: Axis, target: int, absolute: int) -> int:
+    """Before initialisation only moves from here, within the length of the travel."""
+    if m.position_known:
+        return Fault.NONE if axis.low <= target <= axis.high else Fault.SOFT_LIMIT
+    if absolute:
+        return Fault.HOMING_REQUIRED
+    return Fault.NONE if abs(target - axis.position) <= axis.span else Fault.SOFT_LIMIT
+
+
+def _start_line(m: Controller, command: Command) -> int:
+    leader, farthest = None, -1
+    for index, axis in enumerate(m.axes):
+        if command.axes >> index & 1:
+            if leader is not None and axis.columns_per_step != leader.columns_per_step:
+                return _give_up_targets(m)
+            if abs(axis.target - axis.position) > farthest:
+                leader, farthest = axis, abs(axis.target - axis.position)
+    if leader is not None and farthest > 0:
+        m.line.start(leader, command.axes, command.floor_ticks)
+    return Fault.NONE
+
+
+def _give_up_targets(m: Controller) -> int:
+    for axis in m.axes:
+        axis.target = axis.position
+    return Fault.LINE_MISMATCH
+
+
+def _lower(m: Controller, command: Command) -> int:
+    m.hole_begun = command.tag or m.hole_begun
+    m.time_limit = m.longest_drilling
+    return _drive_head(m, command, DOWN)
+
+
+def _raise(m: Controller, command: Command) -> int:
+    return _drive_head(m, command, UP)
+
+
+def _drive_head(m: Controller, command: Command, direction: int) -> int:
+    """Each head towards its sensor at that end; without one, to the distance that the machine's file gives."""
+    for index, axis in enumerate(m.axes):
+        if _is_head(m, command, index, axis):
+            sensor = axis.limits[direction]
+            if not sensor and not m.position_known:
+                return Fault.HOMING_REQUIRED
+            axis.seek_mask, axis.clear_mask = sensor, 0
+            if not m.sensors & sensor:
+                axis.aim(_head_target(m, axis, direction), command.floor_ticks)
+    return Fault.NONE
+
+
+def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
+    return bool(command.axes >> index & 1) if command.axes else axis in m.drill_axes
+
+
+def _head_target(m: Controller, axis: Axis, direction: int) -> int:
+    if not axis.limits[direction]:
+        return (m.machine.drill_down_steps or axis.high) if direction == DOWN else 0
+    if not m.position_known:
+        return axis.position + direction * axis.span
+    return axis.high if direction == DOWN else axis.low
+
+
+def _at_sensors(m: Controller, command: Command, direction: int) -> bool:
+    for index, axis in enumerate(m.axes):
+        if _is_head(m, command, index, axis):
+            sensor = axis.limits[direction]
+            axis.seek_mask = 0
+            if sensor and not m.sensors & sensor:
+                return False
+    return True
+
+
+def _lowered(m: Controller, command: Command) -> bool:
+    if not _at_sensors(m, command, DOWN):
+        raise_fault(m, Fault.DRILL_NOT_DOWN)
+        return False
+    m.holes_done += command.tag > 0
+    return True
+
+
+def _raised(m: Controller, command: Command) -> bool:
+    if not _at_sensors(m, command, UP):
+        raise_fault(m, Fault.HEAD_NOT_UP)
+        return False
+    return True
+
+
+def _initialise(m: Controller, command: Command) -> int:
+    begin_homing(m)
+    return Fault.NONE
+
+
+def _initialised(m: Controller, command: Command) -> bool:
+    m.position_known = carry_homing(m, raise_fault)
+    return m.position_known
+
+
+def _take_base(m: Controller, command: Command) -> int:
+    """The axes named; else all that position the board, not the heads."""
+    for index, axis in enumerate(m.axes):
+        if command.axes >> index & 1 or (not command.axes and axis not in m.drill_axes):
+            axis.base = axis.position
+    return Fault.NONE
+
+
+def _switch(m: Controller, command: Command) -> int:
+    bit = 1 << (command.args[0] & 0xFF)
+    if not bit & m.output_mask:
+        return Fault.BAD_COMMAND
+    m.switched = m.switched | bit if command.args[1] else m.switched & ~bit
+    return Fault.NONE
+
+
+def _spindle(m: Controller, command: Command) -> int:
+    """On a machine without a spindle output the drill's motor has a switch of its own."""
+    m.switched = m.switched | m.spindle_mask if command.args[0] > 0 else m.switched & ~m.spindle_mask
+    return Fault.NONE
+
+
+def _tool(m: Controller, command: Command) -> int:
+    m.tool = command.args[0]
+    return Fault.NONE
+
+
+def _release(m: Controller, command: Command) -> int:
+    m.position_known = False
+    for index, axis in enumerate(m.axes):
+        if command.axes >> index & 1 or not command.axes:
+            axis.release()
+    return Fault.NONE
+
+
+def _nothing(m: Controller, command: Command) -> int:
+    return Fault.NONE
+
+
+def _waited(m: Controller, command: Command) -> bool:
+    return m.elapsed >= command.args[0]
+
+
+def _answered(m: Controller, command: Command) -> bool:
+    reached = m.sensors >> (command.args[0] & 0xFF) & 1
+    if reached == command.args[1]:
+        return True
+    if m.elapsed >= command.args[2]:
+        raise_fault(m, Fault.INPUT_TIMEOUT)
+    return False
+
+
+def _end(m: Controller, command: Command) -> bool:
+    m.job = False
+    return True
+
+
+_STARTED: Mapping[int, Callable[[Controller, Command], int]] = {
+    Op.GOTO_DXDY: _move,
+    Op.GOTO_X_Y: _move,
+    Op.RUCH: _move,
+    Op.RUCH_D: _move,
+    Op.LINIA: _move,
+    Op.LINIA_D: _move,
+    Op.WIERTLO_DOL: _lower,
+    Op.WIERTLO_GORA: _raise,
+    Op.INICJALIZACJA: _initialise,
+    Op.BAZA: _take_base,
+    Op.PREDKOSC: _nothing,  # its ticks stand in the moves that follow
+    Op.CZEKAJ: _nothing,
+    Op.WYJSCIE: _switch,
+    Op.CZEKAJ_WE: _nothing,
+    Op.WRZECIONO: _spindle,
+    Op.NARZEDZIE: _tool,
+    Op.FAZY_WYL: _release,
+    Op.KONIEC: _nothing,
+}
+_ENDED: Mapping[int, Callable[[Controller, Command], bool]] = {
+    Op.WIERTLO_DOL: _lowered,
+    Op.WIERTLO_GORA: _raised,
+    Op.INICJALIZACJA: _initialised,
+    Op.CZEKAJ: _waited,
+    Op.CZEKAJ_WE: _answered,
+    Op.KONIEC: _end,
+}

@@ -1,0 +1,64 @@
+"""All that a tick works on: axes, current command, sensors, stops. Allocated once, changed in place.
+
+Rule: this module only holds; what happens to it is in tick, commands, homing, guard and stops.
+Created by the wiring with a machine, a queue, a mailbox and a driver.
+"""
+
+from drillctl.execution.axis import Axis
+from drillctl.execution.line import Line
+from drillctl.kmd import Command, Condition, Queue, Requests
+from drillctl.machine import Machine
+from drillctl.ports import SAFE_IMAGE, Driver
+
+
+class Controller:
+    """The state of execution for one machine.
+
+    inputs    the input image as latched
+    sensors   the same, 1 = reached, whatever the sensor's polarity
+    switched  output bits that are no axis's: spindle and the like
+    elapsed   ticks of the current command, hold not counted
+    running   sequence of the command that was current in this tick, 0 = none
+    served    the requests served in this tick, as bits
+    """
+
+    def __init__(self, machine: Machine, queue: Queue, requests: Requests, port: Driver):
+        self.machine = machine
+        self.queue = queue
+        self.requests = requests
+        self.port = port
+        self.axes = tuple(Axis(table, _limits(machine, index)) for index, table in enumerate(machine.axes))
+        self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
+        self.line = Line(self.axes)
+        self.polarity = sum(1 << s.bit for s in machine.sensors if s.active_level == 0)
+        self.sensor_mask = sum(1 << s.bit for s in machine.sensors)
+        self.pairs = tuple(axis.limits[1] | axis.limits[-1] for axis in self.axes if axis.limits[1] and axis.limits[-1])
+        self.output_mask = sum(1 << bit for _, bit in machine.outputs)
+        self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
+        self.homes_by_sensor = any(step.do == "seek" for step in machine.homing)
+        self.longest_drilling = machine.longest_drilling_ticks
+
+        self.command = Command()
+        self.busy = self.job = False
+        self.elapsed = self.time_limit = 0
+        self.homing_row = 0
+
+        self.tick = self.starved = self.moving = self.running = self.served = 0
+        self.inputs = self.sensors = 0
+        self.image = SAFE_IMAGE
+        self.switched = 0
+
+        self.condition: int = Condition.READY
+        self.epoch = 0
+        self.fault = 0
+        self.fault_kept = self.return_wanted = False
+        self.position_known = False
+
+        self.done = self.hole_begun = self.holes_done = self.tool = 0
+
+
+def _limits(machine: Machine, axis: int) -> tuple[int, int, int]:
+    """Input bits of an axis's end sensors, indexed by direction: 1 for the far end, -1 for the near one."""
+    ends = (machine.sensor_at(axis, end) for end in ("max", "min"))
+    far, near = (1 << sensor.bit if sensor else 0 for sensor in ends)
+    return (0, far, near)

@@ -1,0 +1,23 @@
+"""Writes the status record. Called by the wiring between ticks, never by tick itself."""
+
+import numpy as np
+
+from drillctl.execution.controller import Controller
+from drillctl.kmd import Op
+
+
+def report(m: Controller, status: np.void) -> None:
+    """Overwrites a record of dtype kmd.STATUS with what the controller knows."""
+    command = m.command
+    for name in ("tick", "starved", "epoch", "done", "hole_begun", "holes_done", "tool", "condition", "fault",
+                 "fault_kept", "position_known", "job", "moving", "sensors"):  # fmt: skip
+        status[name] = getattr(m, name)
+    status["sequence"] = command.sequence if m.busy else 0
+    status["opcode"] = command.opcode if m.busy else Op.IDLE
+    status["queued"] = len(m.queue)
+    for index, axis in enumerate(m.axes):
+        status["position"][index] = axis.position
+        status["target"][index] = axis.target
+        status["steps"][index] = axis.made
+        status["state"][index] = axis.state
+        status["column"][index] = axis.column + 1

@@ -1,0 +1,127 @@
+"""How the machine stops: hold, stop, emergency stop, faults and the return after some of them.
+
+Rule: whatever ends a job raises the epoch, so that commands already queued are never run; a fault is latched until
+it is acknowledged. Requests come from tick, faults from guard, commands and homing.
+"""
+
+from collections.abc import Callable, Mapping
+
+from drillctl.execution.controller import Controller
+from drillctl.execution.homing import begin_homing, carry_homing
+from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
+from drillctl.ports import SAFE_IMAGE
+
+
+def serve(m: Controller) -> None:
+    """The requests that wait, emergency stop first."""
+    m.requests.pending &= ~m.served
+    for request, served in _SERVED.items():
+        if m.served >> request & 1:
+            served(m)
+
+
+def raise_fault(m: Controller, fault: int) -> None:
+    """Latches the first fault and reacts to it; a further one meanwhile only stops, or drops where it must."""
+    spec = FAULTS[fault]
+    holds = spec.reaction == Reaction.MACHINE and m.machine.emergency_stop == "hold"
+    kept = spec.position_kept or holds
+    known = m.position_known
+    first = m.fault == Fault.NONE
+    if first:
+        m.fault = fault
+        m.fault_kept = known and kept
+    m.position_known = known and kept
+    _end_job(m)
+    if holds:
+        _latch_at_once(m, drop=False)
+    elif spec.reaction in (Reaction.DROP, Reaction.MACHINE):
+        _latch_at_once(m, drop=True)
+    else:
+        returns = first and known and spec.reaction == Reaction.STOP_AND_RETURN
+        m.return_wanted = returns and m.homes_by_sensor
+        _brake(m)
+
+
+def carry_on(m: Controller) -> None:
+    """Called when nothing moves and the controller is not ready: the next stage of a stop or a return."""
+    if m.condition == Condition.STOPPING:
+        _stopped(m)
+    elif m.condition == Condition.RETURNING and carry_homing(m, raise_fault):
+        m.position_known = True
+        _latch_at_once(m, drop=False)
+
+
+def _end_job(m: Controller) -> None:
+    m.epoch += 1
+    m.busy = m.job = False
+    m.time_limit = 0
+
+
+def _brake(m: Controller) -> None:
+    m.condition = Condition.STOPPING
+    for axis in m.axes:
+        axis.held = False
+        axis.seek_mask = axis.clear_mask = 0
+        axis.give_up()
+
+
+def _stopped(m: Controller) -> None:
+    if m.return_wanted:
+        m.return_wanted = False
+        m.condition = Condition.RETURNING
+        begin_homing(m)
+        return
+    m.switched = 0
+    m.condition = Condition.LATCHED if m.fault else Condition.READY
+
+
+def _latch_at_once(m: Controller, drop: bool) -> None:
+    for axis in m.axes:
+        axis.seek_mask = axis.clear_mask = 0
+        if drop:
+            axis.release()
+        else:
+            axis.halt()
+    m.switched = SAFE_IMAGE
+    m.condition = Condition.LATCHED
+
+
+def _emergency_stop(m: Controller) -> None:
+    raise_fault(m, Fault.EMERGENCY_STOP)
+
+
+def _stop(m: Controller) -> None:
+    if m.condition != Condition.LATCHED:
+        _end_job(m)
+        m.return_wanted = False
+        _brake(m)
+
+
+def _hold(m: Controller) -> None:
+    if m.condition == Condition.READY and (m.busy or m.job):
+        m.condition = Condition.HOLDING
+        for axis in m.axes:
+            axis.hold()
+
+
+def _resume(m: Controller) -> None:
+    if m.condition == Condition.HOLDING:
+        m.condition = Condition.READY
+        for axis in m.axes:
+            axis.resume()
+
+
+def _acknowledge(m: Controller) -> None:
+    if m.condition == Condition.LATCHED:
+        m.fault = Fault.NONE
+        m.fault_kept = False
+        m.condition = Condition.READY
+
+
+_SERVED: Mapping[int, Callable[[Controller], None]] = {
+    Request.ESTOP: _emergency_stop,
+    Request.STOP: _stop,
+    Request.HOLD: _hold,
+    Request.RESUME: _resume,
+    Request.ACK: _acknowledge,
+}

@@ -1,0 +1,47 @@
+"""One INT8. Inputs are latched first and outputs flushed last, so no layer ever sees half a tick.
+
+    latch -> requests -> guard -> current command -> every axis one count -> completion -> image -> flush
+
+docs/SPEC.md, section 1, has the order to the letter. No container is built here, nothing grows.
+"""
+
+from drillctl.execution.commands import finish, start_next
+from drillctl.execution.controller import Controller
+from drillctl.execution.guard import guard
+from drillctl.execution.stops import carry_on, serve
+from drillctl.kmd import Condition
+
+READY, LATCHED = Condition.READY.value, Condition.LATCHED.value
+
+
+def tick(m: Controller) -> None:
+    """One interrupt. While a job's next command is missing and all rests, it is a wake and not a tick."""
+    m.inputs = m.port.latch()
+    m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
+    m.served = m.requests.pending
+    if m.served:
+        serve(m)
+    if m.condition != LATCHED:
+        guard(m)
+    if m.condition == READY and not m.busy and not start_next(m) and m.job:
+        m.starved += 1
+        return
+    m.running = m.command.sequence if m.busy else 0
+    if m.busy and m.condition == READY:
+        m.elapsed += 1
+    moving = 0
+    for axis in m.axes:
+        if axis.awake:
+            moving += axis.interrupt()
+    m.moving = moving
+    if not moving:
+        if m.condition != READY:
+            carry_on(m)
+        elif m.busy:
+            finish(m)
+    image = m.switched
+    for axis in m.axes:
+        image |= axis.bits
+    m.image = image
+    m.port.flush(image)
+    m.tick += 1

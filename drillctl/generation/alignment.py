@@ -1,0 +1,246 @@
+"""Finding out how a board lies from holes measured on it: the map and how far it can be trusted.
+
+Rule: no more is read from the measurements than they can carry. Two holes, or holes on one line, give a
+shift and a turn; three that span both directions give scale and shear too. What is left over is shown
+hole by hole, and whatever looks implausible is said in `warnings`, never mended in silence.
+Called by the wiring of `--align FILE`; the map it finds goes into `placing.Placing`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from drillctl.generation.placing import Affine
+
+COLUMNS = ("file_x", "file_y", "machine_x", "machine_y")
+MAX_BYTES = 1_000_000
+MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
+COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
+SHORT_SPAN_MM = 10.0  # 0.1 mm of error over this length is half a degree of turn
+LINE_RATIO = 0.02  # spread across / spread along; below it the width is measurement error, not a direction
+MAX_SCALE_ERROR = 0.02
+MAX_SHEAR = 0.02
+MAX_RESIDUAL_MM = 0.5  # a hole off by more was most likely taken for another one
+
+HOLES_NEEDED = {"rigid": 2, "affine": 3}  # rigid: shift and turn; affine: scale and shear as well
+
+
+class AlignmentError(ValueError):
+    """The measured holes, or the file that lists them, cannot be used; the text says which and why."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Holes known in both coordinates: file and machine millimetres, each float64 (n, 2)."""
+
+    file_xy_mm: NDArray[np.float64]
+    machine_xy_mm: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Parts:
+    """A map taken apart for showing: mirror in x first (if mirrored), then shear, scale, turn, shift."""
+
+    turn_deg: float
+    scale_x: float
+    scale_y: float
+    shear: float
+    mirrored: bool
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """What the measured holes say. `kind` is a key of HOLES_NEEDED; `residual_mm` (n,) is each hole's
+    distance from where the map puts it; `length_ratio` is measured over file size along the holes' main
+    direction; `span_mm` is the size of the box around them in the file, corner to corner."""
+
+    affine: Affine
+    kind: str
+    residual_mm: NDArray[np.float64]
+    length_ratio: float
+    span_mm: float
+    warnings: tuple[str, ...]
+
+    @property
+    def rms_mm(self) -> float:
+        """Root mean square of the residuals."""
+        return float(np.sqrt(np.mean(self.residual_mm**2)))
+
+    @property
+    def spare_holes(self) -> int:
+        """Holes beyond those the map needs; with 0 an affine's residuals are 0 whatever was measured."""
+        return len(self.residual_mm) - HOLES_NEEDED[self.kind]
+
+    @property
+    def length_error_mm(self) -> float:
+        """Measured length minus the file's, over the span of the holes."""
+        return self.span_mm * (self.length_ratio - 1)
+
+
+def load(path: Path, *, mirrored: bool = False) -> Alignment:
+    """Read an alignment file and fit it. Raises AlignmentError, with FILE:LINE:COLUMN where it can."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise AlignmentError(f"{path}: cannot be read: {error.strerror}") from error
+    measured = parse(data, name=str(path))
+    try:
+        return fit(measured.file_xy_mm, measured.machine_xy_mm, mirrored=mirrored)
+    except AlignmentError as error:
+        raise AlignmentError(f"{path}: {error}") from error
+
+
+def parse(data: bytes, *, name: str) -> Measured:
+    """Lines `file_x file_y machine_x machine_y` in mm; `#` starts a comment. Raises AlignmentError."""
+    if len(data) > MAX_BYTES:
+        raise AlignmentError(f"{name}:1:1: longer than {MAX_BYTES} bytes; an alignment is a few lines of numbers")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise AlignmentError(f"{name}:{line}:1: not a text file (UTF-8)") from error
+    rows = [_row(line, f"{name}:{number}") for number, line in enumerate(text.split("\n"), 1)]
+    found = np.array([row for row in rows if row], np.float64).reshape(-1, len(COLUMNS))
+    return Measured(found[:, :2], found[:, 2:])
+
+
+def _row(line: str, where: str) -> list[float]:
+    words = list(re.finditer(r"\S+", line.partition("#")[0]))
+    if words and len(words) != len(COLUMNS):
+        wanted = len(COLUMNS)
+        column = words[wanted].start() + 1 if len(words) > wanted else words[-1].end() + 1
+        raise AlignmentError(f"{where}:{column}: {len(words)} numbers where {' '.join(COLUMNS)} are meant")
+    return [_number(word, what, where) for word, what in zip(words, COLUMNS)]
+
+
+def _number(word: re.Match[str], what: str, where: str) -> float:
+    place = f"{where}:{word.start() + 1}"
+    try:
+        value_mm = float(word.group())
+    except ValueError as error:
+        hint = "; write a point, not a comma" if "," in word.group() else ""
+        raise AlignmentError(f"{place}: {what} {word.group()[:20]!r} is not a number{hint}") from error
+    if not abs(value_mm) <= MAX_MM:
+        raise AlignmentError(f"{place}: {what} {word.group()[:20]} is not within {MAX_MM:.0f} mm")
+    return value_mm
+
+
+def fit(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike, *, mirrored: bool = False) -> Alignment:
+    """Least-squares map from file to machine millimetres, both (n, 2) with n >= 2.
+
+    `mirrored` says that the board lies face down: a shift and turn cannot find that out, and a
+    scale and shear that disagree with it are warned about. Raises AlignmentError for holes that
+    settle nothing: fewer than two places, or measured places that contradict the file's.
+    """
+    file_mm, machine_mm = _pairs(file_xy_mm, machine_xy_mm)
+    along_mm, across_mm = _spread_mm(file_mm)
+    span_mm = _span_mm(file_mm)
+    measured_mm = _span_mm(machine_mm)
+    _refuse_same_place("file", span_mm)
+    _refuse_same_place("machine", measured_mm)
+    on_a_line = across_mm < LINE_RATIO * along_mm
+    affine = _fit_rigid(file_mm, machine_mm, mirrored) if on_a_line else _fit_affine(file_mm, machine_mm)
+    alignment = Alignment(
+        affine=affine,
+        kind="rigid" if on_a_line else "affine",
+        residual_mm=np.hypot(*(affine.apply(file_mm) - machine_mm).T),
+        length_ratio=_spread_mm(machine_mm)[0] / along_mm,
+        span_mm=span_mm,
+        warnings=(),
+    )
+    return replace(alignment, warnings=tuple(_doubts(alignment, mirrored)))
+
+
+def decompose(affine: Affine) -> Parts:
+    """Take a map's 2x2 part to pieces: linear = R(turn) [[scale_x, shear*scale_y], [0, scale_y]] M,
+    where M changes the sign of x if the map is mirrored. `shear` is a ratio: x gained per y."""
+    mirrored = bool(np.linalg.det(affine.linear) < 0)
+    (a, b), (c, d) = affine.linear @ np.diag([-1.0 if mirrored else 1.0, 1.0])
+    scale_x = math.hypot(a, c)
+    scale_y = (a * d - b * c) / scale_x
+    shear = (a * b + c * d) / scale_x / scale_y
+    return Parts(math.degrees(math.atan2(c, a)), scale_x, scale_y, shear, mirrored)
+
+
+def _pairs(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    file_mm = np.asarray(file_xy_mm, np.float64).reshape(-1, 2)
+    machine_mm = np.asarray(machine_xy_mm, np.float64).reshape(-1, 2)
+    if file_mm.shape != machine_mm.shape:
+        raise AlignmentError(f"{len(file_mm)} holes of the file but {len(machine_mm)} measured ones")
+    if len(file_mm) < 2:
+        raise AlignmentError(f"{len(file_mm)} measured hole(s); a turn needs two, scale and shear need three")
+    return file_mm, machine_mm
+
+
+def _refuse_same_place(whose: str, span_mm: float) -> None:
+    if span_mm < COINCIDENT_MM:
+        raise AlignmentError(
+            f"all {whose} coordinates are the same place within {COINCIDENT_MM} mm, so they show no turn; "
+            "measure holes far apart"
+        )
+
+
+def _span_mm(xy_mm: NDArray[np.float64]) -> float:
+    """Size of the box around the points, corner to corner."""
+    return float(np.hypot(*np.ptp(xy_mm, axis=0)))
+
+
+def _spread_mm(xy_mm: NDArray[np.float64]) -> tuple[float, float]:
+    """Spread along the points' main direction and across it: singular values of the centred points."""
+    along_mm, across_mm = np.linalg.svd(xy_mm - xy_mm.mean(axis=0), compute_uv=False)
+    return float(along_mm), float(across_mm)
+
+
+def _fit_rigid(file_mm: NDArray[np.float64], machine_mm: NDArray[np.float64], mirrored: bool) -> Affine:
+    """Shift and turn by least squares: in the plane the best turn is the angle of two plain sums
+    (orthogonal Procrustes problem, Schoenemann 1966, for two dimensions)."""
+    mirror = np.diag([-1.0 if mirrored else 1.0, 1.0])
+    source = (file_mm - file_mm.mean(axis=0)) @ mirror
+    target = machine_mm - machine_mm.mean(axis=0)
+    aligned = (source * target).sum()
+    crossed = (source[:, 0] * target[:, 1] - source[:, 1] * target[:, 0]).sum()
+    turn_rad = math.atan2(crossed, aligned)
+    cosine, sine = math.cos(turn_rad), math.sin(turn_rad)
+    linear = np.array([[cosine, -sine], [sine, cosine]]) @ mirror
+    return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
+
+
+def _fit_affine(file_mm: NDArray[np.float64], machine_mm: NDArray[np.float64]) -> Affine:
+    source = file_mm - file_mm.mean(axis=0)
+    target = machine_mm - machine_mm.mean(axis=0)
+    along_mm, across_mm = _spread_mm(machine_mm)
+    if across_mm < LINE_RATIO * along_mm:
+        raise AlignmentError("the measured places lie on one line, the file's do not; measure again")
+    linear = np.linalg.lstsq(source, target, rcond=None)[0].T
+    return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
+
+
+def _doubts(alignment: Alignment, mirrored: bool) -> Iterator[str]:
+    """Whatever makes the measurement implausible, a sentence each."""
+    parts = decompose(alignment.affine)
+    if alignment.kind == "rigid" and alignment.spare_holes > 0:
+        yield "the holes lie on one line, so only shift and turn were fitted; for scale measure one beside it"
+    if alignment.span_mm < SHORT_SPAN_MM:
+        yield f"the holes lie within {alignment.span_mm:.1f} mm, so the turn is uncertain; measure holes farther apart"
+    scales = {"along the holes": alignment.length_ratio}
+    if alignment.kind == "affine":
+        scales = {"in x": parts.scale_x, "in y": parts.scale_y}
+    for direction, scale in scales.items():
+        if abs(scale - 1) > MAX_SCALE_ERROR:
+            yield f"the scale {direction} is {scale:.4f}, not near 1: wrong holes, or wrong units?"
+    if abs(parts.shear) > MAX_SHEAR:
+        yield f"the shear is {parts.shear:.4f}: the board would be no rectangle; was a wrong hole measured?"
+    if parts.mirrored != mirrored:
+        seen, asked = ("face down", "face up") if parts.mirrored else ("face up", "face down")
+        yield f"the measured holes show the board {seen}, but {asked} was asked for"
+    worst = int(alignment.residual_mm.argmax())
+    if alignment.residual_mm[worst] > MAX_RESIDUAL_MM:
+        yield f"measured hole {worst + 1} is {alignment.residual_mm[worst]:.3f} mm off; was it another hole?"

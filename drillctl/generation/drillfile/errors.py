@@ -1,0 +1,122 @@
+"""What the reader can complain about, and the words it uses.
+
+Rule: every complaint is a code out of the two tables below, with the source line and a shortened
+piece of the file; a message never carries more of the file than TEXT_LIMIT characters.
+Refusals stop the file, warnings travel with the result. Every module of this package uses it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+TEXT_LIMIT = 60
+PROBLEM_LIMIT = 20
+
+REFUSALS = {
+    "archive": "this is an archive; unpack it and give the drill file inside",
+    "bad-diameter": "the tool's diameter is not a usable number; correct the tool's definition",
+    "bad-format": "the --format given cannot be understood; write for instance inch,2:4,leading or mm,decimal",
+    "bad-number": "a coordinate is not a number; correct the line or export the file again",
+    "bad-pattern": "M25, M01 and M02 do not make a closed pattern; export without step and repeat",
+    "bad-repeat-count": "R needs a whole count from 1 up; correct the line or export without repeats",
+    "bad-tool-number": "tool numbers go from 0 to 9999",
+    "contradictory-units": "the header declares inch and metric both; delete the wrong one",
+    "coordinate-out-of-range": "the hole lies further out than any board; check the number, units and format",
+    "duplicate-axis": "the same axis is written twice in one line; correct the line",
+    "empty-file": "the file holds no commands",
+    "file-too-large": "the file is larger than any drill file; is it the right one?",
+    "gcode-not-drill": "this is G-code for a milling machine; export an Excellon drill file",
+    "gerber-not-drill": "this is a Gerber picture; export the drill data (Excellon) instead",
+    "hpgl-not-drill": "this is an HPGL plot; export the drill data (Excellon) instead",
+    "line-too-long": "the line is longer than any drill command; the file is damaged",
+    "no-tool-selected": "a hole is drilled while no tool is selected; select a tool before it",
+    "not-a-drill-file": "nothing in it looks like a drill file; is it the right one?",
+    "not-text": "this is a binary file, not a drill file",
+    "repeat-too-large": "repeats or patterns make more holes than the limit",
+    "repeat-without-hole": "R repeats the hole before it, and there is none",
+    "repeat-without-offset": "R needs the distance between the holes, as X or Y",
+    "pattern-without-start": "M02 repeats a pattern, and no M25 began one",
+    "too-many-holes": "the file has more holes than the limit",
+    "tool-redefined": "the header defines the same tool with two diameters; delete the wrong one",
+    "tool-report-not-drill": "this is a drill report; keep it beside the drill file, which is the one to load",
+    "undefined-tool": "the tool is selected but defined nowhere; add it to the header",
+    "unknown-command": "the command is not known; correct or delete the line",
+    "unsupported-command": "the command is known but not drilled by this program; export without it",
+}
+
+WARNINGS = {
+    "bad-diameter-unused": "a tool has no usable diameter, but drills nothing",
+    "comma-decimal": "commas are read as decimal points",
+    "contradictory-format": "the file declares its number format twice, differently; the stronger one is used",
+    "count-mismatch": "the file announces another number of holes for this tool than it drills",
+    "data-after-end": "what follows the end of the program is ignored",
+    "duplicate-hole": "the same hole is drilled twice",
+    "eia-rs244-tape-code": "the file is punched-tape code (EIA RS-244) and was decoded",
+    "format-guessed": "the number format is a guess; settle it with --format if the board looks wrong",
+    "header-not-closed": "holes begin before the header is closed by % or M95",
+    "line-too-long": "a comment longer than the limit was cut",
+    "missing-diameter": "a tool has no diameter, neither here nor in a file beside it",
+    "missing-tools": "no tool is ever selected; every hole belongs to one tool of unknown diameter",
+    "missing-units": "neither inch nor metric is declared; the units are a guess",
+    "mixed-decimal-implied": "some coordinates have a decimal point and some have none",
+    "no-end-of-program": "the end of the program (M30) is missing; the file may be cut short",
+    "no-holes": "the file drills no holes",
+    "overlapping-holes": "two holes overlap; if many do, the number format is wrong",
+    "routs-not-drilled": "milled cuts (M15 to M16) are read but not drilled",
+    "second-header": "a second header begins inside the program",
+    "units-change-in-body": "the units change inside the program",
+    "utf-16": "the file is UTF-16 text and was decoded",
+    "zero-set-ignored": "the zero point set by G92 or G93 is not applied",
+    "zeros-contradict-data": "the declared zero suppression contradicts the numbers",
+}
+
+
+class Remark(NamedTuple):
+    """One complaint: code of a table above, source line (1-based) or None, the offending text."""
+
+    code: str
+    line: int | None = None
+    text: str = ""
+
+    @property
+    def reason(self) -> str:
+        """The complaint as a sentence, with the offending text quoted."""
+        words = REFUSALS.get(self.code) or WARNINGS[self.code]
+        return f"{self.code}: {words}" + (f" ({self.text!r})" if self.text else "")
+
+    def as_dict(self) -> dict[str, object]:
+        """Code, line, text and reason, as `inspect --json` prints them."""
+        return {"code": self.code, "line": self.line, "text": self.text, "reason": self.reason}
+
+
+class Refusal(Exception):
+    """Raised inside the package by whoever finds a fault; the loop above knows name and line."""
+
+    def __init__(self, code: str, text: str = "", *, fatal: bool = False) -> None:
+        super().__init__(code)
+        self.code, self.text, self.fatal = code, shorten(text), fatal
+
+
+class DrillFileError(Exception):
+    """A file that cannot be drilled. str() is one line, `NAME:LINE: reason`.
+
+    code, line, text, reason: the first problem; problems: all that were found, at most PROBLEM_LIMIT.
+    """
+
+    def __init__(self, name: str, problems: tuple[Remark, ...]) -> None:
+        first = problems[0]
+        self.name = shorten(name)
+        self.problems = problems[:PROBLEM_LIMIT]
+        self.code, self.line, self.text, self.reason = first.code, first.line, first.text, first.reason
+        where = f"{self.name}:{first.line}" if first.line else self.name
+        super().__init__(f"{where}: {first.reason}")
+
+    def as_dict(self) -> dict[str, dict[str, object]]:
+        """The object `inspect --json` prints for a refused file."""
+        return {"error": self.problems[0].as_dict()}
+
+
+def shorten(text: str) -> str:
+    """The text on one printable line of at most TEXT_LIMIT characters."""
+    line = "".join(c if c.isprintable() else "?" for c in text[: TEXT_LIMIT + 1].strip())
+    return line if len(line) <= TEXT_LIMIT else line[: TEXT_LIMIT - 3] + "..."

@@ -1,0 +1,60 @@
+"""Lines to words. Rule: one grammar; a run of plain coordinate lines is only its commonest sentence.
+
+`program` takes whole runs by RUN and pairs of axes by AXES, every other line by `split_words`.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from .errors import Refusal
+from .numbers import NUMBER
+
+# A possessive repeat: a run of 100,000 lines needs no memory of how it was matched.
+RUN = re.compile(rf"(?:(?=[XY])(?:X{NUMBER})?(?:Y{NUMBER})?\n)++")
+AXES = re.compile(rf"(?:X({NUMBER}))?(?:Y({NUMBER}))?\n")
+
+WORD = re.compile(rf"([A-Z])({NUMBER})?")
+KEYWORD = re.compile(r"[A-Z]{2,}|[A-Z](?=,)|M(?:45|47|97|98)(?!\d)|[%/]")
+REMARK = re.compile(r";(.*)|\([^()]*\)")
+DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
+SPACE = re.compile(r"[ \t]+")
+
+
+class Word(NamedTuple):
+    """A letter and the number behind it ('' where none is written)."""
+
+    letter: str
+    number: str
+
+    def __str__(self) -> str:
+        return self.letter + self.number
+
+
+def split_comment(line: str) -> tuple[str, str]:
+    """The line's command, in capitals and stripped, and its comment."""
+    found = REMARK.search(line)
+    if not found:
+        return line.strip().upper(), ""
+    return REMARK.sub("", line).strip().upper(), found[1] or found[0]
+
+
+def split_words(command: str) -> list[Word]:
+    """The words of a command line; spaces between and inside them mean nothing."""
+    packed = SPACE.sub("", command)
+    words, at = [], 0
+    while at < len(packed):
+        match = WORD.match(packed, at)
+        if not match:
+            raise Refusal(_blame(words, packed, at), command)
+        words.append(Word(match[1], match[2] or ""))
+        at = match.end()
+    return words
+
+
+def _blame(words: list[Word], packed: str, at: int) -> str:
+    """What is wrong where no word begins: a number that goes on, or no command at all."""
+    if not words or words[0].letter not in "XYGR":
+        return "unknown-command"
+    return "coordinate-out-of-range" if packed[at].isdigit() else "bad-number"

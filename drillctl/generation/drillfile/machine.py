@@ -1,0 +1,173 @@
+"""The drilling machine a file programs: modal state, and what each order does to it.
+
+Rule: positions are number triples (numbers.py), never millimetres; nothing here knows the format.
+commands.py translates words into calls of these methods, program.py feeds whole runs of coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from .errors import Refusal, Remark
+from .facts import Fact, Facts, Voice
+from .model import MM_PER_UNIT, Floats
+from .numbers import Evidence, read_numbers
+from .rows import ROW, Rows
+from .tools import NO_TOOL, Toolbox
+
+AXES = "XY"
+
+
+class Machine:
+    """State while a program runs. line is the source line being executed, set by program.py."""
+
+    def __init__(self, facts: Facts) -> None:
+        self.facts = facts
+        self.rows = Rows()
+        self.evidence = Evidence()
+        self.tools = Toolbox(facts)
+        self.remarks: list[Remark] = []
+        self.line = 0
+        self.at: Floats = np.zeros((2, 3))
+        self.mm = 0.0  # millimetres per unit in force, 0 while undeclared
+        self.headers = 0
+        self.in_header = self.routing = self.cutting = self.incremental = False
+        self.recognised = self.ended = self.stopped = False
+        self.routs = 0
+
+    @property
+    def drilling(self) -> bool:
+        """Whether a plain coordinate line is a hole."""
+        return not (self.in_header or self.routing or self.ended)
+
+    def remark(self, code: str, text: str = "") -> None:
+        """A warning about the current line."""
+        self.remarks.append(Remark(code, self.line, text))
+
+    # -- header -----------------------------------------------------------------------------------
+
+    def begin_header(self) -> None:
+        """M48. A second one inside the program is two files in a row, or an old program's habit."""
+        if self.headers and len(self.rows):
+            self.remark("second-header", "M48")
+        self.headers += 1
+        self.in_header, self.routing = True, False
+
+    def end_header(self) -> None:
+        """% or M95."""
+        self.in_header = False
+
+    def set_units(self, units: str, source: str) -> None:
+        """INCH, METRIC, M71, M72: in force for coordinates from here on."""
+        mm = MM_PER_UNIT[units]
+        if self.mm and mm != self.mm:
+            if self.in_header and self.headers < 2:
+                raise Refusal("contradictory-units", source)
+            self.remark("units-change-in-body", source)
+            self.at *= self.mm / mm
+        else:
+            self.facts.declare_units(Fact(units, Voice.HEADER, self.line, source))
+        self.mm = mm
+
+    # -- motion -----------------------------------------------------------------------------------
+
+    def move(self, axes: Mapping[str, str]) -> None:
+        """A coordinate line: a hole in drill mode, a travel of the router otherwise."""
+        self._leave_header()
+        self.at = self._target(axes)
+        if not self.routing:
+            self._record(self.at, self.at, slot=False)
+
+    def slot(self, start: Mapping[str, str], end: Mapping[str, str]) -> None:
+        """G85: a slot from the line's first point (or where the machine stands) to its second."""
+        self._leave_header()
+        begin = self._target(start) if start else self.at.copy()
+        self.at = begin
+        self.at = self._target(end)
+        self._record(begin, self.at, slot=True)
+
+    def drill_run(self, pairs: Sequence[tuple[str, str]]) -> None:
+        """Many coordinate lines at once, ('12.7', '') for a line without Y."""
+        self.rows.check_room(len(pairs))
+        block = np.zeros(len(pairs), ROW)
+        for axis, words in enumerate(zip(*pairs, strict=True)):
+            block["at"][:, :, axis] = self._positions(words, self.at[axis])[:, None]
+        block["mm"], block["tool"] = self.mm, self.tools.current
+        block["line"] = np.arange(self.line, self.line + len(pairs))
+        self.rows.append(block)
+        self.at = block["at"][-1, 1].copy()
+
+    def repeat(self, count: int, axes: Mapping[str, str]) -> None:
+        """R: the last hole again, count times, each the same distance further."""
+        self.at = self.rows.repeat(count, self._offset(axes), self.line)
+
+    def repeat_pattern(self, count: int, axes: Mapping[str, str]) -> None:
+        """M02: the pattern again, count times."""
+        self.rows.repeat_pattern(count, self._offset(axes), self.line)
+
+    def rout(self) -> None:
+        """G00 to G03: coordinates are the router's travel until G05."""
+        self.routing = True
+
+    def cut(self, *, down: bool) -> None:
+        """M15 begins a cut, M16 and M17 end it."""
+        if down and not self.cutting:
+            self.routs += 1
+            if self.routs == 1:
+                self.remark("routs-not-drilled")
+        self.cutting = down
+
+    def _leave_header(self) -> None:
+        if self.in_header:
+            self.remark("header-not-closed")
+            self.in_header = False
+
+    def _offset(self, axes: Mapping[str, str]) -> Floats:
+        """The written axes as triples, 0 where not written."""
+        written = [axis for axis in AXES if axis in axes]
+        offset = np.zeros((2, 3))
+        if written:
+            triples = read_numbers([axes[axis] for axis in written], self.evidence)
+            offset[[AXES.index(axis) for axis in written]] = triples
+        return offset
+
+    def _target(self, axes: Mapping[str, str]) -> Floats:
+        """Where the line leads: an axis not written keeps its place."""
+        offset = self._offset(axes)
+        written = np.array([[axis in axes] for axis in AXES])
+        return np.where(written, offset + self.at * self.incremental, self.at)
+
+    def _positions(self, words: Sequence[str], start: Floats) -> Floats:
+        """One axis of a run (n, 3), beginning at start: the law of `_target` for many lines."""
+        if not self.incremental and "" not in words:
+            return read_numbers(words, self.evidence)
+        written = np.array([bool(word) for word in words])
+        steps = np.zeros((len(words) + 1, 3))
+        steps[0] = start
+        if written.any():
+            steps[1:][written] = read_numbers([word for word in words if word], self.evidence)
+        if self.incremental:
+            return np.cumsum(steps, axis=0)[1:]
+        last_written = np.maximum.accumulate(np.where(written, np.arange(1, len(words) + 1), 0))
+        return steps[last_written]
+
+    def _record(self, begin: Floats, end: Floats, *, slot: bool) -> None:
+        row = np.zeros(1, ROW)
+        row["at"][0, 0], row["at"][0, 1] = begin, end
+        row["mm"], row["tool"], row["line"], row["slot"] = self.mm, self.tools.current, self.line, slot
+        self.rows.append(row)
+
+    # -- end --------------------------------------------------------------------------------------
+
+    def finish(self) -> None:
+        """The text is over: what must not stay open, and what is missing."""
+        self.rows.close_pattern()
+        self.tools.complete()
+        if not (self.ended or self.stopped):
+            self.remark("no-end-of-program")
+
+    def toolless(self) -> bool:
+        """Whether the whole program never named a tool (PCB Wizard, Vutrax)."""
+        return not self.tools.entries and bool((self.rows.array()["tool"] == NO_TOOL).any())

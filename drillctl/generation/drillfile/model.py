@@ -1,0 +1,97 @@
+"""The records a drill file becomes. Rule: frozen, in millimetres, in the order of the file.
+
+`DrillFile` is the reader's only product; planning, drawing and writing start from it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import Remark
+
+MM_PER_UNIT = {"inch": 25.4, "mm": 1.0}
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class FormatChoice:
+    """How the digits of a coordinate are to be read.
+
+    units: 'inch' or 'mm'. digits: places before and after the implied point, None where the numbers
+    carry a decimal point. zeros: which are left out, 'leading', 'trailing', 'none', or None with a point.
+    score: logarithm of plausibility, comparable within one file only (0 where nothing was compared).
+    """
+
+    units: str
+    digits: tuple[int, int] | None = None
+    zeros: str | None = None
+    dialect: str = "Excellon"
+    score: float = 0.0
+
+    @property
+    def format(self) -> str:
+        """'2:4', or 'decimal' for an explicit point."""
+        return "{}:{}".format(*self.digits) if self.digits else "decimal"
+
+    def weights(self) -> Floats:
+        """What one unit of a number's three readings is worth, in file units (see numbers.py)."""
+        if self.digits is None:  # a whole number among decimal ones stands for itself
+            return np.array([1.0, 0.0, 1.0])
+        integer, decimal = self.digits
+        if self.zeros == "trailing":
+            return np.array([0.0, 10.0**integer, 1.0])
+        return np.array([10.0**-decimal, 0.0, 1.0])
+
+    def __str__(self) -> str:
+        if self.digits is None:
+            return f"{self.units} decimal"
+        kept = "no zeros" if self.zeros == "none" else f"{self.zeros} zeros"
+        return f"{self.units} {self.format}, {kept} suppressed"
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A drill of the file; diameter_mm is None where neither the file nor its neighbours tell."""
+
+    number: int
+    diameter_mm: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class DrillFile:
+    """Holes and slots of one file, arrays in file order (n holes, k slots).
+
+    hole_xy_mm (n, 2), hole_tool (n,) index into tools, hole_line (n,) 1-based source line;
+    slot_mm (k, 4) from x, y to x, y, slot_tool, slot_line (k,), slot_at (k,) number of holes before it;
+    routs: milled cuts, read but not drilled; bbox_mm (x0, y0, x1, y1) of hole centres and slot ends.
+    """
+
+    name: str
+    tools: tuple[Tool, ...]
+    hole_xy_mm: Floats
+    hole_tool: Integers
+    hole_line: Integers
+    slot_mm: Floats
+    slot_tool: Integers
+    slot_line: Integers
+    slot_at: Integers
+    routs: int
+    format: FormatChoice
+    confidence: float
+    runner_up: FormatChoice | None
+    reason: str
+    warnings: tuple[Remark, ...]
+
+    @property
+    def bbox_mm(self) -> tuple[float, float, float, float] | None:
+        """Extent of hole centres and slot ends, None for a file without either."""
+        points = np.concatenate([self.hole_xy_mm, self.slot_mm.reshape(-1, 2)])
+        if not len(points):
+            return None
+        (x0, y0), (x1, y1) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        return x0, y0, x1, y1

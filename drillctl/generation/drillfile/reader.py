@@ -1,0 +1,131 @@
+"""The way of a drill file: bytes -> text -> program -> format -> millimetres -> checks -> `DrillFile`.
+
+Rule: either a whole `DrillFile` or a `DrillFileError`; nothing else is ever raised for what a file holds.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from . import checks, sidefiles
+from .errors import DrillFileError, Refusal, Remark
+from .facts import Facts
+from .intake import condense, to_text
+from .machine import Machine
+from .model import MM_PER_UNIT, DrillFile, Floats, Tool
+from .program import run
+from .recognise import Recognition, dialect, doubted, parse_option, recognise
+from .spacing import meetings
+
+
+def read(path: Path, *, fmt: str | None = None) -> DrillFile:
+    """The drill file at path, with the reports beside it (sidefiles.py).
+
+    fmt: format settled by hand, 'inch,2:4,leading' or 'mm,decimal'. DrillFileError for anything that is
+    no drillable file; OSError when the file cannot be opened.
+    """
+    with path.open("rb") as stream:
+        return _decode(stream, path.name, sidefiles.beside(path), fmt)
+
+
+def decode(
+    data: bytes, *, name: str, side_files: Mapping[str, bytes] = {}, fmt: str | None = None
+) -> DrillFile:
+    """As `read`, from bytes alone: name is used in messages, side_files are reports by name."""
+    return _decode(io.BytesIO(data), name, side_files, fmt)
+
+
+def _decode(
+    stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: str | None
+) -> DrillFile:
+    try:
+        option = parse_option(fmt) if fmt else None
+        data, tape_code = condense(stream)
+        text, remarks = to_text(data, tape_code=tape_code)
+    except Refusal as refusal:
+        raise DrillFileError(name, (Remark(refusal.code, None, refusal.text),)) from None
+    facts = Facts()
+    for side_name, side_data in side_files.items():
+        sidefiles.hear(side_name, side_data, facts)
+    machine, problems = run(text, facts)
+    if problems:
+        raise DrillFileError(name, tuple(problems))
+    found = recognise(machine, option)
+    named = replace(found.choice, dialect=dialect(machine, found.choice, tape_code=tape_code))
+    return _measured(name, machine, replace(found, choice=named), remarks)
+
+
+def _measured(name: str, machine: Machine, found: Recognition, remarks: list[Remark]) -> DrillFile:
+    """The program's rows in millimetres, checked."""
+    mm_per_unit = MM_PER_UNIT[found.choice.units]
+    ends_mm = _ends_mm(machine, found)
+    if problems := tuple(checks.faults(machine, mm_per_unit, ends_mm)):
+        raise DrillFileError(name, tuple(sorted(problems, key=lambda problem: problem.line or 0)))
+    tools = machine.tools.finished(mm_per_unit) or (Tool(1, None),) * machine.toolless()
+    return _checked(_assembled(name, machine, found, ends_mm, tools), machine, found, remarks)
+
+
+def _ends_mm(machine: Machine, found: Recognition) -> Floats:
+    """Both ends of every row (n, 2, 2); rows keep the units in force where they were written."""
+    rows = machine.rows.array()
+    mm = np.where(rows["mm"] > 0, rows["mm"], MM_PER_UNIT[found.choice.units])
+    ends: Floats = (rows["at"] @ found.choice.weights()) * mm[:, None, None]
+    return ends
+
+
+def _assembled(
+    name: str, machine: Machine, found: Recognition, ends_mm: Floats, tools: tuple[Tool, ...]
+) -> DrillFile:
+    rows = machine.rows.array()
+    slot = rows["slot"]
+    tool = np.maximum(rows["tool"], 0)  # a program without tools drills everything with the one it has
+    return DrillFile(
+        name=name,
+        tools=tools,
+        hole_xy_mm=np.ascontiguousarray(ends_mm[~slot, 0]),
+        hole_tool=tool[~slot],
+        hole_line=rows["line"][~slot],
+        slot_mm=ends_mm[slot].reshape(-1, 4),
+        slot_tool=tool[slot],
+        slot_line=rows["line"][slot],
+        slot_at=np.cumsum(~slot)[slot],
+        routs=machine.routs,
+        format=found.choice,
+        confidence=found.confidence,
+        runner_up=found.runner_up,
+        reason=found.reason,
+        warnings=(),
+    )
+
+
+def _checked(
+    drill_file: DrillFile, machine: Machine, found: Recognition, remarks: list[Remark]
+) -> DrillFile:
+    """The same with its warnings; a format under which many holes overlap is doubted."""
+    diameter = np.array([tool.diameter_mm or 0.0 for tool in drill_file.tools] or [0.0])
+    overlapping, duplicate = meetings(drill_file.hole_xy_mm, diameter[drill_file.hole_tool])
+    if found.runner_up is None and len(overlapping) > checks.DOUBTFUL_SHARE * len(drill_file.hole_xy_mm):
+        found = doubted(machine, found)
+    mm_per_unit = MM_PER_UNIT[found.choice.units]
+    warnings = [
+        *remarks,
+        *machine.facts.remarks,
+        *machine.remarks,
+        *found.remarks,
+        *checks.number_warnings(machine),
+        *checks.tool_warnings(machine, mm_per_unit),
+        *checks.hole_warnings(overlapping, duplicate, drill_file.hole_line),
+    ]
+    return replace(
+        drill_file,
+        confidence=found.confidence,
+        runner_up=found.runner_up,
+        reason=found.reason,
+        warnings=tuple(warnings),
+    )

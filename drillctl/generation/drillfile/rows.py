@@ -1,0 +1,89 @@
+"""The growing list of holes and slots. Rule: never more than HOLE_LIMIT rows, however they are asked for.
+
+A row is one hole or slot, its two ends as number triples (numbers.py); a hole's ends are the same.
+R and M25..M02 copy rows with an offset, so they need no format either. machine.py fills it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import Refusal
+from .model import Floats
+
+HOLE_LIMIT = 200_000
+
+# at: (end, axis, reading); mm: millimetres per unit in force there, 0 where none was declared yet.
+ROW = np.dtype([("at", "f8", (2, 2, 3)), ("mm", "f8"), ("tool", "i8"), ("line", "i8"), ("slot", "?")])
+RowArray = NDArray[np.void]
+
+
+class Rows:
+    """Holes and slots in file order, with the pattern that may be open."""
+
+    def __init__(self) -> None:
+        self._blocks: list[RowArray] = []
+        self._count = 0
+        self._pattern_start: int | None = None
+        self._pattern: RowArray | None = None
+
+    def __len__(self) -> int:
+        return self._count
+
+    def array(self) -> RowArray:
+        """All rows as one array (n,) of ROW."""
+        if len(self._blocks) != 1:
+            self._blocks = [np.concatenate([np.empty(0, ROW), *self._blocks])]
+        return self._blocks[0]
+
+    def append(self, block: RowArray, *, code: str = "too-many-holes") -> None:
+        """Add rows; fatal Refusal with the code when they would be too many."""
+        self.check_room(len(block), code)
+        self._blocks.append(block)
+        self._count += len(block)
+
+    def check_room(self, wanted: int, code: str = "too-many-holes") -> None:
+        """Fatal Refusal before memory is spent on more rows than HOLE_LIMIT."""
+        if self._count + wanted > HOLE_LIMIT:
+            raise Refusal(code, f"more than {HOLE_LIMIT} holes", fatal=True)
+
+    def repeat(self, count: int, offset: Floats, line: int) -> Floats:
+        """R: the last row again count times, each one offset (2, 3) further; returns where it ended."""
+        if not self._count:
+            raise Refusal("repeat-without-hole")
+        self.check_room(count, "repeat-too-large")
+        block = np.repeat(self._blocks[-1][-1:], count)
+        block["at"] += np.arange(1, count + 1)[:, None, None, None] * offset
+        block["line"] = line
+        self.append(block)
+        return np.array(block["at"][-1, 1])
+
+    def begin_pattern(self) -> None:
+        """M25: what follows is a pattern."""
+        if self._pattern_start is not None and self._pattern is None:
+            raise Refusal("bad-pattern", "M25 inside M25")
+        self._pattern_start, self._pattern = self._count, None
+
+    def end_pattern(self) -> None:
+        """M01: the pattern is complete. Without M25 it is only a stop for the operator."""
+        if self._pattern_start is not None:
+            self._pattern = self.array()[self._pattern_start :].copy()
+
+    def repeat_pattern(self, count: int, offset: Floats, line: int) -> None:
+        """M02: the pattern again, offset (2, 3) further than it was last drilled; count times."""
+        if self._pattern_start is None:
+            raise Refusal("pattern-without-start")
+        if self._pattern is None:
+            raise Refusal("bad-pattern", "M02 before M01")
+        self.check_room(count * len(self._pattern), "repeat-too-large")
+        for _ in range(count if len(self._pattern) else 0):
+            self._pattern["at"] += offset
+            self._pattern["line"] = line
+            self.append(self._pattern.copy())
+
+    def close_pattern(self) -> None:
+        """M08 or the end of the program."""
+        if self._pattern_start is not None and self._pattern is None:
+            raise Refusal("bad-pattern", "M25 without M01")
+        self._pattern_start = self._pattern = None

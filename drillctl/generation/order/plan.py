@@ -1,0 +1,78 @@
+"""The front door: the order of one tool's holes, or of several tools' one after the other.
+
+Rule: an order is a permutation of what was handed in, nothing is left out and nothing is drilled twice;
+'optimised' is never longer than 'nearest' nor than the file's own order. The last hole is where the tool
+stays: the way to the next tool is not counted. Called by whoever makes a job out of a drill file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from drillctl.generation.order.nearest import nearest_order
+from drillctl.generation.order.optimise import optimised_order
+from drillctl.generation.order.travel import OrderError, Steps, TravelCost, as_steps
+
+
+def plan(points: ArrayLike, travel: TravelCost, how: str, start: ArrayLike) -> NDArray[np.int64]:
+    """The order in which to drill `points` (n, 2) in steps, beginning from `start` (2,): row numbers, (n,).
+
+    `how` is a key of HOWS. Raises OrderError for any other, and for holes the travel tables don't reach.
+    """
+    if how not in HOWS:
+        raise OrderError(f"order {how!r} is not known; give {', '.join(HOWS)}")
+    holes = as_steps(points)
+    if not len(holes):
+        return np.zeros(0, np.int64)
+    stops = _stops(holes, start)
+    travel.check_reach(stops)
+    return HOWS[how](stops, travel)[1:] - 1
+
+
+def plan_groups(
+    groups: Sequence[ArrayLike], travel: TravelCost, how: str, start: ArrayLike
+) -> list[NDArray[np.int64]]:
+    """`plan` for one tool after the other, each beginning where the one before ended; one order a group."""
+    orders = []
+    here = np.asarray(start)
+    for points in groups:
+        order = plan(points, travel, how, here)
+        orders.append(order)
+        if len(order):
+            here = as_steps(points)[order[-1]]
+    return orders
+
+
+def path_ticks(points: ArrayLike, order: ArrayLike, travel: TravelCost, start: ArrayLike) -> int:
+    """Travel ticks from `start` through all of `points` in this order."""
+    stops = _stops(as_steps(points)[np.asarray(order, np.int64)], start)
+    return _length_ticks(stops, travel)
+
+
+def _stops(holes: Steps, start: ArrayLike) -> Steps:
+    """The start as row 0, then the holes."""
+    return np.vstack([as_steps(np.reshape(start, (1, 2))), holes])
+
+
+def _length_ticks(stops: Steps, travel: TravelCost) -> int:
+    return int(travel.between(stops[:-1], stops[1:]).sum())
+
+
+def _file_order(stops: Steps, travel: TravelCost) -> NDArray[np.int64]:
+    return np.arange(len(stops))
+
+
+def _optimised(stops: Steps, travel: TravelCost) -> NDArray[np.int64]:
+    """Begin with the shorter of the two cheap orders, since repairs only ever shorten."""
+    cheap = [_file_order(stops, travel), nearest_order(stops, travel)]
+    return optimised_order(stops, travel, min(cheap, key=lambda order: _length_ticks(stops[order], travel)))
+
+
+HOWS: dict[str, Callable[[Steps, TravelCost], NDArray[np.int64]]] = {
+    "file": _file_order,
+    "nearest": nearest_order,
+    "optimised": _optimised,
+}

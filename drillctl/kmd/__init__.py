@@ -1,0 +1,21 @@
+"""The door between generation and execution: commands down the queue, requests past it, one status record up.
+
+    commands.py  the KMD set, defined once: record, opcodes, arguments, what each does
+    text.py      the ``.kmd`` text form, both ways, from that definition
+    queue.py     the bounded FIFO, and the mailbox of requests that overtake it
+    status.py    the small fixed record that comes up
+    faults.py    fault codes: reaction, position kept or lost (their words live above: panel)
+
+Rule: integers only; neither side sees the other's objects. Imports nothing of ours.
+"""
+
+from drillctl.kmd.commands import COMMANDS, RECORD, Command, Names, Op
+from drillctl.kmd.faults import FAULTS, Fault, FaultSpec, Reaction
+from drillctl.kmd.queue import CAPACITY, Queue, Request, Requests
+from drillctl.kmd.status import STATUS, Condition
+from drillctl.kmd.text import KmdError, parse_program, to_text
+
+__all__ = [
+    "CAPACITY", "COMMANDS", "FAULTS", "RECORD", "STATUS", "Command", "Condition", "Fault", "FaultSpec", "KmdError",
+    "Names", "Op", "Queue", "Reaction", "Request", "Requests", "parse_program", "to_text",
+]  # fmt: skip

@@ -1,0 +1,142 @@
+"""The KMD set, defined once. docs/KMD.md, the text form and the opcodes all come from ``COMMANDS``.
+
+Rule: a command is one fixed-size record of integers; an array of records is a *program*.
+The paper names KMD_GOTOdXdY, KMD_GOTO_X_Y and KMD_WIERTLO_DOL; the others are ours, in its style.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum, IntFlag
+
+import numpy as np
+
+MOST_AXES = 8
+MOST_ARGUMENT = 2**31 - 1
+
+# The wire form: 52 bytes, little-endian, whatever machine reads it.
+RECORD = np.dtype(
+    [
+        ("sequence", "<u4"),  # counts up from 1 within a program
+        ("epoch", "<u4"),  # raised by stop, emergency stop and fault: older commands are discarded
+        ("opcode", "u1"),
+        ("flags", "u1"),
+        ("axes", "u1"),  # mask: bit i = axis i of the machine's file
+        ("spare", "u1"),
+        ("floor_ticks", "<i4"),  # slowest allowed interval between steps, 0 = none
+        ("tag", "<i4"),  # the hole's number in the job, from 1; 0 = none
+        ("args", "<i4", (MOST_AXES,)),  # by axis for moves, else as the command's form says
+    ]
+)
+
+
+class Op(IntEnum):
+    """Opcodes; 0 is no command."""
+
+    IDLE = 0
+    GOTO_DXDY = 1
+    GOTO_X_Y = 2
+    WIERTLO_DOL = 3
+    WIERTLO_GORA = 4
+    INICJALIZACJA = 5
+    BAZA = 6
+    RUCH = 7
+    RUCH_D = 8
+    LINIA = 9
+    LINIA_D = 10
+    PREDKOSC = 11
+    CZEKAJ = 12
+    WYJSCIE = 13
+    CZEKAJ_WE = 14
+    WRZECIONO = 15
+    NARZEDZIE = 16
+    FAZY_WYL = 17
+    KONIEC = 18
+
+
+class Flag(IntFlag):
+    """How a move's arguments are meant."""
+
+    NONE = 0
+    ABSOLUTE = 1  # from the working base; else from here
+    LINKED = 2  # all axes along one straight line
+
+
+class Form(IntEnum):
+    """What may stand behind a command's name in text."""
+
+    NOTHING = 0
+    XY = 1  # two integers, for the axes x and y
+    MOVES = 2  # axis=integer, one or more
+    AXES = 3  # axis names, none = the command's own choice
+    NUMBER = 4  # one integer
+    OUTPUT = 5  # output name, 0|1
+    INPUT = 6  # input name, 0|1, timeout in ticks
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """One command: name, opcode, form of its arguments, how to write them, flags, meaning, least number."""
+
+    name: str
+    op: Op
+    form: Form
+    usage: str
+    meaning: str
+    flags: Flag = Flag.NONE
+    least: int = 0
+
+
+_BASE = Flag.ABSOLUTE
+_ALL = (
+    Spec("KMD_GOTOdXdY", Op.GOTO_DXDY, Form.XY, "dX dY", "move X and Y by so many steps from here"),
+    Spec("KMD_GOTO_X_Y", Op.GOTO_X_Y, Form.XY, "X Y", "move X and Y to a place from the working base", _BASE),
+    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, Form.AXES, "[axis ...]", "lower the head to its lower sensor"),
+    Spec("KMD_WIERTLO_GORA", Op.WIERTLO_GORA, Form.AXES, "[axis ...]", "raise the head to its upper sensor"),
+    Spec(
+        "KMD_INICJALIZACJA", Op.INICJALIZACJA, Form.NOTHING, "",
+        "head up, then to X=0, Y=0 as the limit sensors set it; the position is known from here on",
+    ),
+    Spec("KMD_BAZA", Op.BAZA, Form.AXES, "[axis ...]", "take this place as working base, in X and Y or the axes named"),
+    Spec("KMD_RUCH", Op.RUCH, Form.MOVES, "axis=steps ...", "move the named axes to a place from the working base", _BASE),
+    Spec("KMD_RUCHd", Op.RUCH_D, Form.MOVES, "axis=steps ...", "move the named axes by so many steps from here"),
+    Spec(
+        "KMD_LINIA", Op.LINIA, Form.MOVES, "axis=steps ...", "as KMD_RUCH, along one straight line", _BASE | Flag.LINKED
+    ),
+    Spec("KMD_LINIAd", Op.LINIA_D, Form.MOVES, "axis=steps ...", "as KMD_RUCHd, along one straight line", Flag.LINKED),
+    Spec("KMD_PREDKOSC", Op.PREDKOSC, Form.NUMBER, "ticks", "moves that follow step no faster than every so many ticks; 0: full speed"),
+    Spec("KMD_CZEKAJ", Op.CZEKAJ, Form.NUMBER, "ticks", "wait"),
+    Spec("KMD_WYJSCIE", Op.WYJSCIE, Form.OUTPUT, "output 0|1", "switch an output of the machine"),
+    Spec("KMD_CZEKAJ_WE", Op.CZEKAJ_WE, Form.INPUT, "input 0|1 timeout", "wait until a sensor is reached (1) or clear (0), at most so many ticks"),
+    Spec("KMD_WRZECIONO", Op.WRZECIONO, Form.NUMBER, "rpm", "spindle on at a speed, 0: off"),
+    Spec("KMD_NARZEDZIE", Op.NARZEDZIE, Form.NUMBER, "tool", "the tool of this number is wanted"),
+    Spec("KMD_FAZY_WYL", Op.FAZY_WYL, Form.AXES, "[axis ...]", "release the phases of all or the named axes: the position is lost"),
+    Spec("KMD_KONIEC", Op.KONIEC, Form.NOTHING, "", "the end of the queue"),
+)  # fmt: skip
+
+COMMANDS: Mapping[str, Spec] = {spec.name: spec for spec in _ALL}
+BY_OP: Mapping[Op, Spec] = {spec.op: spec for spec in _ALL}
+
+
+@dataclass(frozen=True)
+class Names:
+    """The names that a machine gives to what commands address, by axis index and by bit."""
+
+    axes: tuple[str, ...]
+    outputs: Mapping[str, int] = field(default_factory=dict)
+    inputs: Mapping[str, int] = field(default_factory=dict)
+
+
+class Command:
+    """One record unpacked, allocated once: execution's current command is overwritten in place."""
+
+    __slots__ = ("args", "axes", "epoch", "flags", "floor_ticks", "opcode", "sequence", "tag")
+
+    def __init__(self) -> None:
+        self.sequence = self.epoch = self.opcode = self.flags = self.axes = self.floor_ticks = self.tag = 0
+        self.args = [0] * MOST_AXES
+
+    def load(self, record: np.void) -> None:
+        """Overwrites this command with a record of dtype RECORD."""
+        row = record.item()
+        self.sequence, self.epoch, self.opcode, self.flags, self.axes, _, self.floor_ticks, self.tag = row[:8]
+        self.args[:] = row[8].tolist() if hasattr(row[8], "tolist") else row[8]

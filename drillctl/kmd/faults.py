@@ -1,0 +1,65 @@
+"""Fault codes: what the machine does and whether its position still holds. Codes only; words live in panel.
+
+Rule: a code once given keeps its number. execution/guard raises them; docs/FAULTS.md is made from this table.
+Reactions are the reading of the paper's section 3: "in chosen emergency states" the head returns to X=0, Y=0.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class Reaction(IntEnum):
+    """What execution does when a fault is raised."""
+
+    STOP = 0  # brake down the ramp
+    DROP = 1  # the safe image in this tick
+    STOP_AND_RETURN = 2  # brake, head up, then home by the sensors, while the position is known; else stop
+    MACHINE = 3  # what the machine's file says an emergency stop does: drop or hold
+
+
+class Fault(IntEnum):
+    """Fault codes, 0 is none."""
+
+    NONE = 0
+    LIMIT = 1
+    RANGE = 2
+    SOFT_LIMIT = 3
+    HOMING_REQUIRED = 4
+    HOMING_NOT_FOUND = 5
+    DRILL_NOT_DOWN = 6
+    HEAD_NOT_UP = 7
+    DRILLING_TIME = 8
+    SENSOR_CONTRADICTION = 9
+    INPUT_TIMEOUT = 10
+    LINE_MISMATCH = 11
+    BAD_COMMAND = 12
+    EMERGENCY_STOP = 13
+
+
+@dataclass(frozen=True, slots=True)
+class FaultSpec:
+    """One fault: its reaction, and whether a position that was known is still known."""
+
+    fault: Fault
+    reaction: Reaction
+    position_kept: bool
+
+
+_ALL = (
+    FaultSpec(Fault.LIMIT, Reaction.STOP, False),
+    FaultSpec(Fault.RANGE, Reaction.STOP_AND_RETURN, False),
+    FaultSpec(Fault.SOFT_LIMIT, Reaction.STOP, True),
+    FaultSpec(Fault.HOMING_REQUIRED, Reaction.STOP, True),
+    FaultSpec(Fault.HOMING_NOT_FOUND, Reaction.STOP, False),
+    FaultSpec(Fault.DRILL_NOT_DOWN, Reaction.STOP_AND_RETURN, False),
+    FaultSpec(Fault.HEAD_NOT_UP, Reaction.STOP, False),
+    FaultSpec(Fault.DRILLING_TIME, Reaction.STOP_AND_RETURN, True),
+    FaultSpec(Fault.SENSOR_CONTRADICTION, Reaction.DROP, False),
+    FaultSpec(Fault.INPUT_TIMEOUT, Reaction.STOP, True),
+    FaultSpec(Fault.LINE_MISMATCH, Reaction.STOP, True),
+    FaultSpec(Fault.BAD_COMMAND, Reaction.STOP, True),
+    FaultSpec(Fault.EMERGENCY_STOP, Reaction.MACHINE, False),
+)
+
+FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

@@ -1,0 +1,48 @@
+"""The status record that comes up: small, fixed, whole. What a screen, a journal and a summary are made from.
+
+Rule: execution/report.py alone writes it; everybody above only reads. Integers; no file, no millimetre, no word.
+"""
+
+from enum import IntEnum
+
+import numpy as np
+
+from drillctl.kmd.commands import MOST_AXES
+
+
+class Condition(IntEnum):
+    """What the controller is about."""
+
+    READY = 0  # takes commands from the queue
+    HOLDING = 1  # braking or resting on hold; the command stays current
+    STOPPING = 2  # braking to end the job
+    RETURNING = 3  # after a fault: head up, then home
+    LATCHED = 4  # a fault or an emergency stop waits to be acknowledged
+
+
+STATUS = np.dtype(
+    [
+        ("tick", "<i8"),  # ticks run
+        ("starved", "<u4"),  # wakes without a command while a job ran: they are not ticks
+        ("epoch", "<u4"),
+        ("sequence", "<u4"),  # of the current command, 0 = none
+        ("done", "<u4"),  # sequence of the last command completed
+        ("hole_begun", "<i4"),  # tag of the last hole whose drilling began
+        ("holes_done", "<u4"),
+        ("tool", "<i4"),
+        ("opcode", "u1"),
+        ("condition", "u1"),
+        ("fault", "u1"),
+        ("fault_kept", "u1"),  # 1: the position was known and still is
+        ("position_known", "u1"),
+        ("job", "u1"),  # 1 from a program's first command to KMD_KONIEC
+        ("moving", "u1"),  # axes that count
+        ("queued", "<u2"),
+        ("position", "<i8", (MOST_AXES,)),
+        ("target", "<i8", (MOST_AXES,)),
+        ("steps", "<i8", (MOST_AXES,)),  # made so far, both directions added
+        ("state", "i1", (MOST_AXES,)),
+        ("column", "u1", (MOST_AXES,)),  # from 1
+        ("sensors", "<u8"),  # by input bit, 1 = reached
+    ]
+)

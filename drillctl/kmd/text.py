@@ -1,0 +1,227 @@
+"""The ``.kmd`` text form: UTF-8, one command a line, ``#`` to the end of the line. Both ways from one definition.
+
+Rule: a text is wrong as a whole or a program as a whole. Called by generation and by replay.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, RECORD, Flag, Form, Names, Op, Spec
+
+MOST_COMMANDS = 5_000_000
+LONGEST_LINE = 1000
+_WORD = re.compile(r"\S+")
+_INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
+
+
+class KmdError(Exception):
+    """The operator's queue is wrong. ``str()`` is ``FILE:LINE:COLUMN: reason``."""
+
+    def __init__(self, file: str, line: int, column: int, reason: str):
+        self.file, self.line, self.column, self.reason = file, line, column, reason
+        super().__init__(f"{file}:{line}:{column}: {reason}")
+
+
+@dataclass(frozen=True, slots=True)
+class _Word:
+    text: str
+    column: int
+
+
+class _LineError(Exception):
+    def __init__(self, word: _Word, reason: str):
+        self.word, self.reason = word, reason
+        super().__init__(reason)
+
+
+def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.void]:
+    """A program, dtype RECORD of shape (n,), numbered from 1. Raises KmdError; a missing KMD_KONIEC is added."""
+    rows: list[tuple[Op, int, int, int, list[int]]] = []
+    floor_ticks = 0
+    ended = False
+    for number, words in _lines(text, file):
+        try:
+            if ended:
+                raise _LineError(words[0], "nothing may follow KMD_KONIEC")
+            spec, axes, args = _parse_line(words, names)
+        except _LineError as error:
+            raise KmdError(file, number, error.word.column, error.reason) from None
+        if spec.op is Op.PREDKOSC:
+            floor_ticks = args[0]
+        moves = spec.form in (Form.XY, Form.MOVES) or spec.op in (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
+        rows.append((spec.op, int(spec.flags), axes, floor_ticks if moves else 0, args))
+        ended = spec.op is Op.KONIEC
+        if len(rows) > MOST_COMMANDS:
+            raise KmdError(file, number, 1, f"more than {MOST_COMMANDS} commands")
+    if not ended:
+        rows.append((Op.KONIEC, 0, 0, 0, []))
+    return _program(rows)
+
+
+def to_text(record: np.void, names: Names) -> str:
+    """One record as a line of text, without its end; ``parse_program`` reads it back the same."""
+    spec = BY_OP[Op(int(record["opcode"]))]
+    return " ".join([spec.name, *_ARGUMENTS_OUT[spec.form](record, names)])
+
+
+def _lines(text: str, file: str) -> Iterator[tuple[int, list[_Word]]]:
+    for number, line in enumerate(text.removeprefix("\ufeff").split("\n"), start=1):
+        if len(line) > LONGEST_LINE:
+            raise KmdError(file, number, LONGEST_LINE, f"a line of more than {LONGEST_LINE} characters")
+        words = [_Word(found[0], found.start() + 1) for found in _WORD.finditer(line.partition("#")[0])]
+        if words:
+            yield number, words
+
+
+def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]:
+    name, rest = words[0], words[1:]
+    spec = COMMANDS.get(name.text)
+    if spec is None:
+        raise _LineError(name, f"unknown command {name.text[:40]!r}{_nearest(name.text)}")
+    axes, args = _ARGUMENTS_IN[spec.form](spec, name, rest, names)
+    return spec, axes, args
+
+
+def _nearest(name: str) -> str:
+    from difflib import get_close_matches
+
+    close = get_close_matches(name[:40].upper(), {known.upper(): known for known in COMMANDS}, n=1)
+    known = {known.upper(): known for known in COMMANDS}
+    return f"; did you mean {known[close[0]]}?" if close else ""
+
+
+def _count(spec: Spec, name: _Word, rest: list[_Word], wanted: int) -> None:
+    if len(rest) != wanted:
+        word = rest[wanted] if len(rest) > wanted else name
+        raise _LineError(word, f"{len(rest)} arguments; {spec.name} {spec.usage}".rstrip())
+
+
+def _integer(word: _Word, least: int = -MOST_ARGUMENT) -> int:
+    value = int(word.text) if _INTEGER.match(word.text) else None
+    if value is None or not least <= value <= MOST_ARGUMENT:
+        kind = "a whole number" if least < 0 else f"a whole number from {least}"
+        raise _LineError(word, f"{word.text[:40]!r} is not {kind}")
+    return value
+
+
+def _axis(word: _Word, name: str, names: Names) -> int:
+    if name not in names.axes:
+        raise _LineError(word, f"no axis is named {name[:40]!r}; there are {', '.join(names.axes)}")
+    return names.axes.index(name)
+
+
+def _known(word: _Word, table: Mapping[str, int], kind: str) -> int:
+    if word.text not in table:
+        there = f"there are {', '.join(table)}" if table else "this machine has none"
+        raise _LineError(word, f"no {kind} is named {word.text[:40]!r}; {there}")
+    return table[word.text]
+
+
+def _level(word: _Word) -> int:
+    if word.text not in ("0", "1"):
+        raise _LineError(word, f"{word.text[:40]!r} is not 0 or 1")
+    return int(word.text)
+
+
+def _nothing_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    _count(spec, name, rest, 0)
+    return 0, []
+
+
+def _xy_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    _count(spec, name, rest, 2)
+    indexes = [_axis(name, axis, names) for axis in ("x", "y")]
+    args = [0] * len(names.axes)
+    for index, word in zip(indexes, rest, strict=True):
+        args[index] = _integer(word)
+    return sum(1 << index for index in indexes), args
+
+
+def _moves_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    if not rest:
+        _count(spec, name, rest, 1)
+    args, axes = [0] * len(names.axes), 0
+    for word in rest:
+        axis, equals, value = word.text.partition("=")
+        if not equals:
+            raise _LineError(word, f"{word.text[:40]!r} is not axis=steps")
+        index = _axis(word, axis, names)
+        if axes >> index & 1:
+            raise _LineError(word, f"axis {axis} is named twice")
+        axes |= 1 << index
+        args[index] = _integer(_Word(value, word.column + len(axis) + 1))
+    return axes, args
+
+
+def _axes_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    return sum({1 << _axis(word, word.text, names) for word in rest}), []
+
+
+def _number_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    _count(spec, name, rest, 1)
+    return 0, [_integer(rest[0], spec.least)]
+
+
+def _output_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    _count(spec, name, rest, 2)
+    return 0, [_known(rest[0], names.outputs, "output"), _level(rest[1])]
+
+
+def _input_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
+    _count(spec, name, rest, 3)
+    return 0, [_known(rest[0], names.inputs, "input"), _level(rest[1]), _integer(rest[2], 1)]
+
+
+def _masked(record: np.void, names: Names) -> list[int]:
+    return [index for index in range(len(names.axes)) if int(record["axes"]) >> index & 1]
+
+
+def _moves_out(record: np.void, names: Names) -> list[str]:
+    return [f"{names.axes[index]}={record['args'][index]}" for index in _masked(record, names)]
+
+
+def _xy_out(record: np.void, names: Names) -> list[str]:
+    return [str(record["args"][names.axes.index(axis)]) for axis in ("x", "y")]
+
+
+def _switch_out(table: Mapping[str, int], record: np.void, count: int) -> list[str]:
+    by_bit = {bit: name for name, bit in table.items()}
+    return [by_bit[int(record["args"][0])], *(str(value) for value in record["args"][1:count])]
+
+
+_In = Callable[[Spec, _Word, list[_Word], Names], tuple[int, list[int]]]
+_ARGUMENTS_IN: Mapping[Form, _In] = {
+    Form.NOTHING: _nothing_in,
+    Form.XY: _xy_in,
+    Form.MOVES: _moves_in,
+    Form.AXES: _axes_in,
+    Form.NUMBER: _number_in,
+    Form.OUTPUT: _output_in,
+    Form.INPUT: _input_in,
+}
+_ARGUMENTS_OUT: Mapping[Form, Callable[[np.void, Names], list[str]]] = {
+    Form.NOTHING: lambda record, names: [],
+    Form.XY: _xy_out,
+    Form.MOVES: _moves_out,
+    Form.AXES: lambda record, names: [names.axes[index] for index in _masked(record, names)],
+    Form.NUMBER: lambda record, names: [str(record["args"][0])],
+    Form.OUTPUT: lambda record, names: _switch_out(names.outputs, record, 2),
+    Form.INPUT: lambda record, names: _switch_out(names.inputs, record, 3),
+}
+
+
+def _program(rows: list[tuple[Op, int, int, int, list[int]]]) -> NDArray[np.void]:
+    program = np.zeros(len(rows), dtype=RECORD)
+    for index, (op, flags, axes, floor_ticks, args) in enumerate(rows):
+        row = program[index]
+        row["sequence"], row["opcode"], row["flags"], row["axes"] = index + 1, op, flags, axes
+        row["floor_ticks"] = floor_ticks
+        row["args"][: len(args)] = args
+    return program
+
+
+__all__ = ["Flag", "KmdError", "parse_program", "to_text"]

@@ -1,0 +1,63 @@
+"""Valid tables that are dangerous: loaded with a warning, since trying that in simulation is what the lab is for.
+
+Rule: never raises; says which columns, counted from 1 as the paper does. Called by library.check and the editors.
+"""
+
+from collections.abc import Iterator
+
+from drillctl.machine.motor import Motor
+from drillctl.machine.phase import PhaseTable
+
+
+def phase_hazards(table: PhaseTable, motor: Motor) -> list[str]:
+    """One sentence for each hazard of a phase table on a motor; empty for a sound one or a pulse drive."""
+    if motor.pulse:
+        return []
+    patterns = [_on(table, column) for column in range(table.columns)]
+    return [
+        *_both_halves(motor, patterns),
+        *_forcing_alone(table, patterns),
+        *_bad_jumps(motor, patterns),
+        *_wrong_length(table, motor),
+    ]
+
+
+def _on(table: PhaseTable, column: int) -> frozenset[str]:
+    return frozenset(wire.name for wire in table.wires if wire.forward[column])
+
+
+def _both_halves(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[str]:
+    for number, on in enumerate(patterns, start=1):
+        angles = {angle % 360: name for name, angle in motor.windings if name in on}
+        for angle, name in angles.items():
+            other = angles.get(angle + 180)
+            if other is not None:
+                yield f"column {number}: {name} and {other} are both on: the halves of one winding cancel"
+
+
+def _forcing_alone(table: PhaseTable, patterns: list[frozenset[str]]) -> Iterator[str]:
+    """A forcing wire such as ``24a`` raises the windings of its phase: ``1a``, ``1b`` end or begin alike."""
+    forcing = {wire.name for wire in table.wires if wire.forcing}
+    for number, on in enumerate(patterns, start=1):
+        if (on & forcing) and not (on - forcing):
+            yield f"column {number}: forcing is on while no phase is"
+
+
+def _bad_jumps(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[str]:
+    angles = [motor.equilibrium_degrees(on) for on in patterns]
+    for index, angle in enumerate(angles):
+        number = index + 1
+        if angle is None:
+            yield f"column {number}: nothing pulls the rotor"
+            continue
+        following = angles[(index + 1) % len(angles)]
+        if following is not None and abs((following - angle + 180) % 360 - 180) == 180:
+            yield f"column {number}: half a cycle to the next column; the rotor may go either way"
+
+
+def _wrong_length(table: PhaseTable, motor: Motor) -> Iterator[str]:
+    if table.columns % motor.columns_per_cycle:
+        yield (
+            f"{table.columns} columns where the motor's cycle has {motor.columns_per_cycle}: "
+            "distances will not be what the scale says"
+        )

@@ -1,0 +1,147 @@
+"""A machine as every other room sees it: checked, complete, immutable; integers and tuples.
+
+Rule: no reading here and no checking; config.py builds these, and nobody else does.
+Positions, ranges and edges are steps from machine zero; ``columns`` are columns of the axis's phase table.
+"""
+
+import hashlib
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from drillctl.machine.motor import Motor
+from drillctl.machine.phase import PhaseTable
+from drillctl.machine.ramp import RampTable
+
+MM_PER_INCH = 25.4
+CARD_BITS = 32
+
+
+@dataclass(frozen=True, slots=True)
+class AxisTable:
+    """One axis: its tables, its scale, its work range (both ends included), where a simulation finds it."""
+
+    name: str
+    phase: PhaseTable
+    ramp: RampTable
+    motor: Motor
+    columns_per_step: int
+    columns_per_inch: int
+    low_steps: int
+    high_steps: int
+    start_steps: int
+    invert: bool
+    wire_bits: tuple[int, ...]
+
+    @property
+    def steps_per_mm(self) -> float:
+        """Steps of the automaton to a millimetre of travel."""
+        return self.columns_per_inch / self.columns_per_step / MM_PER_INCH
+
+    @property
+    def span_steps(self) -> int:
+        """The length of the work range."""
+        return self.high_steps - self.low_steps
+
+
+@dataclass(frozen=True, slots=True)
+class Sensor:
+    """A switch at one end of an axis: on at its edge, off again ``hysteresis_steps`` back."""
+
+    name: str
+    bit: int
+    active_level: int
+    axis: int
+    end: str  # "min" or "max"
+    edge_steps: int
+    hysteresis_steps: int
+
+
+@dataclass(frozen=True, slots=True)
+class HomingStep:
+    """One row of the homing table: what to do, with which axes (indexes), at which end, within how many steps."""
+
+    do: str  # "raise", "release", "seek", "creep", "zero"
+    axes: tuple[int, ...]
+    end: str
+    limit_steps: int
+
+
+@dataclass(frozen=True, slots=True)
+class Configuration:
+    """The paper's configuration screen (Fig. 4) beside scale, ranges and tick rate."""
+
+    card: str
+    card_address: int
+    mode: str  # "SIMULATED" or "REAL"
+    longest_drilling_s: float
+    tool_change: str  # "AUTOMATIC" or "MANUAL"
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """Everything a machine's file says, with its phase, ramp and motor tables in place of their names."""
+
+    name: str
+    description: str
+    tick_hz: int
+    emergency_stop: str  # "drop": outputs safe at once; "hold": pulses stop, the current stays
+    configuration: Configuration
+    axes: tuple[AxisTable, ...]
+    sensors: tuple[Sensor, ...]
+    outputs: tuple[tuple[str, int], ...]
+    homing: tuple[HomingStep, ...]
+    drill_axes: tuple[int, ...]
+    drill_down_steps: int | None  # None: down to the lower sensor
+    board_surface: tuple[int | None, ...]  # by axis: where a drilling axis meets the board
+    file: str
+    shipped: bool
+
+    @property
+    def axis_names(self) -> tuple[str, ...]:
+        """The axes' names in the order of the file: the order of bits in a command's axis mask."""
+        return tuple(axis.name for axis in self.axes)
+
+    @property
+    def cards(self) -> int:
+        """How many cards of 32 outputs and 32 inputs the wiring needs."""
+        bits = [bit for axis in self.axes for bit in axis.wire_bits]
+        bits += [bit for _, bit in self.outputs] + [sensor.bit for sensor in self.sensors]
+        return max(bits) // CARD_BITS + 1
+
+    def axis_index(self, name: str) -> int | None:
+        """The index of an axis by name, or None."""
+        return self.axis_names.index(name) if name in self.axis_names else None
+
+    def sensor_at(self, axis: int, end: str) -> Sensor | None:
+        """The sensor at an end of an axis, or None where that end has none."""
+        return next((s for s in self.sensors if s.axis == axis and s.end == end), None)
+
+    def reach(self, axis: int) -> tuple[int, int]:
+        """The steps an axis can be sent to: its range, short of where its limit sensors answer."""
+        table = self.axes[axis]
+        low, high = self.sensor_at(axis, "min"), self.sensor_at(axis, "max")
+        lowest = table.low_steps if low is None else max(table.low_steps, low.edge_steps + low.hysteresis_steps)
+        highest = table.high_steps if high is None else min(table.high_steps, high.edge_steps - 1)
+        return lowest, highest
+
+    @property
+    def longest_drilling_ticks(self) -> int:
+        """The configured drilling time in ticks."""
+        return round(self.configuration.longest_drilling_s * self.tick_hz)
+
+    def at_rate(self, tick_hz: int) -> "Machine":
+        """The same machine at another interrupt frequency."""
+        return replace(self, tick_hz=tick_hz)
+
+    def reference_from(self, folder: Path) -> str:
+        """What a trace in ``folder`` calls this machine: a shipped one by name, another by its file's path from there."""
+        if self.shipped:
+            return self.name
+        return Path(os.path.relpath(Path(self.file).resolve(), folder.resolve())).as_posix()
+
+    @property
+    def digest(self) -> str:
+        """16 hex digits over all that decides a run, the tick rate and the files' places left out."""
+        told = replace(self, file="", shipped=False, description="", tick_hz=0)
+        return hashlib.sha256(repr(told).encode()).hexdigest()[:16]

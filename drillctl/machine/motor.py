@@ -1,0 +1,85 @@
+"""Motors as the plant and the warnings know them: where each winding pulls the rotor, or what a pulse does.
+
+Rule: angles are whole electrical degrees; a rotor's place is counted in columns, ``columns_per_cycle`` to an
+electrical cycle. Read by config.py; used by hazards.py and by plant/rotor.
+"""
+
+from dataclasses import dataclass
+from math import atan2, cos, degrees, hypot, radians, sin
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from drillctl.machine.phase import Name
+from drillctl.machine.source import Source
+
+WEAKEST_PULL = 1e-6  # of one winding's: below it the windings cancel and the rotor is free
+Degrees = Annotated[int, msgspec.Meta(ge=-360, le=360)]
+Count = Annotated[int, msgspec.Meta(ge=1, le=400)]
+
+
+class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    name: Name
+    windings: dict[str, Degrees] = {}
+    columns_per_cycle: Count | None = None
+    rests_per_cycle: Count | None = None
+    zero_degrees: Degrees = 0
+    pulse: str | None = None
+    direction: str | None = None
+    columns_per_pulse: Count | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Motor:
+    """A stepper's windings, or (with ``pulse``) a drive that counts rising edges for itself.
+
+    windings           (wire name, electrical degrees) pairs
+    columns_per_cycle  the unit of the rotor's place: columns of the nominal table to a cycle, or to a pulse
+    rests_per_cycle    places of a cycle in which the rotor can rest
+    zero_degrees       the electrical angle at which the count is 0
+    """
+
+    name: str
+    windings: tuple[tuple[str, int], ...]
+    columns_per_cycle: int
+    rests_per_cycle: int
+    zero_degrees: int
+    pulse: str | None = None
+    direction: str | None = None
+
+    def wire_names(self) -> frozenset[str]:
+        """The wires that this motor must find in its phase table; forcing wires are extra."""
+        if self.pulse and self.direction:
+            return frozenset((self.pulse, self.direction))
+        return frozenset(name for name, _ in self.windings)
+
+    def equilibrium_degrees(self, on: frozenset[str]) -> int | None:
+        """Where the windings that are on pull the rotor, -180 < angle <= 180; None where they cancel."""
+        pulls = [radians(angle) for name, angle in self.windings if name in on]
+        x, y = sum(map(cos, pulls)), sum(map(sin, pulls))
+        if hypot(x, y) < WEAKEST_PULL:
+            return None
+        angle = round(degrees(atan2(y, x)))
+        return 180 if angle == -180 else angle
+
+
+def read_motor(file: Path) -> Motor:
+    """Reads and checks a motor file. Raises TableError."""
+    source = Source.read(file)
+    raw = source.records(_File)
+    if raw.pulse and raw.direction and raw.columns_per_pulse and not raw.windings:
+        return Motor(raw.name, (), raw.columns_per_pulse, 1, 0, raw.pulse, raw.direction)
+    if len(raw.windings) < 2 or not raw.columns_per_cycle or not raw.rests_per_cycle or raw.pulse:
+        reason = (
+            "a motor has either [windings] with columns_per_cycle and rests_per_cycle, "
+            "or pulse, direction and columns_per_pulse"
+        )
+        raise source.error(reason, "name")
+    return Motor(
+        raw.name,
+        tuple(raw.windings.items()),
+        raw.columns_per_cycle,
+        raw.rests_per_cycle,
+        raw.zero_degrees,
+    )

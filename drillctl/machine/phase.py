@@ -1,0 +1,122 @@
+"""Phase tables: which wire is on in which column. Drawn in rows of ``x`` and ``.``, as the paper draws them.
+
+Rule: a table is data; a wire above the table's normal voltage is a forcing wire, and is not held at rest.
+Read by config.py for a machine's axes, by hazards.py for warnings, by execution/axis for its columns.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from drillctl.machine.source import Source
+
+LONGEST_TABLE = 96
+Volts = Annotated[float, msgspec.Meta(gt=0, le=60)]
+Name = Annotated[str, msgspec.Meta(min_length=1, max_length=40, pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")]
+
+
+class _Row(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    name: Name
+    volts: Volts
+    pattern: str
+
+
+class _ReverseRow(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    name: Name
+    pattern: str
+
+
+class _Direction(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    name: Name
+    volts: Volts
+    forward: str = "x"
+
+
+class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    name: Name
+    wire: Annotated[list[_Row], msgspec.Meta(min_length=1, max_length=16)]
+    description: str = ""
+    direction: _Direction | None = None
+    reverse: list[_ReverseRow] = []
+
+
+@dataclass(frozen=True, slots=True)
+class Wire:
+    """One row: ``forward[i]`` and ``backward[i]`` say whether it is on in column i (from 0), by direction of motion."""
+
+    name: str
+    forcing: bool
+    forward: tuple[bool, ...]
+    backward: tuple[bool, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class PhaseTable:
+    """A checked phase table: rows of equal length, ``columns`` long (paper, Table 1: 12)."""
+
+    name: str
+    wires: tuple[Wire, ...]
+    columns: int
+
+    def wire_names(self) -> tuple[str, ...]:
+        """The wires' names in the order of the table's rows: the order of bits in a pattern."""
+        return tuple(wire.name for wire in self.wires)
+
+
+def read_phase(file: Path) -> PhaseTable:
+    """Reads and checks a phase table. Raises TableError naming the file, the row and the reason."""
+    source = Source.read(file)
+    return parse_phase(source)
+
+
+def parse_phase(source: Source) -> PhaseTable:
+    """As ``read_phase``, for text that is already at hand (an editor's)."""
+    raw = source.records(_File)
+    columns = len(raw.wire[0].pattern)
+    if not 2 <= columns <= LONGEST_TABLE:
+        reason = f"wire {raw.wire[0].name}: {columns} columns; a table has 2 to {LONGEST_TABLE}"
+        raise source.error(reason, "wire", 0, "pattern")
+    backward = _reverse_rows(source, raw, columns)
+    normal_volts = min(row.volts for row in raw.wire)
+    wires = []
+    for index, row in enumerate(raw.wire):
+        if row.name in {wire.name for wire in wires}:
+            raise source.error(f"wire {row.name}: a second row of this name", "wire", index, "name")
+        forward = _bits(source, row.name, row.pattern, columns, "wire", index)
+        wires.append(Wire(row.name, row.volts > normal_volts, forward, backward.get(row.name, forward)))
+    if raw.direction is not None:
+        wires.append(_direction_wire(source, raw.direction, columns))
+    return PhaseTable(raw.name, tuple(wires), columns)
+
+
+def _reverse_rows(source: Source, raw: _File, columns: int) -> dict[str, tuple[bool, ...]]:
+    names = {row.name for row in raw.wire}
+    rows: dict[str, tuple[bool, ...]] = {}
+    for index, row in enumerate(raw.reverse):
+        if row.name not in names or row.name in rows:
+            reason = f"reverse {row.name}: one row for each wire of the table, and no others"
+            raise source.error(reason, "reverse", index, "name")
+        rows[row.name] = _bits(source, row.name, row.pattern, columns, "reverse", index)
+    if rows and rows.keys() != names:
+        missing = ", ".join(sorted(names - rows.keys()))
+        raise source.error(f"reverse: no row for {missing}", "reverse", 0)
+    return rows
+
+
+def _bits(source: Source, name: str, pattern: str, columns: int, key: str, index: int) -> tuple[bool, ...]:
+    if strange := pattern.strip("x."):
+        reason = f"{key} {name}: {strange[0]!r} in the pattern; only 'x' (on) and '.' (off)"
+        raise source.error(reason, key, index, "pattern")
+    if len(pattern) != columns:
+        reason = f"{key} {name}: {len(pattern)} columns, the first row has {columns}"
+        raise source.error(reason, key, index, "pattern")
+    return tuple(mark == "x" for mark in pattern)
+
+
+def _direction_wire(source: Source, row: _Direction, columns: int) -> Wire:
+    if row.forward not in ("x", "."):
+        raise source.error(f"direction {row.name}: forward is 'x' or '.'", "direction", "forward")
+    level = row.forward == "x"
+    return Wire(row.name, False, (level,) * columns, (not level,) * columns)

@@ -1,0 +1,141 @@
+"""Ramp tables: the acceleration automaton of 2n+1 states (paper, Table 2 and Fig. 5), as data and one rule.
+
+``RampTable.after_step`` is the whole automaton: execution/axis steps by it, ``walk`` and travel.py foresee by it.
+The rows are kept so that ``interval[state]`` works for a signed state: row -1 is Python's last, and so on.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from drillctl.machine.phase import Name
+from drillctl.machine.source import Source
+
+MOST_STATES = 64
+LONGEST_INTERVAL = 100_000
+Interval = Annotated[int, msgspec.Meta(ge=1, le=LONGEST_INTERVAL)]
+Distance = Annotated[int, msgspec.Meta(ge=-1_000_000, le=1_000_000)]
+
+
+class _Row(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    state: Annotated[int, msgspec.Meta(ge=-MOST_STATES, le=MOST_STATES)]
+    accelerate: Distance
+    brake: Distance
+    interval: Interval
+
+
+class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    name: Name
+    state: Annotated[list[_Row], msgspec.Meta(min_length=3, max_length=2 * MOST_STATES + 1)]
+    description: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class RampTable:
+    """A checked automaton. Each tuple has 2n+1 entries, indexed by the signed state from -n to n.
+
+    interval    a new step is put out in every interval-th interrupt
+    accelerate  steps to go (unsigned) above which the state rises
+    brake       steps to go (unsigned) below which the state falls
+    """
+
+    name: str
+    top: int
+    interval: tuple[int, ...]
+    accelerate: tuple[int, ...]
+    brake: tuple[int, ...]
+
+    def after_step(self, state: int, direction: int, to_go: int, may_rise: bool) -> int:
+        """The state after a step in ``direction`` (+1, -1) that leaves ``to_go`` steps (negative: passed).
+
+        A target passed, or met too fast, is braked through: ``to_go`` is then below every brake distance.
+        """
+        if to_go == 0 and -1 <= state <= 1:
+            return 0
+        if to_go < self.brake[state]:
+            return state - direction if state else 0
+        if may_rise and to_go > self.accelerate[state] and state * direction < self.top:
+            return state + direction
+        return state
+
+    def walk(self, steps: int, floor_ticks: int = 0) -> Iterator[tuple[int, int]]:
+        """A move of ``steps`` (signed) from rest: for each step (interval waited, state in which it is made).
+
+        After braking there is no accelerating until state 0; under a floor the state rises no further
+        once its own interval is not above the floor.
+        """
+        direction = 1 if steps >= 0 else -1
+        state, braked = 0, False
+        for to_go in range(abs(steps) - 1, -1, -1):
+            yield max(self.interval[state], floor_ticks), state
+            may_rise = not braked and self.interval[state] > floor_ticks
+            after = self.after_step(state, direction, to_go, may_rise)
+            braked = after != 0 and (braked or abs(after) < abs(state))
+            state = after
+
+    def straight_from(self) -> int:
+        """From this distance on, one step more is one cruising interval more: head and tail don't touch."""
+        return 2 * self.top + max(self.accelerate) + max(self.brake) + 1
+
+    def first_inexact(self) -> tuple[int, int] | None:
+        """The first move that meets its target too fast to stop there: (state, signed distance), or None.
+
+        Tried: every distance up to where moves only grow by cruising steps, both ways, and under every floor
+        that caps the automaton at a lower state, so that feeds and creeping land exactly too.
+        """
+        for floor_ticks in (0, *sorted(set(self.interval))):
+            for distance in range(1, self.straight_from() + 2):
+                for steps in (distance, -distance):
+                    *_, (_, state) = self.walk(steps, floor_ticks)
+                    if abs(state) > 1:
+                        return state, steps
+        return None
+
+
+def read_ramp(file: Path) -> RampTable:
+    """Reads and checks a ramp table. Raises TableError naming the file, the state and the reason."""
+    return parse_ramp(Source.read(file))
+
+
+def parse_ramp(source: Source) -> RampTable:
+    """As ``read_ramp``, for text that is already at hand. Every distance must be landed on exactly."""
+    raw = source.records(_File)
+    rows = {row.state: index for index, row in enumerate(raw.state)}
+    top = max(rows)
+    if sorted(rows) != list(range(-top, top + 1)) or len(rows) != len(raw.state):
+        raise source.error(f"states must be -{top} to {top}, each once", "state", 0)
+    for index, row in enumerate(raw.state):
+        _check_row(source, index, row)
+    order = [raw.state[rows[state]] for state in (*range(top + 1), *range(-top, 0))]
+    ramp = RampTable(
+        raw.name,
+        top,
+        tuple(row.interval for row in order),
+        tuple(abs(row.accelerate) for row in order),
+        tuple(abs(row.brake) for row in order),
+    )
+    _check_order(source, raw, rows)
+    if (inexact := ramp.first_inexact()) is not None:
+        state, steps = inexact
+        reason = f"state {state}: a move of {steps} steps is not landed on exactly; brake earlier"
+        raise source.error(reason, "state", rows[state], "brake")
+    return ramp
+
+
+def _check_row(source: Source, index: int, row: _Row) -> None:
+    for key, distance in (("accelerate", row.accelerate), ("brake", row.brake)):
+        if distance * row.state < 0 or (row.state == 0) != (distance == 0):
+            reason = f"state {row.state}: {key} distance {distance} must have the state's sign (0 for state 0)"
+            raise source.error(reason, "state", index, key)
+
+
+def _check_order(source: Source, raw: _File, rows: dict[int, int]) -> None:
+    for state, index in rows.items():
+        below = state - (state > 0) + (state < 0)
+        if state and abs(raw.state[index].brake) < abs(raw.state[rows[below]].brake):
+            distance = raw.state[index].brake
+            reason = f"state {state}: brake distance {distance} is below state {below}'s"
+            raise source.error(reason, "state", index, "brake")

@@ -1,0 +1,79 @@
+"""Wiring: files that a run will write. Reserved before anything moves, complete or absent afterwards.
+
+Rule: a result goes to a temporary file beside its place and is renamed when whole; a path that can't be written
+refuses the run. Called by the verbs.
+"""
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+
+class OutputError(Exception):
+    """A file that can't be written. ``str()`` is ``FILE: reason``."""
+
+
+class Output:
+    """One reserved file; ``write`` fills it and puts it in place."""
+
+    def __init__(self, path: Path):
+        self.path = path
+        self._temporary: Path | None = None
+        try:
+            if path.exists() and not path.is_file():
+                path.open("a").close()  # a device or a pipe: written as it is; a folder raises
+                return
+            handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+            os.close(handle)
+            self._temporary = Path(name)
+        except OSError as error:
+            raise OutputError(f"{path}: can't be written: {error.strerror}") from error
+
+    def write(self, fill: Callable[[TextIO], None]) -> None:
+        """Calls ``fill`` with an open text file (LF ends). Raises OutputError; the old file then still stands."""
+        target = self._temporary or self.path
+        try:
+            with target.open("w", encoding="utf-8", newline="\n") as file:
+                fill(file)
+                file.flush()
+            if self._temporary:
+                self._temporary.chmod(0o666 & ~_umask())
+                self._temporary.replace(self.path)
+                self._temporary = None
+        except OSError as error:
+            raise OutputError(f"{self.path}: can't be written: {error.strerror}") from error
+
+    def drop(self) -> None:
+        """Takes the reservation back; nothing stays behind."""
+        if self._temporary:
+            self._temporary.unlink(missing_ok=True)
+            self._temporary = None
+
+
+@contextmanager
+def reserved(paths: Sequence[Path | None], inputs: Sequence[Path]) -> Iterator[list[Output | None]]:
+    """Outputs for the paths given (None stays None). Raises OutputError, also where a path would hit an input."""
+    wanted = [path for path in paths if path is not None]
+    taken = {path.resolve() for path in inputs}
+    for path in wanted:
+        if path.resolve() in taken:
+            raise OutputError(f"{path}: would overwrite a file that this run reads or writes")
+        taken.add(path.resolve())
+    outputs: list[Output | None] = []
+    try:
+        for path in paths:
+            outputs.append(Output(path) if path is not None else None)
+        yield outputs
+    finally:
+        for output in outputs:
+            if output is not None:
+                output.drop()
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,73 @@
+"""What comes up to a person: how far a job is, and how it ended. Plain records; ``as_dict`` is the JSON form."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """A job on its way. ``seconds_left`` is machine time, None while nobody can tell."""
+
+    holes_done: int
+    holes_total: int
+    tool: int
+    ticks: int
+    machine_seconds: float
+    seconds_left: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class FaultReport:
+    """A fault in words: what it is called, why, what to do, and whether the position was kept or lost."""
+
+    code: int
+    name: str
+    cause: str
+    remedy: str
+    position: str  # "kept" or "lost"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How a job ended (docs/SPEC.md, section 4). By axis: steps made, position, lost steps (None on a real port)."""
+
+    machine: str
+    holes_done: int
+    holes_total: int
+    ticks: int
+    tick_hz: int
+    steps: Mapping[str, int]
+    position: Mapping[str, int]
+    position_known: bool
+    lost_steps: Mapping[str, int] | None
+    starved: int
+    fault: FaultReport | None
+    late_count: int = 0
+    late_greatest_ms: float = 0.0
+    interrupted: bool = False
+
+    @property
+    def machine_seconds(self) -> float:
+        """Machine time of the ticks run."""
+        return self.ticks / self.tick_hz
+
+    def as_dict(self) -> dict[str, Any]:
+        """The object that ``--json`` prints."""
+        fault = self.fault
+        return {
+            "machine": self.machine,
+            "holes_done": self.holes_done,
+            "holes_total": self.holes_total,
+            "ticks": self.ticks,
+            "tick_hz": self.tick_hz,
+            "machine_seconds": self.machine_seconds,
+            "steps": dict(self.steps),
+            "position": dict(self.position),
+            "position_known": self.position_known,
+            "lost_steps": None if self.lost_steps is None else dict(self.lost_steps),
+            "late": {"count": self.late_count, "greatest_ms": self.late_greatest_ms},
+            "starved": self.starved,
+            "interrupted": self.interrupted,
+            "fault": fault and {name: getattr(fault, name) for name in FaultReport.__slots__},
+        }

@@ -1,0 +1,80 @@
+"""Cause and remedy of every fault. Looked up by code; docs/FAULTS.md is made from this and kmd/faults.
+
+Rule: a fault without a cause and a remedy does not exist (a test holds that).
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from drillctl.kmd import Fault
+from drillctl.panel.records import FaultReport
+
+
+class FaultWords(NamedTuple):
+    """Why it happened, and what the operator does."""
+
+    cause: str
+    remedy: str
+
+
+FAULT_WORDS: Mapping[Fault, FaultWords] = {
+    Fault.LIMIT: FaultWords(
+        "a limit sensor answered while its axis was moving towards it, outside initialisation",
+        "look for lost steps or a board laid too far out, then initialise again",
+    ),
+    Fault.RANGE: FaultWords(
+        "the tracked position left the configured work range",
+        "check the work range, the scale and the limit sensors in the machine's file, then initialise again",
+    ),
+    Fault.SOFT_LIMIT: FaultWords(
+        "a command's target lies outside the configured work range; nothing was moved",
+        "correct the command or the working base; the position is as it was",
+    ),
+    Fault.HOMING_REQUIRED: FaultWords(
+        "an absolute move was asked for before the position was known; nothing was moved",
+        "initialise first (KMD_INICJALIZACJA)",
+    ),
+    Fault.HOMING_NOT_FOUND: FaultWords(
+        "initialisation did not find a limit sensor, or did not come clear of it",
+        "check the sensor, its wiring and its polarity, and that the carriage moves freely",
+    ),
+    Fault.DRILL_NOT_DOWN: FaultWords(
+        "the head passed its whole range without its lower sensor answering (Zmax passed)",
+        "look for a blunt drill, a jammed head or a dirty lower sensor",
+    ),
+    Fault.HEAD_NOT_UP: FaultWords(
+        "the head did not reach its upper sensor",
+        "free the head, check the upper sensor, then initialise again",
+    ),
+    Fault.DRILLING_TIME: FaultWords(
+        "lowering the head took longer than the configured drilling time",
+        "change a blunt drill, or raise longest_drilling_s in the machine's file",
+    ),
+    Fault.SENSOR_CONTRADICTION: FaultWords(
+        "the sensors at both ends of one axis answered at once",
+        "check sensors and cable: one of them is stuck, dirty or shorted",
+    ),
+    Fault.INPUT_TIMEOUT: FaultWords(
+        "an awaited input did not come in its time",
+        "check what should have switched it, or give KMD_CZEKAJ_WE more ticks",
+    ),
+    Fault.LINE_MISMATCH: FaultWords(
+        "axes with different columns_per_step can't be linked in one line; nothing was moved",
+        "move them one after the other, or give them the same columns_per_step",
+    ),
+    Fault.BAD_COMMAND: FaultWords(
+        "a command that this machine can't carry out came down the queue",
+        "check the queue against docs/KMD.md and the machine's outputs",
+    ),
+    Fault.EMERGENCY_STOP: FaultWords(
+        "emergency stop; where the outputs were dropped, a raised head may sink",
+        "clear the danger, acknowledge, and initialise where the position was lost",
+    ),
+}
+
+
+def fault_report(code: int, kept: bool) -> FaultReport:
+    """A fault code in words, with the position kept or lost."""
+    fault = Fault(code)
+    words = FAULT_WORDS[fault]
+    return FaultReport(code, fault.name, words.cause, words.remedy, "kept" if kept else "lost")

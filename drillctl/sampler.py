@@ -1,0 +1,99 @@
+"""Wiring: what of a run is recorded. Looks at the controller after each tick and writes changes into a trace.
+
+Rule: tick() knows no trace; this module alone knows which number becomes which signal (docs/SPEC.md, section 3).
+Called by ticker after each tick, and by replay.
+"""
+
+from drillctl.execution import Controller
+from drillctl.kmd import Fault, Op, Request
+from drillctl.kmd.commands import BY_OP
+from drillctl.machine import Machine
+from drillctl.plant import IdealPlant
+from drillctl.ports import CARD_BITS, word
+from drillctl.trace import Recorder, Signal, VcdVar, pack_command
+
+_REQUESTS = [request.name for request in Request if request]
+REQUEST_WORDS = tuple(
+    "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
+    for mask in range(1 << len(_REQUESTS))
+)
+_FAULT_WORDS = tuple(Fault(code).name if code else "-" for code in range(len(Fault)))
+_COMMAND_WORDS = tuple(BY_OP[Op(op)].name if op else "-" for op in range(len(Op)))
+
+
+class Sampler:
+    """Fills a Recorder from one controller; with ``derived`` also columns, positions, states and rotors."""
+
+    def __init__(self, controller: Controller, plant: IdealPlant | None, derived: bool):
+        self._m = controller
+        self._cards = range(controller.machine.cards)
+        self._plant = plant
+        self._derived = derived
+        self.recorder = Recorder(signals(controller.machine, plant is not None, derived))
+
+    def sample(self) -> None:
+        """After a tick: its index is one below the controller's count."""
+        m, put = self._m, self.recorder.set
+        tick = m.tick - 1
+        index = 0
+        for card in self._cards:
+            put(index, tick, word(m.inputs, card))
+            put(index + 1, tick, word(m.image, card))
+            index += 2
+        put(index, tick, pack_command(m.running, m.command.opcode) if m.running else 0)
+        put(index + 1, tick, m.served >> 1)
+        put(index + 3, tick, m.fault)
+        if self._derived:
+            self._sample_axes(index + 4, tick)
+
+    def _sample_axes(self, index: int, tick: int) -> None:
+        put = self.recorder.set
+        for number, axis in enumerate(self._m.axes):
+            put(index, tick, axis.column + 1)
+            put(index + 1, tick, axis.position)
+            put(index + 2, tick, axis.state)
+            index += 3
+            if self._plant is not None:
+                put(index, tick, round(self._plant.position_steps(number)))
+                index += 1
+
+
+def signals(machine: Machine, with_plant: bool, derived: bool) -> list[Signal]:
+    """The signals of a machine's traces, in the order in which Sampler counts them."""
+    found = []
+    for card in range(machine.cards):
+        found += [Signal(f"in.{card}", "word", True), Signal(f"out.{card}", "word", False)]
+    found += [
+        Signal("kmd", "command", False, names=_COMMAND_WORDS),
+        Signal("request", "name", True, names=REQUEST_WORDS),
+        Signal("late", "count", True),
+        Signal("fault", "name", False, names=_FAULT_WORDS),
+    ]
+    if derived:
+        for name in machine.axis_names:
+            found += [Signal(f"{name}.{field}", "count", False, True) for field in ("column", "position", "state")]
+            if with_plant:
+                found.append(Signal(f"plant.{name}", "count", False, True))
+    return found
+
+
+def vcd_layout(machine: Machine, with_plant: bool) -> list[VcdVar]:
+    """Scopes of the VCD form: an axis's wires as its phase table names them, then sensors, kmd and plant."""
+    layout = []
+    for axis in machine.axes:
+        for wire, bit in zip(axis.phase.wire_names(), axis.wire_bits, strict=True):
+            layout.append(VcdVar(axis.name, wire, "wire", f"out.{bit // CARD_BITS}", bit=bit % CARD_BITS))
+        for field in ("column", "position", "state"):
+            layout.append(VcdVar(axis.name, field, "integer", f"{axis.name}.{field}"))
+    for sensor in machine.sensors:
+        card, bit = divmod(sensor.bit, CARD_BITS)
+        inverted = sensor.active_level == 0
+        layout.append(VcdVar("sensors", sensor.name, "wire", f"in.{card}", bit=bit, invert=inverted))
+    layout += [
+        VcdVar("kmd", "seq", "integer", "kmd", part="seq"),
+        VcdVar("kmd", "opcode", "integer", "kmd", part="opcode"),
+        VcdVar("kmd", "running", "string", "kmd", part="running"),
+    ]
+    if with_plant:
+        layout += [VcdVar("plant", name, "integer", f"plant.{name}") for name in machine.axis_names]
+    return layout

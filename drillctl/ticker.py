@@ -1,0 +1,82 @@
+"""Wiring of layers 3 and 4: runs the ticks of one machine on one port, and watches what the plant sees.
+
+Rule: no decision about motion is taken here; between ticks it samples, counts holes and writes the status record.
+Created by desk for a job and by the tests.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from drillctl.execution import Controller, report, tick
+from drillctl.kmd import STATUS, Condition, Queue, Requests
+from drillctl.machine import Machine
+from drillctl.plant import IdealPlant
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.ports import Driver
+from drillctl.sampler import Sampler
+
+
+@dataclass
+class Ticker:
+    """One machine on one port. ``touched`` grows by a hole each time the plant's bit meets the board:
+    (tool, tag of the hole begun, place in steps from machine zero by axis, lost steps taken off)."""
+
+    machine: Machine
+    port: Driver
+    plant: IdealPlant | None = None
+    traced: bool = False
+    derived: bool = False
+    queue: Queue = field(default_factory=Queue)
+    requests: Requests = field(default_factory=Requests)
+
+    def __post_init__(self) -> None:
+        self.controller = Controller(self.machine, self.queue, self.requests, self.port)
+        self.status = np.zeros((), dtype=STATUS)[()]
+        self.touched: list[tuple[int, int, tuple[float, ...]]] = []
+        self.sampler = Sampler(self.controller, self.plant, self.derived) if self.traced else None
+
+    @classmethod
+    def simulated(cls, machine: Machine, traced: bool = False, derived: bool = False) -> "Ticker":
+        """The machine on the simulated card, with the ideal plant behind it."""
+        plant = IdealPlant(machine)
+        return cls(machine, SimulatedCard(plant), plant, traced, derived)
+
+    def run(self, ticks: int, until: Callable[[], bool] | None = None) -> int:
+        """Runs up to so many wakes, fewer when ``until`` says so after one; returns how many ticks came of them."""
+        m, plant, sampler = self.controller, self.plant, self.sampler
+        first = m.tick
+        for _ in range(ticks):
+            before = m.tick
+            tick(m)
+            if sampler is not None and m.tick != before:
+                sampler.sample()
+            if plant is not None and plant.touches != len(self.touched):
+                self.touched.append((m.tool, m.hole_begun, self.places()))
+            if until is not None and until():
+                break
+        return m.tick - first
+
+    def over(self) -> bool:
+        """The job has ended, and everything rests: at KMD_KONIEC, by a stop, or latched by a fault."""
+        m = self.controller
+        if m.condition == Condition.LATCHED:
+            return not m.moving
+        return m.condition == Condition.READY and not m.job and not m.moving
+
+    def report(self) -> np.void:
+        """The status record, written anew."""
+        report(self.controller, self.status)
+        return self.status
+
+    def lost_steps(self) -> tuple[float, ...]:
+        """By axis: how far the plant is behind the controller, in steps. Needs a plant."""
+        assert self.plant is not None
+        pairs = zip(self.plant.rotors, self.controller.axes, strict=True)
+        return tuple(r.columns_lost(a.travelled * a.sense) * a.sense / a.columns_per_step for r, a in pairs)
+
+    def places(self) -> tuple[float, ...]:
+        """By axis: where the plant stands, in the controller's steps from machine zero. Needs a plant."""
+        positions = (axis.position for axis in self.controller.axes)
+        return tuple(p - lost for p, lost in zip(positions, self.lost_steps(), strict=True))

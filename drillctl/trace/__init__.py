@@ -1,0 +1,42 @@
+"""The trace room: one columnar record of a run, and the forms it is kept and looked at in.
+
+Rule: imports nothing of ours and knows no machine. What a run puts in comes out the same to the byte: no
+clock, path or host is ever written. Wiring records; replay, the lab, the screen's scope and the pytest plugin
+read.
+
+    values     four kinds of value (word, count, name, command): how each is shown, read and checked
+    record     Signal, Recorder -> Trace: columns tick, signal, value, changes only
+    text       Trace -> text file, the form of golden files
+    reader     text file -> Trace, or a TraceError that names file and line
+    diff       the first tick at which two traces answer differently, and the command it happened in
+    vcd        Trace -> VCD for GTKWave, PulseView and friends
+    shape      a signal as a dense array, one value a tick
+    target     a path or an open file, for all that write
+"""
+
+from drillctl.trace.diff import Difference, first_difference, render
+from drillctl.trace.reader import TraceError, read_text
+from drillctl.trace.record import Recorder, Signal, Trace
+from drillctl.trace.shape import dense
+from drillctl.trace.text import is_trace, write_text
+from drillctl.trace.values import named_signal_kind, pack_command
+from drillctl.trace.vcd import VcdLayout, VcdVar, write_vcd
+
+__all__ = [
+    "Difference",
+    "Recorder",
+    "Signal",
+    "Trace",
+    "TraceError",
+    "VcdLayout",
+    "VcdVar",
+    "dense",
+    "first_difference",
+    "is_trace",
+    "named_signal_kind",
+    "pack_command",
+    "read_text",
+    "render",
+    "write_text",
+    "write_vcd",
+]

@@ -1,0 +1,215 @@
+"""Reads the text form of a trace (`text` shows it), or refuses it by file, line and reason.
+
+Rule: only the canonical form is read, so a file is written again byte for byte (remarks may be spaced
+differently); and everything is bounded, since a golden file may come from anyone. Kinds are known by the
+signals' names, the words of a name or command are taken as they come. Called by replay, the lab and the
+pytest plugin.
+"""
+
+from array import array
+from collections.abc import Iterator
+from typing import NoReturn, TextIO
+
+import numpy as np
+
+from drillctl.trace.record import TICK_LIMIT, Signal, Trace
+from drillctl.trace.target import Target, opened
+from drillctl.trace.text import KEY, LINE_LIMIT, MAGIC, RESPONSE, STIMULUS, VERSION
+from drillctl.trace.values import KINDS, Vocabulary, is_plain, is_word, named_signal_kind, quoted
+
+HEADER_LIMIT = 1_000_000  # lines; a long job's commands stand in it
+SIGNALS_LIMIT = 1024
+CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
+
+
+class TraceError(Exception):
+    """A trace file that can't be read: whose fault, where and why. `line` counts from 1."""
+
+    def __init__(self, file: str, line: int, reason: str) -> None:
+        super().__init__(file, line, reason)
+        self.file, self.line, self.reason = file, line, reason
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.reason}"
+
+
+def read_text(source: Target, name: str | None = None) -> Trace:
+    """The trace in a path or an open text file; `name` is what errors call it (by default the path).
+
+    Raises TraceError for a file that is not a whole, canonical trace, OSError as `open`.
+    """
+    with opened(source, "r") as file:
+        lines = _Lines(file, name or (str(source) if file is not source else "<trace>"))
+        header, signals = _read_head(lines)
+        changes = _Changes(lines, signals)
+        end = changes.read()
+        trailer = tuple(_remark(lines, line) for line in lines)
+    return changes.trace(header, end, trailer)
+
+
+class _Lines:
+    """The lines of one file, counted and bounded. Every refusal names the line it was met in."""
+
+    def __init__(self, file: TextIO, name: str) -> None:
+        self._file, self._name, self.number = file, name, 0
+
+    def __iter__(self) -> Iterator[str]:
+        while line := self._file.readline(LINE_LIMIT):
+            self.number += 1
+            if line[-1] != "\n":
+                self.refuse(_bad_ending(line))
+            yield line[:-1]
+
+    def refuse(self, reason: str) -> NoReturn:
+        raise TraceError(self._name, max(self.number, 1), reason)
+
+
+def _bad_ending(line: str) -> str:
+    if len(line) == LINE_LIMIT:
+        return f"the line is longer than {LINE_LIMIT} characters"
+    return "the line is not ended: the file was cut short; record it again"
+
+
+def _read_head(lines: _Lines) -> tuple[tuple[tuple[str, str], ...], dict[str, bool]]:
+    """Header pairs, and the declared signals in order with whether they are a stimulus."""
+    _check_magic(lines, next(iter(lines), ""))
+    header: list[tuple[str, str]] = []
+    signals: dict[str, bool] = {}
+    for line in lines:
+        key, _, value = line.partition(" ")
+        if not line:
+            return tuple(header), signals
+        if key == "signal":
+            _declare(lines, signals, value)
+        elif signals or len(header) == HEADER_LIMIT or not _is_pair(line, key, value):
+            lines.refuse(f"{quoted(line)} is out of place: `key value` lines, signals, then a blank line")
+        else:
+            header.append((key, value))
+    lines.refuse("the file stops within its head: it was cut short; record it again")
+
+
+def _check_magic(lines: _Lines, first: str) -> None:
+    magic, _, version = first.partition(" ")
+    if magic != MAGIC:
+        lines.refuse(f"not a trace: the first line must be '{MAGIC} {VERSION}'")
+    if version.endswith("\r"):
+        lines.refuse(
+            "lines end in CR LF, a trace has LF alone: keep git from changing it (.gitattributes: -text)"
+        )
+    if version != str(VERSION):
+        lines.refuse(f"trace version {quoted(version)}; this drillctl reads version {VERSION}")
+
+
+def _is_pair(line: str, key: str, value: str) -> bool:
+    return bool(KEY.fullmatch(key)) and is_plain(value) and line == f"{key} {value}".rstrip(" ")
+
+
+def _declare(lines: _Lines, signals: dict[str, bool], declaration: str) -> None:
+    name, _, mark = declaration.partition(" ")
+    if mark not in (STIMULUS, RESPONSE) or not is_word(name):
+        lines.refuse(f"signal {quoted(declaration)}: expected a name, then < (stimulus) or > (response)")
+    if name in signals:
+        lines.refuse(f"signal {quoted(name)} is declared twice")
+    if len(signals) == SIGNALS_LIMIT:
+        lines.refuse(f"more than {SIGNALS_LIMIT} signals")
+    signals[name] = mark == STIMULUS
+
+
+class _Changes:
+    """The lines `TICK NAME VALUE`, each judged against the one before."""
+
+    def __init__(self, lines: _Lines, signals: dict[str, bool]) -> None:
+        self._lines, self._stimuli = lines, list(signals.values())
+        self._names = list(signals)
+        self._index = {name: index for index, name in enumerate(signals)}
+        self._kinds = [named_signal_kind(name)[0] for name in signals]
+        self._words: list[Vocabulary] = [{} for _ in signals]
+        self._last: list[int | None] = [None] * len(signals)
+        self._tick = 0
+        self._ticks, self._signal, self._values = array("q"), array("i"), array("q")
+
+    def read(self) -> int:
+        """All changes up to `end TICK`: returns that tick."""
+        meanings: dict[
+            str, tuple[int, int]
+        ] = {}  # the same changes come again and again: each is parsed once
+        place = -1
+        for line in self._lines:
+            word, _, change = line.partition(" ")
+            if word == "end":
+                return self._end(change)
+            tick = self._number(word)
+            if change not in meanings:
+                meanings[change] = self._meaning(change)
+            index, value = meanings[change]
+            previous, place = place, tick * len(self._names) + index
+            if place <= previous:
+                self._lines.refuse(
+                    f"tick {tick} {self._names[index]}: out of order (by tick, then as declared)"
+                )
+            self._keep(tick, index, value)
+        self._lines.refuse("the file stops without 'end': it was cut short; record it again")
+
+    def trace(self, header: tuple[tuple[str, str], ...], end: int, trailer: tuple[str, ...]) -> Trace:
+        """What was read. The columns are canonical already."""
+        ticks, signal, values = map(np.array, (self._ticks, self._signal, self._values))
+        return Trace(
+            header, tuple(map(self._signal_at, range(len(self._names)))), ticks, signal, values, end, trailer
+        )
+
+    def _signal_at(self, index: int) -> Signal:
+        name, words = self._names[index], tuple(self._words[index])
+        kind, derived = named_signal_kind(name)
+        return Signal(name, kind, self._stimuli[index], derived, names=words)
+
+    def _keep(self, tick: int, index: int, value: int) -> None:
+        if self._last[index] == value:
+            self._lines.refuse(f"{self._names[index]} has this value already: only changes are listed")
+        if tick > 0 and self._tick == 0:
+            self._check_tick_zero()
+        if len(self._ticks) == CHANGES_LIMIT:
+            self._lines.refuse(f"more than {CHANGES_LIMIT} changes")
+        self._last[index], self._tick = value, tick
+        self._ticks.append(tick)
+        self._signal.append(index)
+        self._values.append(value)
+
+    def _check_tick_zero(self) -> None:
+        missing = [name for name, last in zip(self._names, self._last, strict=True) if last is None]
+        if missing:
+            self._lines.refuse(
+                f"signal {quoted(missing[0])} has no value at tick 0: tick 0 lists all signals"
+            )
+
+    def _end(self, word: str) -> int:
+        end = self._number(word)
+        if end > 0:
+            self._check_tick_zero()
+        if len(self._ticks) and self._tick >= end:
+            self._lines.refuse(f"end {end}, but there is a change at tick {self._tick}")
+        return end
+
+    def _number(self, word: str) -> int:
+        """A tick, in its one spelling. Bounded before it is converted: int() of a long word takes long."""
+        tick = int(word) if len(word) <= len(str(TICK_LIMIT)) and word.isdecimal() else -1
+        if str(tick) != word or tick > TICK_LIMIT:
+            self._lines.refuse(f"{quoted(word)} is no tick: a whole number up to {TICK_LIMIT}")
+        return tick
+
+    def _meaning(self, change: str) -> tuple[int, int]:
+        """Index and value of `NAME VALUE`."""
+        name, _, word = change.partition(" ")
+        index = self._index.get(name)
+        if index is None:
+            self._lines.refuse(f"signal {quoted(name)} is not declared above")
+        try:
+            return index, KINDS[self._kinds[index]].read(word, self._words[index])
+        except ValueError as reason:
+            self._lines.refuse(f"{name}: {reason}")
+
+
+def _remark(lines: _Lines, line: str) -> str:
+    remark = line.removeprefix("#").strip()
+    if not line.startswith("#") or not remark.isprintable():
+        lines.refuse(f"{quoted(line)} after the end: only # lines may follow")
+    return remark

@@ -1,0 +1,28 @@
+"""How a job ended, in words. Rule: every stop says *position kept* or *position lost*; lines come from Outcome alone."""
+
+from drillctl.panel import Outcome
+from drillctl.ui.progress import clock
+
+
+def summary_lines(outcome: Outcome) -> list[str]:
+    """The lines that ``drillctl run`` prints at the end."""
+    holes = f"{outcome.holes_done} of {outcome.holes_total} holes drilled, " if outcome.holes_total else ""
+    ticks = f"{outcome.ticks} ticks at {outcome.tick_hz} Hz"
+    lines = [f"{outcome.machine}: {holes}{ticks} = {clock(outcome.machine_seconds)} of machine time"]
+    lines.append(f"steps: {_by_axis(outcome.steps)}; position: {_by_axis(outcome.position)} ({_known(outcome)})")
+    if outcome.interrupted:
+        lines.append("interrupted: stopped, outputs off")
+    if fault := outcome.fault:
+        lines += [f"FAULT {fault.name}: {fault.cause}", f"  position {fault.position}", f"  remedy: {fault.remedy}"]
+    if outcome.lost_steps and any(outcome.lost_steps.values()):
+        lines.append(f"WARNING: lost steps: {_by_axis(outcome.lost_steps)}")
+    return lines
+
+
+def _by_axis(values: "dict[str, int] | object") -> str:
+    assert isinstance(values, dict)
+    return " ".join(f"{axis} {value}" for axis, value in values.items())
+
+
+def _known(outcome: Outcome) -> str:
+    return "known" if outcome.position_known else "from where it was switched on"
