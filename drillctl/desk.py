@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from types import FrameType
 
 from drillctl.generation.feeder import Feeder
-from drillctl.generation.job import Job, MadeHole
+from drillctl.generation.job import Job, MadeHole, names_of
 from drillctl.kmd import Request, to_text
 from drillctl.panel import Outcome, Progress, fault_report
-from drillctl.generation.job import names_of
 from drillctl.ticker import Ticker
 from drillctl.trace import Trace
 

@@ -58,10 +58,10 @@ def reserved(paths: Sequence[Path | None], inputs: Sequence[Path]) -> Iterator[l
     """Outputs for the paths given (None stays None). Raises OutputError, also where a path would hit an input."""
     wanted = [path for path in paths if path is not None]
     taken = {path.resolve() for path in inputs}
-    for path in wanted:
-        if path.resolve() in taken:
-            raise OutputError(f"{path}: would overwrite a file that this run reads or writes")
-        taken.add(path.resolve())
+    for target in wanted:
+        if target.resolve() in taken:
+            raise OutputError(f"{target}: would overwrite a file that this run reads or writes")
+        taken.add(target.resolve())
     outputs: list[Output | None] = []
     try:
         for path in paths:

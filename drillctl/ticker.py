@@ -33,7 +33,7 @@ class Ticker:
 
     def __post_init__(self) -> None:
         self.controller = Controller(self.machine, self.queue, self.requests, self.port)
-        self.status = np.zeros((), dtype=STATUS)[()]
+        self.status: np.void = np.zeros(1, dtype=STATUS)[0]
         self.touched: list[tuple[int, int, tuple[float, ...]]] = []
         self.sampler = Sampler(self.controller, self.plant, self.derived) if self.traced else None
 

@@ -4,8 +4,12 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drillctl.cli import options
+
+if TYPE_CHECKING:
+    from drillctl.machine import Machine
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -27,24 +31,29 @@ def list_machines(arguments: argparse.Namespace) -> int:
     from drillctl.machine import TableError
 
     library = options.library(arguments)
-    rows, refused = [], 0
+    machines, refused = [], 0
     for name in library.machine_names():
         try:
-            machine = library.machine(name)
+            machines.append(library.machine(name))
         except TableError as error:
             refused = 2
             print(f"drillctl: {error}", file=sys.stderr)
-            continue
-        rows.append({
-            "name": machine.name, "axes": list(machine.axis_names), "tick_hz": machine.tick_hz,
-            "description": machine.description, "digest": machine.digest,
-        })  # fmt: skip
     if arguments.json:
-        print(json.dumps(rows, indent=2))
+        print(json.dumps([_told(machine) for machine in machines], indent=2))
     else:
-        for row in rows:
-            print(f"{row['name']:<20} {row['tick_hz']:>5} Hz  {' '.join(row['axes']):<26} {row['description']}")
+        for m in machines:
+            print(f"{m.name:<20} {m.tick_hz:>5} Hz  {' '.join(m.axis_names):<26} {m.description}")
     return refused
+
+
+def _told(machine: "Machine") -> dict[str, object]:
+    return {
+        "name": machine.name,
+        "axes": list(machine.axis_names),
+        "tick_hz": machine.tick_hz,
+        "description": machine.description,
+        "digest": machine.digest,
+    }
 
 
 def check_tables(arguments: argparse.Namespace) -> int:

@@ -20,8 +20,8 @@ class Axis:
 
     __slots__ = (
         "awake", "base", "bits", "braked", "clear_mask", "column", "columns_per_step", "count", "counting", "cut",
-        "direction", "drive", "floor", "held", "high", "hot", "interval", "led", "length", "limits", "line", "low", "made",
-        "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target", "travelled",
+        "direction", "drive", "floor", "held", "high", "hot", "interval", "led", "length", "limits", "line", "low",
+        "made", "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target", "travelled",
         "wait",
     )  # fmt: skip
 

@@ -123,12 +123,10 @@ def parse_machine(source: Source, shipped: bool, phase_of: PhaseOf, ramp_of: Ram
 
 
 def _check_names(source: Source, raw: _File) -> None:
-    for key, rows in (("axis", raw.axis), ("sensor", raw.sensor)):
-        seen: set[str] = set()
-        for index, row in enumerate(rows):
-            if row.name in seen:
-                raise source.error(f"{key} {row.name}: a second one of this name", key, index, "name")
-            seen.add(row.name)
+    for key, names in (("axis", [row.name for row in raw.axis]), ("sensor", [row.name for row in raw.sensor])):
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                raise source.error(f"{key} {name}: a second one of this name", key, index, "name")
 
 
 def _axis(

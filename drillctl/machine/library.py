@@ -52,12 +52,13 @@ class Library:
     def machine(self, name_or_file: str) -> Machine:
         """A machine by its name, or by its file's path (anything with a slash or ``.toml``). Raises TableError."""
         if "/" in name_or_file or name_or_file.endswith(".toml"):
-            return self._parse(Path(name_or_file))
-        file = self._find("machines", name_or_file)
-        if file is None:
+            file = Path(name_or_file)
+            return Library((_tables_beside(file), *self.folders))._parse(file)
+        found = self._find("machines", name_or_file)
+        if found is None:
             known = ", ".join(self.machine_names())
             raise TableError(name_or_file, f"no machine of this name; there are {known}")
-        return self._parse(file)
+        return self._parse(found)
 
     def check(self, file: Path) -> list[str]:
         """Reads any table; returns its hazards as sentences. Raises TableError where it can't be used."""
@@ -69,17 +70,16 @@ class Library:
             parse_ramp(source)
             return []
         if "[[axis]]" in source.text:
-            return machine_hazards(self._parse(file))
+            return machine_hazards(self.machine(str(file.absolute())))
         if "[windings]" in source.text or "columns_per_pulse" in source.text:
             read_motor(file)
             return []
-        raise TableError(file, "neither a phase table, a ramp, a motor nor a machine: no [[wire]], [[state]] or [[axis]]")
+        reason = "neither a phase table, a ramp, a motor nor a machine: no [[wire]], [[state]] or [[axis]]"
+        raise TableError(file, reason)
 
     def _parse(self, file: Path) -> Machine:
-        beside = file.resolve().parent.parent if file.parent.name == "machines" else file.resolve().parent
-        nearby = Library((beside, *self.folders))
         shipped = shipped_tables() in file.resolve().parents
-        return parse_machine(Source.read(file), shipped, nearby._phase, nearby._ramp, nearby._motor)
+        return parse_machine(Source.read(file), shipped, self._phase, self._ramp, self._motor)
 
     def _find(self, kind: str, name: str) -> Path | None:
         if Path(name).name != name:
@@ -113,6 +113,12 @@ class Library:
                 if (motor := read_motor(file)).wire_names() == wires:
                     return motor
         raise source.error(f"no motor has just the wires {', '.join(sorted(wires))}; name one", *place)
+
+
+def _tables_beside(machine_file: Path) -> Path:
+    """The folder whose phase/, ramp/ and motor/ belong to a machine that is given by its file."""
+    folder = machine_file.resolve().parent
+    return folder.parent if folder.name == "machines" else folder
 
 
 def machine_hazards(machine: Machine) -> list[str]:

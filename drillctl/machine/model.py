@@ -135,7 +135,7 @@ class Machine:
         return replace(self, tick_hz=tick_hz)
 
     def reference_from(self, folder: Path) -> str:
-        """What a trace in ``folder`` calls this machine: a shipped one by name, another by its file's path from there."""
+        """What a trace in ``folder`` calls this machine: a shipped one by name, else its file from there."""
         if self.shipped:
             return self.name
         return Path(os.path.relpath(Path(self.file).resolve(), folder.resolve())).as_posix()

@@ -80,7 +80,7 @@ def parse_phase(source: Source) -> PhaseTable:
         raise source.error(reason, "wire", 0, "pattern")
     backward = _reverse_rows(source, raw, columns)
     normal_volts = min(row.volts for row in raw.wire)
-    wires = []
+    wires: list[Wire] = []
     for index, row in enumerate(raw.wire):
         if row.name in {wire.name for wire in wires}:
             raise source.error(f"wire {row.name}: a second row of this name", "wire", index, "name")

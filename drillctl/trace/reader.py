@@ -23,14 +23,15 @@ CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
 
 
 class TraceError(Exception):
-    """A trace file that can't be read: whose fault, where and why. `line` counts from 1."""
+    """A trace file that can't be read or run: whose fault, where and why. `line` counts from 1, None for all of it."""
 
-    def __init__(self, file: str, line: int, reason: str) -> None:
+    def __init__(self, file: str, line: int | None, reason: str) -> None:
         super().__init__(file, line, reason)
         self.file, self.line, self.reason = file, line, reason
 
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}: {self.reason}"
+        place = self.file if self.line is None else f"{self.file}:{self.line}"
+        return f"{place}: {self.reason}"
 
 
 def read_text(source: Target, name: str | None = None) -> Trace:

@@ -1,4 +1,6 @@
-"""How a job ended, in words. Rule: every stop says *position kept* or *position lost*; lines come from Outcome alone."""
+"""How a job ended, in words. Rule: a stop says *position kept* or *position lost*; all comes from Outcome."""
+
+from collections.abc import Mapping
 
 from drillctl.panel import Outcome
 from drillctl.ui.progress import clock
@@ -19,8 +21,7 @@ def summary_lines(outcome: Outcome) -> list[str]:
     return lines
 
 
-def _by_axis(values: "dict[str, int] | object") -> str:
-    assert isinstance(values, dict)
+def _by_axis(values: Mapping[str, int]) -> str:
     return " ".join(f"{axis} {value}" for axis, value in values.items())
 
 

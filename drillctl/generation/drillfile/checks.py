@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from .model import Floats, Integers
 from .tools import NO_TOOL
 
 FURTHEST_MM = 5_000.0
-OVERLAPS_NAMED = 20
+NAMED_PER_CODE = 20
 DOUBTFUL_SHARE = 0.05  # of overlapping holes, from which on the format itself is doubted
 
 
@@ -56,7 +57,7 @@ def hole_warnings(overlapping: Integers, duplicate: Integers, hole_line: Integer
     """The first overlapping and doubled holes, by the line of the later one (indices of holes)."""
     for code, holes in (("overlapping-holes", overlapping), ("duplicate-hole", duplicate)):
         text = f"{len(holes)} in all" if len(holes) > 1 else ""
-        for line in dict.fromkeys(hole_line[holes[:OVERLAPS_NAMED]].tolist()):
+        for line in dict.fromkeys(hole_line[holes[:NAMED_PER_CODE]].tolist()):
             yield Remark(code, line, text)
 
 
@@ -66,3 +67,14 @@ def number_warnings(machine: Machine) -> Iterator[Remark]:
         yield Remark("mixed-decimal-implied")
     if not len(machine.rows):
         yield Remark("no-holes")
+
+
+def first_ones(remarks: Iterable[Remark]) -> tuple[Remark, ...]:
+    """At most NAMED_PER_CODE remarks of each kind: a person reads the first ones, a screen holds no more."""
+    named: Counter[str] = Counter()
+    kept = []
+    for remark in remarks:
+        named[remark.code] += 1
+        if named[remark.code] <= NAMED_PER_CODE:
+            kept.append(remark)
+    return tuple(kept)

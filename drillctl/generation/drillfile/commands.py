@@ -12,7 +12,7 @@ from functools import partial
 
 from .errors import Refusal
 from .facts import Fact, Voice
-from .lexer import DECIMAL_COMMA, KEYWORD, Word, split_words
+from .lexer import KEYWORD, Word, split_words
 from .machine import Machine
 from .tools import NUMBER_LIMIT, Entry
 
@@ -31,9 +31,6 @@ def execute(machine: Machine, command: str) -> None:
         return
     if name and name[0] in UNSUPPORTED:
         raise Refusal("unsupported-command", UNSUPPORTED[name[0]])
-    if DECIMAL_COMMA.search(command):
-        machine.remark("comma-decimal", command)
-        command = DECIMAL_COMMA.sub(".", command)
     words = split_words(command)
     while words:
         LETTERS.get(words[0].letter, _unknown)(machine, words)
@@ -46,8 +43,7 @@ def execute(machine: Machine, command: str) -> None:
 def _units(units: str, machine: Machine, command: str) -> None:
     machine.recognised = True
     machine.set_units(units, command)
-    for argument in command.split(",")[1:]:
-        argument = argument.strip()
+    for argument in re.split(r"[,\s]+", command)[1:]:
         if argument in SUPPRESSED:
             fact = Fact(SUPPRESSED[argument], Voice.HEADER, machine.line, command)
             machine.facts.declare_zeros(fact)
@@ -69,16 +65,17 @@ def _ignore(machine: Machine, command: str) -> None:
     """Settings of machines (tool wear, spindle, tape format) that move no hole."""
 
 
+MACHINE_SETTINGS = (
+    "AFS", "ATC", "BLKD", "CCW", "CP", "DETECT", "DN", "DTMDIST", "EXDA", "FMAT", "FSB", "HPCK", "NCSL", "OM", "OSTOP",
+    "OTCLMP", "PCKPARAM", "PF", "PPR", "PVS", "R", "RSB", "SBK", "SG", "SIXM", "TCST", "UP", "VER", "Z", "ZA", "ZC",
+    "ZS", "M45", "M47", "/",
+)  # fmt: skip
 KEYWORDS: dict[str, Callable[[Machine, str], None]] = {
     "INCH": partial(_units, "inch"),
     "METRIC": partial(_units, "mm"),
     "ICI": _incremental_input,
     "%": _rewind,
-    **dict.fromkeys(
-        "AFS ATC BLKD CCW CP DETECT DN DTMDIST EXDA FMAT FSB HPCK NCSL OM OSTOP OTCLMP PCKPARAM PF PPR PVS "
-        "R RSB SBK SG SIXM TCST UP VER Z ZA ZC ZS M45 M47 /".split(),
-        _ignore,
-    ),
+    **dict.fromkeys(MACHINE_SETTINGS, _ignore),
 }
 UNSUPPORTED = {
     "M97": "M97 drilled text", "M98": "M98 drilled text", "M99": "M99 subroutine",
@@ -116,8 +113,10 @@ def _coordinates(machine: Machine, words: list[Word]) -> None:
     if words and words[0] == ("G", "85"):
         words.pop(0)
         machine.slot(axes, _take_end(words))
-    else:
-        machine.move(axes)
+        return
+    if machine.routing and not machine.cutting:
+        machine.remark("rout-move")
+    machine.move(axes)
 
 
 def _take_axes(words: list[Word], letters: str = "XYAIJ") -> dict[str, str]:
@@ -209,6 +208,14 @@ def _pattern_copy(machine: Machine, words: list[Word]) -> None:
         machine.stopped = True
 
 
+def _rout(machine: Machine, words: list[Word]) -> None:
+    """G00 to G03: from here to G05 coordinates are the router's way."""
+    machine.routing = True
+    axes = _take_axes(words)
+    if axes:
+        machine.move(axes)
+
+
 def _zero_set(machine: Machine, words: list[Word]) -> None:
     """G92, G93: where the machine's zero is; says nothing about distances between holes."""
     axes = _take_axes(words)
@@ -243,7 +250,7 @@ CODES: dict[str, Action] = {
     "G90": _set(incremental=False),
     "G91": _set(incremental=True),
     "G05": _set(routing=False, cutting=False),
-    **dict.fromkeys(("G00", "G01", "G02", "G03"), _do("rout")),
+    **dict.fromkeys(("G00", "G01", "G02", "G03"), _rout),
     "M15": _do("cut", down=True),
     **dict.fromkeys(("M16", "M17"), _do("cut", down=False)),
     "G85": lambda machine, words: machine.slot({}, _take_end(words)),
@@ -255,5 +262,5 @@ CODES: dict[str, Action] = {
     "G04": _skip_axes,
     "M00": _set(stopped=True),
     "M30": _set(ended=True),
-    **dict.fromkeys("G40 G41 G42 M06 M09 M14 M18".split(), _set()),
+    **dict.fromkeys(("G40", "G41", "G42", "M06", "M09", "M14", "M18"), _set()),
 }

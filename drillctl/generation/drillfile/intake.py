@@ -13,12 +13,17 @@ from . import eia, sniff
 from .errors import Refusal, Remark
 
 LINE_LIMIT = 4096
-FILE_LIMIT = 32_000_000
+FILE_LIMIT = 16_000_000  # eight times the largest number of holes in the widest format
 CHUNK_BYTES = 1 << 20
 TAPE_LEADER = bytes([eia.LEADER, eia.RUBOUT])
 DOS_END = b"\x1a"
 BLOCK_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.S)  # HiWIRE writes its tool table in one
-UTF8_MARK, UTF16_MARKS = b"\xef\xbb\xbf", (b"\xff\xfe", b"\xfe\xff")
+# Lines of nothing but tool and coordinate words that hold a space or a comma; possessive, so never slow.
+UNTIDY_LINE = re.compile(r"^(?:[ \t]++[XYT]|[XYT][-+.\dXYTCFSG]*+[ \t,])[-+.,\dXYTCFSG \t]*+$", re.M)
+DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
+UTF8_MARK = b"\xef\xbb\xbf"
+UTF16_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
+UTF16_HEADS = {b"M\x00": "utf-16-le", b"%\x00": "utf-16-le", b"\x00M": "utf-16-be", b"\x00%": "utf-16-be"}
 
 
 def condense(stream: BinaryIO) -> tuple[bytes, bool]:
@@ -52,10 +57,13 @@ def _append_cut(kept: bytearray, chunk: bytes, room: int) -> int:
 
 
 def to_text(data: bytes, *, tape_code: bool = False) -> tuple[str, list[Remark]]:
-    """The file as text with plain line ends and no block comments, and what was odd about it."""
+    """The file as text with plain line ends, no block comments and no spaces in coordinate lines.
+
+    The remarks say what was odd about it.
+    """
     remarks = [Remark("eia-rs244-tape-code", 1)] if tape_code else []
-    if data[:2] in UTF16_MARKS:
-        text = data.decode("utf-16", errors="replace")
+    if encoding := (UTF16_MARKS | UTF16_HEADS).get(data[:2]):
+        text = data.decode(encoding, errors="replace")
         remarks.append(Remark("utf-16", 1))
     else:
         text = _plain_text(data)
@@ -65,7 +73,20 @@ def to_text(data: bytes, *, tape_code: bool = False) -> tuple[str, list[Remark]]
     sniff.check_language(text[: sniff.HEAD_BYTES])
     if "/*" in text:
         text = BLOCK_COMMENT.sub(lambda block: ";" + block[0].replace("\n", "\n;"), text)
-    return text, remarks
+    return _tidy(text, remarks), remarks
+
+
+def _tidy(text: str, remarks: list[Remark]) -> str:
+    """Spaces inside coordinates mean nothing, commas are points: once for all lines, as files do it everywhere."""
+    first = UNTIDY_LINE.search(text)
+    if not first:
+        return text
+    line = text.count("\n", 0, first.start()) + 1
+    if re.search(r"\S[ \t]", first[0].rstrip()):
+        remarks.append(Remark("inner-spaces", line))
+    if DECIMAL_COMMA.search(first[0]):
+        remarks.append(Remark("comma-decimal", line))
+    return UNTIDY_LINE.sub(lambda found: DECIMAL_COMMA.sub(".", "".join(found[0].split())), text)
 
 
 def _plain_text(data: bytes) -> str:

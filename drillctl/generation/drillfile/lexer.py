@@ -1,6 +1,6 @@
 """Lines to words. Rule: one grammar; a run of plain coordinate lines is only its commonest sentence.
 
-`program` takes whole runs by RUN and pairs of axes by AXES, every other line by `split_words`.
+`program` takes whole runs by `split_run`, every other line by `split_words`.
 """
 
 from __future__ import annotations
@@ -11,14 +11,16 @@ from typing import NamedTuple
 from .errors import Refusal
 from .numbers import NUMBER
 
+PLACE = f"(?=[XY])(?:X{NUMBER})?(?:Y{NUMBER})?"
+PARTS = f"(?:X({NUMBER}))?(?:Y({NUMBER}))?"
 # A possessive repeat: a run of 100,000 lines needs no memory of how it was matched.
-RUN = re.compile(rf"(?:(?=[XY])(?:X{NUMBER})?(?:Y{NUMBER})?\n)++")
-AXES = re.compile(rf"(?:X({NUMBER}))?(?:Y({NUMBER}))?\n")
+RUN = re.compile(rf"(?:{PLACE}(?:G85{PLACE})?\n)++")
+HOLES = re.compile(rf"{PARTS}\n")  # (x, y) of every line of a run without slots
+SLOTS = re.compile(rf"{PARTS}(?:G85{PARTS})?\n")  # (x, y, x, y) of every line of a run with slots
 
 WORD = re.compile(rf"([A-Z])({NUMBER})?")
-KEYWORD = re.compile(r"[A-Z]{2,}|[A-Z](?=,)|M(?:45|47|97|98)(?!\d)|[%/]")
+KEYWORD = re.compile(r"[A-Z]{2,}|[A-Z](?=,)|M(?:45|47|97|98)(?!\d)|[%/](?=[%\d]*$)")
 REMARK = re.compile(r";(.*)|\([^()]*\)")
-DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 SPACE = re.compile(r"[ \t]+")
 
 
@@ -32,6 +34,17 @@ class Word(NamedTuple):
         return self.letter + self.number
 
 
+def split_run(text: str, at: int) -> tuple[int, list[tuple[str, ...]]]:
+    """The plain coordinate lines that begin at a line's start: where they end, and their numbers.
+
+    Numbers as HOLES and SLOTS find them, '' for an axis not written; an empty list where there is no such line.
+    """
+    run = RUN.match(text, at)
+    if not run:
+        return at, []
+    return run.end(), (SLOTS if "G" in run[0] else HOLES).findall(run[0])
+
+
 def split_comment(line: str) -> tuple[str, str]:
     """The line's command, in capitals and stripped, and its comment."""
     found = REMARK.search(line)
@@ -43,7 +56,8 @@ def split_comment(line: str) -> tuple[str, str]:
 def split_words(command: str) -> list[Word]:
     """The words of a command line; spaces between and inside them mean nothing."""
     packed = SPACE.sub("", command)
-    words, at = [], 0
+    words: list[Word] = []
+    at = 0
     while at < len(packed):
         match = WORD.match(packed, at)
         if not match:

@@ -1,7 +1,7 @@
 """The drilling machine a file programs: modal state, and what each order does to it.
 
 Rule: positions are number triples (numbers.py), never millimetres; nothing here knows the format.
-commands.py translates words into calls of these methods, program.py feeds whole runs of coordinates.
+commands.py translates words into calls of these methods, program.py hands over whole runs of holes.
 """
 
 from __future__ import annotations
@@ -75,27 +75,34 @@ class Machine:
 
     def move(self, axes: Mapping[str, str]) -> None:
         """A coordinate line: a hole in drill mode, a travel of the router otherwise."""
-        self._leave_header()
-        self.at = self._target(axes)
         if not self.routing:
-            self._record(self.at, self.at, slot=False)
+            self.drill([_words(axes)])
+            return
+        for index, word in enumerate(_words(axes)):
+            self.at[index] = self._positions([word], self.at[index])[-1]
 
     def slot(self, start: Mapping[str, str], end: Mapping[str, str]) -> None:
         """G85: a slot from the line's first point (or where the machine stands) to its second."""
-        self._leave_header()
-        begin = self._target(start) if start else self.at.copy()
-        self.at = begin
-        self.at = self._target(end)
-        self._record(begin, self.at, slot=True)
+        self.drill([_words(start) + _words(end)])
 
-    def drill_run(self, pairs: Sequence[tuple[str, str]]) -> None:
-        """Many coordinate lines at once, ('12.7', '') for a line without Y."""
-        self.rows.check_room(len(pairs))
-        block = np.zeros(len(pairs), ROW)
-        for axis, words in enumerate(zip(*pairs, strict=True)):
-            block["at"][:, :, axis] = self._positions(words, self.at[axis])[:, None]
+    def drill(self, lines: Sequence[tuple[str, ...]]) -> None:
+        """Holes and slots of consecutive lines, each (x, y), or (x, y, x, y) where some are slots.
+
+        '' is an axis not written. A row's two ends are two moves; a hole's second one moves nothing.
+        """
+        self._leave_header()
+        self.rows.check_room(len(lines))
+        block = np.zeros(len(lines), ROW)
+        columns = list(zip(*lines, strict=True))
+        for axis in range(len(AXES)):
+            ends = columns[axis :: len(AXES)]
+            words = ends[0] if len(ends) == 1 else [word for pair in zip(*ends, strict=True) for word in pair]
+            positions = self._positions(words, self.at[axis])
+            block["at"][:, :, axis] = positions.reshape(len(lines), len(ends), 3)
+        if len(columns) > len(AXES):
+            block["slot"] = [bool(x or y) for x, y in zip(*columns[len(AXES) :], strict=True)]
         block["mm"], block["tool"] = self.mm, self.tools.current
-        block["line"] = np.arange(self.line, self.line + len(pairs))
+        block["line"] = np.arange(self.line, self.line + len(lines))
         self.rows.append(block)
         self.at = block["at"][-1, 1].copy()
 
@@ -106,10 +113,6 @@ class Machine:
     def repeat_pattern(self, count: int, axes: Mapping[str, str]) -> None:
         """M02: the pattern again, count times."""
         self.rows.repeat_pattern(count, self._offset(axes), self.line)
-
-    def rout(self) -> None:
-        """G00 to G03: coordinates are the router's travel until G05."""
-        self.routing = True
 
     def cut(self, *, down: bool) -> None:
         """M15 begins a cut, M16 and M17 end it."""
@@ -133,14 +136,8 @@ class Machine:
             offset[[AXES.index(axis) for axis in written]] = triples
         return offset
 
-    def _target(self, axes: Mapping[str, str]) -> Floats:
-        """Where the line leads: an axis not written keeps its place."""
-        offset = self._offset(axes)
-        written = np.array([[axis in axes] for axis in AXES])
-        return np.where(written, offset + self.at * self.incremental, self.at)
-
     def _positions(self, words: Sequence[str], start: Floats) -> Floats:
-        """One axis of a run (n, 3), beginning at start: the law of `_target` for many lines."""
+        """Where n moves along one axis lead (n, 3), from start: an axis not written keeps its place."""
         if not self.incremental and "" not in words:
             return read_numbers(words, self.evidence)
         written = np.array([bool(word) for word in words])
@@ -152,12 +149,6 @@ class Machine:
             return np.cumsum(steps, axis=0)[1:]
         last_written = np.maximum.accumulate(np.where(written, np.arange(1, len(words) + 1), 0))
         return steps[last_written]
-
-    def _record(self, begin: Floats, end: Floats, *, slot: bool) -> None:
-        row = np.zeros(1, ROW)
-        row["at"][0, 0], row["at"][0, 1] = begin, end
-        row["mm"], row["tool"], row["line"], row["slot"] = self.mm, self.tools.current, self.line, slot
-        self.rows.append(row)
 
     # -- end --------------------------------------------------------------------------------------
 
@@ -171,3 +162,8 @@ class Machine:
     def toolless(self) -> bool:
         """Whether the whole program never named a tool (PCB Wizard, Vutrax)."""
         return not self.tools.entries and bool((self.rows.array()["tool"] == NO_TOOL).any())
+
+
+def _words(axes: Mapping[str, str]) -> tuple[str, ...]:
+    """The numbers of X and Y, '' where not written."""
+    return tuple(axes.get(axis, "") for axis in AXES)

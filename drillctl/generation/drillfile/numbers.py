@@ -32,15 +32,18 @@ class Evidence:
         self.decimals = 0
 
     def add(self, whole: Floats, length: Integers) -> None:
+        """Numbers without a point, as they were written."""
         self._whole.append(whole)
         self._length.append(length)
 
     @property
     def whole(self) -> Floats:
+        """Absolute values (n,) of all numbers without a point."""
         return np.concatenate(self._whole)
 
     @property
     def length(self) -> Integers:
+        """Their counts of digits (n,)."""
         return np.concatenate(self._length)
 
 

@@ -11,8 +11,10 @@ from .commands import execute
 from .errors import PROBLEM_LIMIT, Refusal, Remark, shorten
 from .facts import Facts
 from .intake import LINE_LIMIT
-from .lexer import AXES, RUN, split_comment
+from .lexer import split_comment, split_run
 from .machine import Machine
+
+COMMAND_LIMIT = 40_000  # lines that are no plain holes; a drill file has dozens, a milled panel thousands
 
 
 def run(text: str, facts: Facts) -> tuple[Machine, list[Remark]]:
@@ -21,15 +23,17 @@ def run(text: str, facts: Facts) -> tuple[Machine, list[Remark]]:
     problems: list[Remark] = []
     if not text.endswith("\n"):
         text += "\n"
-    at, machine.line = 0, 1
+    at, machine.line, commands = 0, 1, 0
     while at < len(text) and len(problems) < PROBLEM_LIMIT:
-        plain = RUN.match(text, at) if machine.drilling else None
-        end = plain.end() if plain else text.index("\n", at) + 1
+        end, holes = split_run(text, at) if machine.drilling else (at, [])
+        end = end if holes else text.index("\n", at) + 1
         try:
-            if plain:
-                _plain_run(machine, plain[0])
+            if holes:
+                machine.recognised, machine.stopped = True, False
+                machine.drill(holes)
             else:
-                _line(machine, text[at:end])
+                commands += end - at > 1
+                _line(machine, text[at:end], commands)
         except Refusal as refusal:
             problems.append(_problem(machine, refusal, text[at:end]))
             if refusal.fatal:
@@ -40,13 +44,9 @@ def run(text: str, facts: Facts) -> tuple[Machine, list[Remark]]:
     return machine, problems
 
 
-def _plain_run(machine: Machine, sentence: str) -> None:
-    """A run of plain coordinate lines, all at once."""
-    machine.recognised, machine.stopped = True, False
-    machine.drill_run(AXES.findall(sentence))
-
-
-def _line(machine: Machine, line: str) -> None:
+def _line(machine: Machine, line: str, commands: int) -> None:
+    if commands > COMMAND_LIMIT:
+        raise Refusal("file-too-large", f"more than {COMMAND_LIMIT} commands", fatal=True)
     command, comment = split_comment(line)
     if len(line) > LINE_LIMIT:
         if command:

@@ -127,5 +127,5 @@ def _checked(
         confidence=found.confidence,
         runner_up=found.runner_up,
         reason=found.reason,
-        warnings=tuple(warnings),
+        warnings=checks.first_ones(warnings),
     )

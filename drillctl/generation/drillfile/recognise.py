@@ -142,11 +142,13 @@ def take_sample(machine: Machine) -> Sample:
 def _distinct(rows: RowArray) -> RowArray:
     tools = np.unique(rows["tool"])
     share = max(SAMPLE_HOLES // max(1, len(tools)), 20)
-    first = np.concatenate([np.flatnonzero(rows["tool"] == tool)[:share] for tool in tools] or [[]])
-    some = rows[np.sort(first.astype(np.int64))][:SAMPLE_HOLES]
+    none = np.empty(0, dtype=np.int64)
+    first = np.concatenate([none, *(np.flatnonzero(rows["tool"] == tool)[:share] for tool in tools)])
+    some = rows[np.sort(first)][:SAMPLE_HOLES]
     # The same place written twice is no evidence; the same place reached by different digits is.
     _, kept = np.unique(some["at"][:, 0].reshape(-1, 6), axis=0, return_index=True)
-    return some[np.sort(kept)]
+    distinct: RowArray = some[np.sort(kept)]
+    return distinct
 
 
 def _scored(facts: Facts, sample: Sample, contradicted: bool) -> list[FormatChoice]:

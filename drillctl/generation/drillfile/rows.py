@@ -37,9 +37,8 @@ class Rows:
             self._blocks = [np.concatenate([np.empty(0, ROW), *self._blocks])]
         return self._blocks[0]
 
-    def append(self, block: RowArray, *, code: str = "too-many-holes") -> None:
-        """Add rows; fatal Refusal with the code when they would be too many."""
-        self.check_room(len(block), code)
+    def append(self, block: RowArray) -> None:
+        """Add rows; whoever makes them has asked check_room before."""
         self._blocks.append(block)
         self._count += len(block)
 
@@ -52,12 +51,7 @@ class Rows:
         """R: the last row again count times, each one offset (2, 3) further; returns where it ended."""
         if not self._count:
             raise Refusal("repeat-without-hole")
-        self.check_room(count, "repeat-too-large")
-        block = np.repeat(self._blocks[-1][-1:], count)
-        block["at"] += np.arange(1, count + 1)[:, None, None, None] * offset
-        block["line"] = line
-        self.append(block)
-        return np.array(block["at"][-1, 1])
+        return self._copy(self._blocks[-1][-1:], count, offset, line)
 
     def begin_pattern(self) -> None:
         """M25: what follows is a pattern."""
@@ -76,11 +70,19 @@ class Rows:
             raise Refusal("pattern-without-start")
         if self._pattern is None:
             raise Refusal("bad-pattern", "M02 before M01")
-        self.check_room(count * len(self._pattern), "repeat-too-large")
-        for _ in range(count if len(self._pattern) else 0):
-            self._pattern["at"] += offset
-            self._pattern["line"] = line
-            self.append(self._pattern.copy())
+        if len(self._pattern):
+            self._copy(self._pattern, count, offset, line)
+            self._pattern["at"] += count * offset
+
+    def _copy(self, some: RowArray, count: int, offset: Floats, line: int) -> Floats:
+        """Append rows count times, each time one offset further; returns the place of the last."""
+        self.check_room(count * len(some), "repeat-too-large")
+        block = np.tile(some, count)
+        times = np.repeat(np.arange(1, count + 1), len(some))
+        block["at"] += times[:, None, None, None] * offset
+        block["line"] = line
+        self.append(block)
+        return np.array(block["at"][-1, 1])
 
     def close_pattern(self) -> None:
         """M08 or the end of the program."""

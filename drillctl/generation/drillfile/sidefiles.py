@@ -16,6 +16,7 @@ from .facts import Facts, Voice
 NAMES = frozenset({"nc_param.txt", "ncdrill.log"})  # one for the whole folder
 SUFFIXES = frozenset({".dri", ".drr", ".tol", ".rep", ".rpt"})  # with the drill file's own stem
 BYTE_LIMIT = 1_000_000
+LINE_LIMIT = 2_000
 
 # Group names as in comments.py; `tens`, `whole_mask` and `fraction_mask` are counted, not read.
 PATTERNS = tuple(
@@ -63,7 +64,7 @@ def _belongs(near: Path, path: Path) -> bool:
 def hear(name: str, data: bytes, facts: Facts) -> None:
     """Note what one report declares; text that is no such report declares nothing."""
     format_groups: dict[str, str] = {}
-    for line in data[:BYTE_LIMIT].decode("latin-1").splitlines():
+    for line in data[:BYTE_LIMIT].decode("latin-1").splitlines()[:LINE_LIMIT]:
         groups = find(line, PATTERNS)
         if "size" in groups:
             declare(groups, name, None, Voice.SIDE_FILE, facts)

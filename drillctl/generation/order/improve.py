@@ -81,14 +81,17 @@ class Improver:
     def _or_opt(self, a: int, b: int, c: int, side: int, gain: int) -> int:
         """Take out the piece a..e, one to three holes leading away from b, and put it beside c, a next to c."""
         order, place, ticks = self.path.order, self.path.place, self.ticks
+        gaps = [(d, ticks(c, d)) for d in (order[place[c] + 1], order[place[c] - 1])]
         for far in range(place[a], place[a] - LONGEST_PIECE * side, -side):
             e = order[far]
             if e == c or e == self.end:
                 break
             f = order[far - side]
             freed = gain + ticks(e, f) - ticks(b, f)
-            for d in (order[place[c] + 1], order[place[c] - 1]):
-                saved = freed + ticks(c, d) - ticks(e, d)
+            if freed <= 0:
+                continue
+            for d, opened in gaps:
+                saved = freed + opened - ticks(e, d)
                 if saved > 0 and d != e:
                     self._move_piece(a, e, c, d)
                     self._wake(a, b, c, d, e, f)

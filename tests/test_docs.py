@@ -1,0 +1,63 @@
+"""Docs are executed: README's commands run, the generated pages are current, every link leads somewhere."""
+
+import importlib.util
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text("utf-8")
+PAGES = [*sorted(ROOT.glob("docs/*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+
+
+def generator() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("generate", ROOT / "docs" / "generate.py")
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def drillctl_lines() -> list[list[str]]:
+    blocks = re.findall(r"```sh\n(.*?)```", README, re.S)
+    lines = [part.strip() for block in blocks for line in block.splitlines() for part in line.split("&&")]
+    return [shlex.split(line, comments=True) for line in lines if line.startswith(".venv/bin/drillctl")]
+
+
+@pytest.mark.parametrize("name", ["KMD.md", "FAULTS.md"])
+def test_generated_page_is_current(name: str) -> None:
+    assert (ROOT / "docs" / name).read_text("utf-8") == generator().PAGES[name]()
+
+
+def test_readme_commands_run(tmp_path: Path) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    (tmp_path / "tables").symlink_to(ROOT / "tables")
+    commands = drillctl_lines()
+    assert len(commands) >= 7
+    for command in commands:
+        call = [sys.executable, "-m", "drillctl", *command[1:]]
+        done = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode == 0, f"{command}: {done.stderr}"
+
+
+def test_readme_shows_what_the_example_prints() -> None:
+    call = [sys.executable, "-m", "drillctl", "run", "examples/blinker.drl"]
+    done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.strip() in README
+
+
+def test_ci_runs_the_readme_test_command() -> None:
+    ci = (ROOT / ".ci" / "run").read_text("utf-8")
+    command = next(line for line in README.splitlines() if line.endswith("-m pytest"))
+    assert command in ci.splitlines()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text("utf-8")):
+        assert (page.parent / target).exists(), f"{page.name} links to {target}"

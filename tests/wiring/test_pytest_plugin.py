@@ -1,0 +1,84 @@
+"""The plugin as another repository meets it: a pytest of its own, in a folder of its own, in a process of its own."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from drillctl.cli import main
+
+COLLECTED_NOTHING = 5
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Path:
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    (tmp_path / "job.kmd").write_text("KMD_GOTOdXdY 30 -12\n")
+    assert main(["run", str(tmp_path / "job.kmd"), "--trace", str(tmp_path / "good.trace")]) == 0
+    return tmp_path
+
+
+def run_pytest(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *options]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=100, check=False)
+
+
+def spoil(repository: Path) -> Path:
+    """A copy of the trace in which the output word of tick 6 has another bit."""
+    text = (repository / "good.trace").read_text()
+    found = re.search(r"^6 out\.0 0x(.{8})$", text, re.M)
+    assert found
+    trace = repository / "bad.trace"
+    trace.write_text(text.replace(found[0], f"6 out.0 0x{int(found[1], 16) ^ 0x10:08x}"))
+    return trace
+
+
+def test_traces_are_tests_and_other_files_are_not(repository: Path) -> None:
+    (repository / "other.trace").write_text("strace of something\n")
+    done = run_pytest(repository, "-v")
+    assert done.returncode == 0, done.stdout
+    assert "good.trace::replay PASSED" in done.stdout and "other.trace" not in done.stdout
+
+
+def test_a_difference_fails_with_a_plain_message_also_in_junit(repository: Path) -> None:
+    spoil(repository)
+    done = run_pytest(repository, "--junitxml=out.xml")
+    assert done.returncode == 1
+    failure = ElementTree.parse(repository / "out.xml").find(".//failure")
+    assert failure is not None and failure.text is not None
+    assert "KMD_GOTOdXdY" in failure.text and "tick 6" in failure.text
+    assert "Traceback" not in done.stdout and failure.text.isascii()
+
+
+def test_rewrite_records_anew_and_passes(repository: Path) -> None:
+    spoil(repository)
+    assert run_pytest(repository, "--drillctl-rewrite").returncode == 0
+    assert (repository / "bad.trace").read_bytes() == (repository / "good.trace").read_bytes()
+    assert run_pytest(repository).returncode == 0
+
+
+def test_a_broken_trace_fails_with_its_line(repository: Path) -> None:
+    text = (repository / "good.trace").read_text()
+    (repository / "good.trace").write_text(text[: text.index("\nend ")] + "\n")
+    done = run_pytest(repository)
+    assert done.returncode == 1 and "good.trace:" in done.stdout and "Traceback" not in done.stdout
+
+
+def test_required_traces_must_be_there(repository: Path) -> None:
+    (repository / "test_other.py").write_text("def test_other():\n    assert True\n")
+    assert run_pytest(repository, "--drillctl-require-traces").returncode == 0
+    (repository / "good.trace").unlink()
+    assert run_pytest(repository).returncode == 0
+    assert run_pytest(repository, "--drillctl-require-traces").returncode == COLLECTED_NOTHING
+
+
+def test_tables_of_ones_own_and_same_tables(repository: Path) -> None:
+    shipped = Path(__file__).resolve().parents[2] / "tables" / "machines" / "pcb-drill.toml"
+    (repository / "mine" / "machines").mkdir(parents=True)
+    text = shipped.read_text("utf-8").replace("longest_drilling_s = 18", "longest_drilling_s = 17")
+    (repository / "mine" / "machines" / "pcb-drill.toml").write_text(text, "utf-8")
+    assert run_pytest(repository, "--drillctl-tables", "mine").returncode == 0
+    assert run_pytest(repository, "--drillctl-tables", "mine", "--drillctl-same-tables").returncode == 1
