@@ -13,6 +13,7 @@ from types import FrameType
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import Job, MadeHole, names_of
 from drillctl.kmd import Request, to_text
+from drillctl.lab import forecast
 from drillctl.panel import Outcome, Progress, fault_report
 from drillctl.ticker import Ticker
 from drillctl.trace import Trace
@@ -33,6 +34,8 @@ def run(job: Job, watcher: Watcher, traced: bool = False, derived: bool = False)
     """Drills a job on the simulated machine, free-running. Ctrl-C and SIGTERM stop it; a second one drops it."""
     ticker = Ticker.simulated(job.machine, traced, derived)
     feeder = Feeder(job.program, ticker.queue)
+    # A queue written by hand can only be foreseen by running it; nobody wants to wait for that twice.
+    total_ticks = forecast(job.program, job.machine).total_ticks if job.work else None
     try:
         with _stopping(ticker) as stopped:
             over = False
@@ -40,7 +43,7 @@ def run(job: Job, watcher: Watcher, traced: bool = False, derived: bool = False)
                 feeder.feed()
                 ticker.run(max(1, len(ticker.queue)), ticker.over)
                 over = ticker.over()
-                watcher(_progress(job, ticker))
+                watcher(_progress(job, ticker, total_ticks))
         return _ended(job, ticker, bool(stopped))
     finally:
         ticker.port.close()
@@ -63,9 +66,10 @@ def _stopping(ticker: Ticker) -> Iterator[list[int]]:
             signal.signal(number, handler)
 
 
-def _progress(job: Job, ticker: Ticker) -> Progress:
-    m = ticker.controller
-    return Progress(m.holes_done, job.holes_total, m.tool, m.tick, m.tick / job.machine.tick_hz, None)
+def _progress(job: Job, ticker: Ticker, total_ticks: int | None) -> Progress:
+    m, hz = ticker.controller, job.machine.tick_hz
+    left = None if total_ticks is None else max(0, total_ticks - m.tick) / hz
+    return Progress(m.holes_done, job.holes_total, m.tool, m.tick, m.tick / hz, left)
 
 
 def _ended(job: Job, ticker: Ticker, stopped: bool) -> Run:

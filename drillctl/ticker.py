@@ -20,7 +20,7 @@ from drillctl.sampler import Sampler
 
 @dataclass
 class Ticker:
-    """One machine on one port. ``touched`` grows by a hole each time the plant's bit meets the board:
+    """One machine on one port. ``touched`` grows by a hole when the plant's bit first meets the board there:
     (tool, tag of the hole begun, place in steps from machine zero by axis, lost steps taken off)."""
 
     machine: Machine
@@ -35,6 +35,8 @@ class Ticker:
         self.controller = Controller(self.machine, self.queue, self.requests, self.port)
         self.status: np.void = np.zeros(1, dtype=STATUS)[0]
         self.touched: list[tuple[int, int, tuple[float, ...]]] = []
+        self._touches = 0
+        self._tags: set[int] = set()
         self.sampler = Sampler(self.controller, self.plant, self.derived) if self.traced else None
 
     @classmethod
@@ -52,8 +54,9 @@ class Ticker:
             tick(m)
             if sampler is not None and m.tick != before:
                 sampler.sample()
-            if plant is not None and plant.touches != len(self.touched):
-                self.touched.append((m.tool, m.hole_begun, self.places()))
+            if plant is not None and plant.touches != self._touches:
+                self._touches = plant.touches
+                self._touch()
             if until is not None and until():
                 break
         return m.tick - first
@@ -69,6 +72,13 @@ class Ticker:
         """The status record, written anew."""
         report(self.controller, self.status)
         return self.status
+
+    def _touch(self) -> None:
+        """The bit meets the board; a hole that is come to again (a peck after a peck) is counted once."""
+        tag = self.controller.hole_begun
+        if tag == 0 or tag not in self._tags:
+            self._tags.add(tag)
+            self.touched.append((self.controller.tool, tag, self.places()))
 
     def lost_steps(self) -> tuple[float, ...]:
         """By axis: how far the plant is behind the controller, in steps. Needs a plant."""

@@ -1,8 +1,10 @@
 """Verbs and options. Rule: nothing heavy is imported before a verb is called; whatever the operator got wrong is
 one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
 
-    run.py      drill a file or a queue          inspect.py  what a drill file says
-    replay.py   traces again                     tables.py   machines, and checking tables
+    run.py      drill a file or a queue          estimate.py  what it will take
+    inspect.py  what a drill file says           convert.py   a clean file, or a queue, from it
+    replay.py   traces again                     tables.py    machines, and checking tables
+    jobs.py     the options of a job             options.py   machine and tables
 """
 
 import argparse
@@ -10,10 +12,10 @@ import sys
 from collections.abc import Sequence
 
 from drillctl import __version__
-from drillctl.cli import inspect, replay, run, tables
+from drillctl.cli import convert, estimate, inspect, replay, run, tables
 
 DONE, STOPPED, REFUSED = 0, 1, 2
-VERBS = (run, inspect, replay, tables)
+VERBS = (run, estimate, inspect, convert, replay, tables)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved"
 
@@ -49,6 +51,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _is_refusal(error: Exception) -> bool:
+    from drillctl.generation.alignment import AlignmentError
     from drillctl.generation.drillfile import DrillFileError
     from drillctl.generation.errors import JobError
     from drillctl.generation.placing import PlacingError
@@ -56,7 +59,8 @@ def _is_refusal(error: Exception) -> bool:
     from drillctl.outputs import OutputError
     from drillctl.trace import TraceError
 
-    return isinstance(error, JobError | TableError | TraceError | OutputError | DrillFileError | PlacingError)
+    refusals = (JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError)
+    return isinstance(error, refusals)
 
 
 def _quiet_pipe() -> int:

@@ -2,7 +2,13 @@
 
 import argparse
 import json
+import shutil
+import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from drillctl.generation.drillfile import DrillFile
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -20,10 +26,28 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.ui.drilling import inspect_lines
 
     try:
-        told = summary(read(arguments.file, fmt=arguments.format))
+        drill_file = read(arguments.file, fmt=arguments.format)
     except DrillFileError as error:
         if arguments.json:
             print(json.dumps(error.as_dict()))
         raise
-    print(json.dumps(told, indent=2) if arguments.json else "\n".join(inspect_lines(arguments.file.name, told)))
+    told = summary(drill_file)
+    if arguments.json:
+        print(json.dumps(told, indent=2))
+    else:
+        print("\n".join(inspect_lines(arguments.file.name, told)))
+        print("\n".join(_drawing(drill_file)))
     return 0
+
+
+def _drawing(drill_file: "DrillFile") -> list[str]:
+    """The board as wide as the terminal, and at most half as high; nothing where braille can't be shown."""
+    import numpy as np
+
+    from drillctl.ui.board import board_rows
+
+    if "utf" not in (sys.stdout.encoding or "").lower():
+        return []
+    columns, rows = shutil.get_terminal_size()
+    points_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
+    return ["", *(f"  {row}" for row in board_rows(points_mm, min(columns, 100) - 4, rows // 2))]

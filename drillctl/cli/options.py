@@ -34,7 +34,7 @@ def library(arguments: argparse.Namespace) -> "Library":
 def machine(arguments: argparse.Namespace) -> "Machine":
     """The machine asked for, at the rate asked for. Raises TableError."""
     from drillctl.machine import TableError
-    from drillctl.machine.config import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
+    from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 
     found = library(arguments).machine(arguments.machine)
     rate = arguments.tick_hz

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from drillctl.cli import options
+from drillctl.cli import jobs, options
 
 if TYPE_CHECKING:
     from drillctl.desk import Run
@@ -21,15 +21,11 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb = verbs.add_parser("run", help="drill a file or run a queue", description=__doc__)
     verb.add_argument("job", type=Path, metavar="JOB", help="a drill file, or a queue of KMD commands (.kmd)")
     options.add_machine(verb)
-    verb.add_argument(
-        "--origin", choices=("base", "file"), default="base",
-        help="base: the lowest X and Y of the board lie at the working base (default); file: coordinates as they are",
-    )  # fmt: skip
-    verb.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
     verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay")
     verb.add_argument("--vcd", type=Path, metavar="F", help="write the run as VCD, for GTKWave or PulseView")
     verb.add_argument("--holes", type=Path, metavar="F", help="write the holes as the plant made them (CSV)")
     verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
+    jobs.add_job(verb)
     verb.set_defaults(call=call)
 
 
@@ -37,12 +33,11 @@ def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
     from drillctl import desk
     from drillctl.generation.job import load_job
-    from drillctl.generation.placing import Placing
     from drillctl.outputs import reserved
     from drillctl.ui.progress import ProgressView
 
     machine = options.machine(arguments)
-    job = load_job(arguments.job, machine, Placing(origin=arguments.origin), arguments.format)
+    job = load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
     with reserved(wanted, inputs=[arguments.job, Path(machine.file)]) as (trace, vcd, holes):
         for warning in job.warnings:

@@ -1,7 +1,8 @@
 """One motor: where it is, which state of its ramp it is in, which column of its phase table is out.
 
-Rule: ``interrupt`` is called once a tick while the axis is awake; it waits the interval of its state, puts the next
+Rule: ``interrupt`` is called once a tick while the axis counts; it waits the interval of its state, puts the next
 column out, and after each whole step asks the ramp for the next state (paper, section 4; machine/ramp.py).
+What comes to rest is marked ``cooling``, and loses its forcing bits in the next tick (docs/SPEC.md, 1.5).
 Called by tick, commands, homing, guard and stops. Positions are steps; nothing here knows of sensors.
 """
 
@@ -19,10 +20,10 @@ class Axis:
     """The running state of one axis. Created once; every field is an integer, a flag or a table."""
 
     __slots__ = (
-        "awake", "base", "bits", "braked", "clear_mask", "column", "columns_per_step", "count", "counting", "cut",
-        "direction", "drive", "floor", "held", "high", "hot", "interval", "led", "length", "limits", "line", "low",
-        "made", "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target", "travelled",
-        "wait",
+        "base", "bits", "braked", "clear_mask", "cold", "column", "columns_per_step", "cooling", "count", "counting",
+        "cut", "direction", "drive", "floor", "held", "high", "interval", "led", "length", "limits", "line", "low",
+        "made", "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target",
+        "travelled", "wait",
     )  # fmt: skip
 
     def __init__(self, table: AxisTable, limits: tuple[int, int, int]):
@@ -41,9 +42,9 @@ class Axis:
         self.direction = 1
         self.wait = self.interval[0]
         self.drive = table.motor.pulse is not None
-        self.counting = self.awake = self.hot = self.braked = self.held = self.cut = self.led = False
+        self.counting = self.cooling = self.braked = self.held = self.cut = self.led = False
         self.seek_mask = self.clear_mask = 0
-        self.bits = 0
+        self.bits = self.cold = 0  # the column that is out, and the same without its forcing bits
         self.line: Line | None = None
 
     def aim(self, target: int, floor: int) -> None:
@@ -58,18 +59,18 @@ class Axis:
         """From state 0: counts towards the target, or stays where it is."""
         self.counting = self.target != self.position
         if self.counting:
-            self.direction = 1 if self.target > self.position else -1
+            self.face(1 if self.target > self.position else -1)
             self.count = 0
             self.wait = max(self.interval[0], self.floor)
-            self.awake = True
-            if self.drive:  # its direction wire must stand before the first pulse
-                self.bits = self.resting[self.direction * self.sense][self.column]
+
+    def face(self, direction: int) -> None:
+        """The direction of the steps to come. A drive's direction wire must stand before its first pulse."""
+        self.direction = direction
+        if self.drive:
+            self.bits = self.cold = self.resting[direction * self.sense][self.column]
 
     def interrupt(self) -> bool:
-        """One tick. True while the axis still counts afterwards."""
-        if not self.counting:
-            self.cool()
-            return False
+        """One tick of an axis that counts. True while it still counts afterwards."""
         self.count += 1
         if self.count >= self.wait:
             self.count = 0
@@ -77,9 +78,10 @@ class Axis:
         return self.counting
 
     def hold(self) -> None:
-        """Brake down the ramp, keeping the target."""
-        self.held = True
-        self._rest_if_still()
+        """Brake down the ramp, keeping the target. An axis led along a line stops as its leader does."""
+        if not self.led:
+            self.held = True
+            self._rest_if_still()
 
     def resume(self) -> None:
         """Lift a hold: accelerate again, or count anew from state 0."""
@@ -89,12 +91,15 @@ class Axis:
             self.start()
 
     def give_up(self) -> None:
-        """Brake down the ramp; where the axis comes to rest is its target."""
-        self.cut = True
-        self._rest_if_still()
+        """Brake down the ramp; where the axis comes to rest is its target. One that is led stops as its leader."""
+        if not self.led:
+            self.cut = True
+            self._rest_if_still()
 
     def halt(self) -> None:
         """Stop in this tick, without a ramp, keeping the current: from states 0 and 1 nothing is lost."""
+        while self.drive and self.part:  # its pulse is out already: the step is made
+            self.put_column()
         self.state = self.count = self.part = 0
         self.cut = True
         self._rest()
@@ -103,8 +108,7 @@ class Axis:
     def release(self) -> None:
         """Stop and take the current off all phases."""
         self.halt()
-        self.bits = 0
-        self.hot = self.awake = False
+        self.bits = self.cold = 0
 
     def zero(self) -> None:
         """This place is machine zero."""
@@ -112,17 +116,15 @@ class Axis:
 
     def cool(self) -> None:
         """At rest: the column's 5 V bits stay, forcing goes off; 24 V held would burn the winding."""
-        self.awake = False
-        if self.hot:
-            self.hot = False
-            self.bits = self.resting[self.direction * self.sense][self.column]
+        self.bits = self.cold
+        self.cooling = False
 
     def put_column(self) -> bool:
         """Puts the next column out; True when that completes a step."""
         turn = self.direction * self.sense
         self.column = (self.column + turn) % self.length
         self.bits = self.shown[turn][self.column]
-        self.hot = True
+        self.cold = self.resting[turn][self.column]
         self.travelled += self.direction
         self.part += 1
         if self.part < self.columns_per_step:
@@ -168,7 +170,7 @@ class Axis:
 
     def _rest(self) -> None:
         self.counting = False
-        self.awake = self.hot
+        self.cooling = True
         if self.cut:
             self.target = self.position
             self.cut = False

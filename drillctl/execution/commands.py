@@ -46,6 +46,7 @@ def _move(m: Controller, command: Command) -> int:
         return fault
     if command.flags & Flag.LINKED:
         return _start_line(m, command)
+    m.hole_begun = command.tag or m.hole_begun  # a peck or a spot begins a hole too
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1:
             axis.aim(axis.target, command.floor_ticks)

@@ -25,12 +25,12 @@ class Line:
         self.leader = leader
         self.lead_reach = abs(leader.target - leader.position)
         for index, axis in enumerate(self.axes):
-            axis.led = bool(mask >> index & 1) and axis is not leader
-            self.joins[index] = False
+            self.reach[index] = abs(axis.target - axis.position) if mask >> index & 1 else 0
             self.error[index] = 0
-            self.reach[index] = abs(axis.target - axis.position)
+            self.joins[index] = False
+            axis.led = self.reach[index] > 0 and axis is not leader
             if axis.led:
-                axis.direction = 1 if axis.target >= axis.position else -1
+                axis.face(1 if axis.target > axis.position else -1)
         leader.line = self
         leader.aim(leader.target, floor)
 
@@ -47,7 +47,7 @@ class Line:
         over = self.leader.position == self.leader.target
         for axis in self.axes:
             if axis.led:
-                axis.awake = axis.hot
+                axis.cooling = True
                 axis.led = not over
                 axis.target = axis.position if over else axis.target
         if over:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from drillctl.execution.controller import Controller
 from drillctl.execution.homing import begin_homing, carry_homing
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
+from drillctl.kmd.queue import RequestBit
 from drillctl.ports import SAFE_IMAGE
 
 
@@ -24,13 +25,12 @@ def raise_fault(m: Controller, fault: int) -> None:
     """Latches the first fault and reacts to it; a further one meanwhile only stops, or drops where it must."""
     spec = FAULTS[fault]
     holds = spec.reaction == Reaction.MACHINE and m.machine.emergency_stop == "hold"
-    kept = spec.position_kept or holds
     known = m.position_known
     first = m.fault == Fault.NONE
     if first:
         m.fault = fault
-        m.fault_kept = known and kept
-    m.position_known = known and kept
+        m.fault_kept = True
+    _keep_position(m, spec.position_kept or (holds and _on_whole_steps(m)))
     _end_job(m)
     if holds:
         _latch_at_once(m, drop=False)
@@ -49,6 +49,17 @@ def carry_on(m: Controller) -> None:
     elif m.condition == Condition.RETURNING and carry_homing(m, raise_fault):
         m.position_known = True
         _latch_at_once(m, drop=False)
+
+
+def _keep_position(m: Controller, kept: bool) -> None:
+    """What was known and kept so far is known still, of the position and for the latched fault's report."""
+    m.position_known = m.position_known and kept
+    m.fault_kept = m.fault_kept and m.position_known
+
+
+def _on_whole_steps(m: Controller) -> bool:
+    """A winding stopped between two columns of a step stands where no count of steps says."""
+    return not any(axis.part and not axis.drive for axis in m.axes)
 
 
 def _end_job(m: Controller) -> None:
@@ -71,7 +82,8 @@ def _stopped(m: Controller) -> None:
         m.condition = Condition.RETURNING
         begin_homing(m)
         return
-    m.switched = 0
+    _keep_position(m, kept=True)  # a return cut short has lost it
+    m.switched = SAFE_IMAGE
     m.condition = Condition.LATCHED if m.fault else Condition.READY
 
 
@@ -112,7 +124,8 @@ def _resume(m: Controller) -> None:
 
 
 def _acknowledge(m: Controller) -> None:
-    if m.condition == Condition.LATCHED:
+    """For what was latched before: nobody has seen an emergency stop of this very tick."""
+    if m.condition == Condition.LATCHED and not m.served & RequestBit.ESTOP:
         m.fault = Fault.NONE
         m.fault_kept = False
         m.condition = Condition.READY

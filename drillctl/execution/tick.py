@@ -23,15 +23,20 @@ def tick(m: Controller) -> None:
         serve(m)
     if m.condition != LATCHED:
         guard(m)
-    if m.condition == READY and not m.busy and not start_next(m) and m.job:
+    starved = m.condition == READY and not m.busy and not start_next(m) and m.job
+    for axis in m.axes:
+        if axis.cooling:
+            axis.cool()
+    if starved:
         m.starved += 1
+        _put_out(m)  # a winding must not keep its 24 V for as long as the next command takes to come
         return
     m.running = m.command.sequence if m.busy else 0
     if m.busy and m.condition == READY:
         m.elapsed += 1
     moving = 0
     for axis in m.axes:
-        if axis.awake:
+        if axis.counting:
             moving += axis.interrupt()
     m.moving = moving
     if not moving:
@@ -39,9 +44,13 @@ def tick(m: Controller) -> None:
             carry_on(m)
         elif m.busy:
             finish(m)
+    _put_out(m)
+    m.tick += 1
+
+
+def _put_out(m: Controller) -> None:
     image = m.switched
     for axis in m.axes:
         image |= axis.bits
     m.image = image
     m.port.flush(image)
-    m.tick += 1

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from drillctl.generation.placing import Affine
 
 COLUMNS = ("file_x", "file_y", "machine_x", "machine_y")
+NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 MAX_BYTES = 1_000_000
 MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
 COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
@@ -123,12 +124,11 @@ def _row(line: str, where: str) -> list[float]:
 
 def _number(word: re.Match[str], what: str, where: str) -> float:
     place = f"{where}:{word.start() + 1}"
-    try:
-        value_mm = float(word.group())
-    except ValueError as error:
+    if not NUMBER.fullmatch(word.group()):
         hint = "; write a point, not a comma" if "," in word.group() else ""
-        raise AlignmentError(f"{place}: {what} {word.group()[:20]!r} is not a number{hint}") from error
-    if not abs(value_mm) <= MAX_MM:
+        raise AlignmentError(f"{place}: {what} {word.group()[:20]!r} is not a number{hint}")
+    value_mm = float(word.group())
+    if abs(value_mm) > MAX_MM:
         raise AlignmentError(f"{place}: {what} {word.group()[:20]} is not within {MAX_MM:.0f} mm")
     return value_mm
 

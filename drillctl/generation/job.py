@@ -1,24 +1,25 @@
 """A job: what is run on a machine, with all that is needed to tell a person about it.
 
-Rule: whatever is wrong with the input is found here, before a queue or a port exists. Called by desk.
+Rule: whatever is wrong with the input is found here, before a queue or a port exists. Called by desk and the verbs.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.drillfile import DrillFileError, read
+from drillctl.generation.drillfile import DrillFile, DrillFileError, read
 from drillctl.generation.errors import JobError
-from drillctl.generation.placing import Affine, Placing, transform
+from drillctl.generation.placing import Affine
 from drillctl.generation.program import board_program
-from drillctl.generation.worklist import WorkList, build, positioning_axes
-from drillctl.kmd import KmdError, Names, parse_program
+from drillctl.generation.wishes import Wishes
+from drillctl.generation.worklist import Group, WorkList, build, positioning_axes
+from drillctl.kmd import KmdError, Names, parse_program, to_text
 from drillctl.machine import Machine
 
 LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
-IDENTITY = Placing(origin="file")
+UNMOVED = Affine.of(np.eye(2))
 
 
 @dataclass(frozen=True)
@@ -38,34 +39,31 @@ class Job:
     name: str
     program: NDArray[np.void]
     machine: Machine
-    placed: Affine
     work: WorkList | None = None
-    warnings: tuple[str, ...] = field(default=())
+    warnings: tuple[str, ...] = ()
 
     @property
     def holes_total(self) -> int:
-        """Holes of the work list; for a queue, how often it lowers the head with a tag: never."""
+        """Holes of the work list; a queue written by hand has no list."""
         return 0 if self.work is None else len(self.work.steps)
 
     def made_hole(self, tool: int, tag: int, places: tuple[float, ...]) -> MadeHole:
         """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis."""
-        group = self._group(tag)
-        number, diameter_mm = (tool, None) if group is None else group
-        x_mm, y_mm = self._file_mm(places)
-        return MadeHole(number, diameter_mm, x_mm, y_mm)
-
-    def _group(self, tag: int) -> tuple[int, float | None] | None:
-        groups = self.work.groups if self.work else ()
-        return next(((g.number, g.diameter_mm) for g in groups if g.start < tag <= g.stop), None)
-
-    def _file_mm(self, places: tuple[float, ...]) -> tuple[float, float]:
         x, y = positioning_axes(self.machine)
         board_mm = [places[axis] / self.machine.axes[axis].steps_per_mm for axis in (x, y)]
-        file_mm = self.placed.inverse().apply(np.array([board_mm]))[0]
-        return float(file_mm[0]), float(file_mm[1])
+        group, placed = self._hole(tag)
+        x_mm, y_mm = placed.inverse().apply([board_mm])[0].tolist()
+        return MadeHole(group.number if group else tool, group.diameter_mm if group else None, x_mm, y_mm)
+
+    def _hole(self, tag: int) -> tuple[Group | None, Affine]:
+        """The tool group and the board of a hole by its number, as far as a work list knows it."""
+        if self.work is None or not 1 <= tag <= self.holes_total:
+            return None, UNMOVED
+        group = next(group for group in self.work.groups if group.start < tag <= group.stop)
+        return group, self.work.boards[self.work.hits.board[tag - 1]]
 
 
-def load_job(path: Path, machine: Machine, placing: Placing, fmt: str | None = None) -> Job:
+def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None) -> Job:
     """A drill file or (``.kmd``) a queue as a job. Raises JobError with one line a problem."""
     if path.suffix.lower() == ".kmd":
         return _queue_job(path, machine)
@@ -73,13 +71,34 @@ def load_job(path: Path, machine: Machine, placing: Placing, fmt: str | None = N
         drill_file = read(path, fmt=fmt)
     except DrillFileError as error:
         raise JobError([str(error)]) from error
-    extent = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
-    placed = transform(placing, extent)
-    work = build(drill_file, placed, machine)
-    warnings = [f"{path}:{w.line}: {w.text}" if w.line else f"{path}: {w.text}" for w in drill_file.warnings]
-    if drill_file.routs:
-        warnings.append(f"{path}: {drill_file.routs} milled cuts are not drilled")
-    return Job(path.name, board_program(work, machine), machine, placed, work, tuple(warnings))
+    work = build(drill_file, wishes, machine)
+    warnings = (*_file_warnings(path, drill_file), *_life_warnings(path, work))
+    return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
+
+
+def _file_warnings(path: Path, drill_file: DrillFile) -> list[str]:
+    told = [f"{path}:{w.line}: {w.text}" if w.line else f"{path}: {w.text}" for w in drill_file.warnings]
+    routs = drill_file.routs
+    return [*told, f"{path}: {routs} milled cuts are not drilled"] if routs else told
+
+
+def _life_warnings(path: Path, work: WorkList) -> list[str]:
+    """A line for each drill that will be blunt before its holes are made."""
+    told = []
+    for group in work.groups:
+        left = group.drill.hits_left if group.drill else None
+        if left is not None and group.stop - group.start > left:
+            holes = group.stop - group.start
+            told.append(f"{path}: tool T{group.number} makes {holes} holes; its drill is good for {left} more")
+    return told
+
+
+def queue_text(job: Job) -> str:
+    """A job as a ``.kmd`` queue, one command a line."""
+    names = names_of(job.machine)
+    lines = [f"# {job.name} on {job.machine.name}: {job.holes_total} holes"]
+    lines += [to_text(record, names) for record in job.program]
+    return "\n".join([*lines, ""])
 
 
 def names_of(machine: Machine) -> Names:
@@ -98,4 +117,4 @@ def _queue_job(path: Path, machine: Machine) -> Job:
         raise JobError([f"{path}: not UTF-8 text, so not a .kmd queue"]) from error
     except KmdError as error:
         raise JobError([str(error)]) from error
-    return Job(path.name, program, machine, transform(IDENTITY, np.zeros((1, 2))))
+    return Job(path.name, program, machine)

@@ -1,44 +1,61 @@
 """A work list as a program of KMD records: initialise, then tool by tool, hole by hole: go, down, up.
 
-Rule: built with numpy in one piece; a record's ``tag`` is its hole's number from 1. Called by job.py.
+Rule: built with numpy, a record's ``tag`` is its hole's number from 1; where there is backlash, a hole is always
+come to from below. Called by job.py.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.generation.strokes import Records, drill_stroke, record, spot_stroke
+from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import Group, WorkList, positioning_axes
 from drillctl.kmd import RECORD, Op
 from drillctl.kmd.commands import Flag
 from drillctl.machine import Machine
 
-PER_HOLE = 3
 
-
-def board_program(work: WorkList, machine: Machine) -> NDArray[np.void]:
-    """The program of a board, dtype RECORD: the base is machine zero; at the end the head is up and back at it."""
-    x, y = positioning_axes(machine)
+def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
+    """The program of a job, dtype RECORD: the base is machine zero; at the end the head is up and back at it."""
     spindle = dict(machine.outputs).get("spindle")
-    parts = [_record(Op.INICJALIZACJA), *_switch(spindle, 1)]
+    drill = drill_stroke(machine, wishes.peck_mm)
+    passes = [drill] if wishes.spot_mm is None else [spot_stroke(machine, wishes.spot_mm), drill]
+    parts = [record(Op.INICJALIZACJA), *_switch(spindle, 1)]
+    here = np.zeros(2, np.int64)
     for group in work.groups:
-        parts += [_record(Op.NARZEDZIE, [group.number]), _holes(work, group, x, y)]
-    parts += [*_switch(spindle, 0), _goto(np.zeros((1, 2), dtype=np.int64), x, y), _record(Op.KONIEC)]
+        parts.append(record(Op.NARZEDZIE, [group.number]))
+        for stroke in passes:
+            parts.append(_holes(work, group, stroke, here, machine))
+            here = work.steps[group.stop - 1]
+    parts += [*_switch(spindle, 0), _gotos(np.zeros((1, 2), np.int64), machine), record(Op.KONIEC)]
     program = np.concatenate(parts)
     program["sequence"] = np.arange(1, len(program) + 1)
     return program
 
 
-def _holes(work: WorkList, group: Group, x: int, y: int) -> NDArray[np.void]:
-    """(3 m,) records for the m holes of a tool."""
+def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
+    """The holes of a tool: to each a go (two where backlash is taken up), then the stroke."""
     steps = work.steps[group.start : group.stop]
-    records = np.zeros((len(steps), PER_HOLE), dtype=RECORD)
-    records[:, 0] = _goto(steps, x, y)
-    records["opcode"][:, 1] = Op.WIERTLO_DOL
-    records["opcode"][:, 2] = Op.WIERTLO_GORA
-    records["tag"] = np.arange(group.start + 1, group.stop + 1)[:, None]
-    return records.reshape(-1)
+    before = _before(steps, here, machine)
+    blocks = np.zeros((len(steps), len(stroke) + 2), dtype=RECORD)
+    blocks[:, 0] = _gotos(before, machine)
+    blocks[:, 1] = _gotos(steps, machine)
+    blocks[:, 2:] = stroke
+    blocks["tag"][:, 2:] = np.arange(group.start + 1, group.stop + 1)[:, None]
+    kept = np.ones(blocks.shape, bool)
+    kept[:, 0] = (before != steps).any(axis=1)
+    return blocks[kept]
 
 
-def _goto(steps: NDArray[np.int64], x: int, y: int) -> NDArray[np.void]:
+def _before(steps: NDArray[np.int64], here: NDArray[np.int64], machine: Machine) -> NDArray[np.int64]:
+    """Where to go first, so that the last motion of each axis is forward: (n, 2), the hole itself where it is so."""
+    backlash = np.array([machine.axes[axis].backlash_steps for axis in positioning_axes(machine)])
+    came_from = np.concatenate([here[None], steps[:-1]])
+    return steps - np.where(steps < came_from, backlash, 0)
+
+
+def _gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
+    x, y = positioning_axes(machine)
     records = np.zeros(len(steps), dtype=RECORD)
     records["opcode"] = Op.GOTO_X_Y
     records["flags"] = Flag.ABSOLUTE
@@ -47,12 +64,5 @@ def _goto(steps: NDArray[np.int64], x: int, y: int) -> NDArray[np.void]:
     return records
 
 
-def _record(op: Op, args: list[int] | None = None) -> NDArray[np.void]:
-    record = np.zeros(1, dtype=RECORD)
-    record["opcode"] = op
-    record["args"][0, : len(args or [])] = args or []
-    return record
-
-
-def _switch(bit: int | None, level: int) -> list[NDArray[np.void]]:
-    return [] if bit is None else [_record(Op.WYJSCIE, [bit, level])]
+def _switch(bit: int | None, level: int) -> list[Records]:
+    return [] if bit is None else [record(Op.WYJSCIE, [bit, level])]

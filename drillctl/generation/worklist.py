@@ -1,7 +1,7 @@
-"""The work list: what is drilled with which tool, where, in steps from the working base.
+"""The work list: what is drilled with which tool, where, in steps from the working base, in drilling order.
 
 Rule: holes that the machine can't reach are refused here, each by name, before anything moves. Slots become chains
-of holes. Called by job.py.
+of holes, panels become boards. Called by job.py.
 """
 
 from dataclasses import dataclass
@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.generation.drillfile import DrillFile
+from drillctl.generation.drills import Drill, drill_problems
 from drillctl.generation.errors import JobError
-from drillctl.generation.placing import Affine
-from drillctl.machine import Machine
+from drillctl.generation.order import TravelCost, plan_groups
+from drillctl.generation.placing import Affine, boards
+from drillctl.generation.wishes import Wishes
+from drillctl.machine import Machine, travel_table
 
 # A chain overlaps by half its drill: the waist left between two holes is then an eighth of the diameter.
 CHAIN_PITCH = 0.5
@@ -23,48 +26,55 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Group:
-    """The holes of one tool: ``start`` to ``stop`` of the work list."""
+    """The holes of one tool: ``start`` to ``stop`` of the work list, and the drill at hand that serves them."""
 
     number: int
     diameter_mm: float | None
     start: int
     stop: int
+    drill: Drill | None = None
 
 
 @dataclass(frozen=True, eq=False)
-class WorkList:
-    """Holes in drilling order, grouped by tool.
-
-    file_xy_mm (n, 2) as the file has them; steps (n, 2) X and Y from the working base; line (n,) of the file.
-    """
-
-    groups: tuple[Group, ...]
-    file_xy_mm: Floats
-    steps: Integers
-    line: Integers
-
-
-@dataclass(frozen=True, eq=False)
-class _Hits:
-    """Every place where a bit goes down, in file order: slots dissolved into chains."""
+class Hits:
+    """Every place where a bit goes down (n holes): file millimetres (n, 2), tool index, line of the file, board."""
 
     xy_mm: Floats
     tool: Integers
     line: Integers
+    board: Integers
+
+    def take(self, chosen: NDArray[np.intp] | NDArray[np.bool_]) -> "Hits":
+        """These holes, in this order."""
+        return Hits(self.xy_mm[chosen], self.tool[chosen], self.line[chosen], self.board[chosen])
 
 
-def build(drill_file: DrillFile, placed: Affine, machine: Machine) -> WorkList:
-    """The work list of a file on a machine. Raises JobError for a machine or holes that don't fit."""
-    x, y = positioning_axes(machine)
-    hits = _hits(drill_file)
-    if not len(hits.xy_mm):
-        raise JobError([f"{drill_file.name}: there is no hole to drill"])
-    order = np.argsort(hits.tool, kind="stable")
-    hits = _Hits(hits.xy_mm[order], hits.tool[order], hits.line[order])
-    scale = np.array([machine.axes[x].steps_per_mm, machine.axes[y].steps_per_mm])
-    steps = np.rint(placed.apply(hits.xy_mm) * scale).astype(np.int64)
-    _check_reach(drill_file, hits, steps, machine, (x, y))
-    return WorkList(_groups(drill_file, hits), hits.xy_mm, steps, hits.line)
+@dataclass(frozen=True, eq=False)
+class WorkList:
+    """Holes in drilling order, grouped by tool; ``steps`` (n, 2) are X and Y from the working base."""
+
+    groups: tuple[Group, ...]
+    hits: Hits
+    steps: Integers
+    boards: tuple[Affine, ...]
+
+
+def build(drill_file: DrillFile, wishes: Wishes, machine: Machine) -> WorkList:
+    """The work list of a file on a machine. Raises JobError for a machine, tools or holes that don't fit."""
+    axes = positioning_axes(machine)
+    extent_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
+    maps = boards(wishes.placing, extent_mm)
+    hits = _on_every_board(_chosen(drill_file, _hits(drill_file), wishes), len(maps))
+    hits = hits.take(np.argsort(hits.tool, kind="stable"))
+    scale = np.array([machine.axes[axis].steps_per_mm for axis in axes])
+    placed_mm = np.empty_like(hits.xy_mm)
+    for board, placed in enumerate(maps):
+        placed_mm[hits.board == board] = placed.apply(hits.xy_mm[hits.board == board])
+    steps = np.rint(placed_mm * scale).astype(np.int64)
+    _check_reach(drill_file, hits, steps, machine, axes)
+    groups = _groups(drill_file, hits, wishes)
+    order = _order(groups, steps, wishes.order, machine, axes)
+    return WorkList(groups, hits.take(order), steps[order], maps)
 
 
 def positioning_axes(machine: Machine) -> tuple[int, int]:
@@ -76,16 +86,15 @@ def positioning_axes(machine: Machine) -> tuple[int, int]:
     return x, y
 
 
-def _hits(drill_file: DrillFile) -> _Hits:
+def _hits(drill_file: DrillFile) -> Hits:
     """Holes and slot chains, merged in the order of the file."""
     chains = [_chain(drill_file, index) for index in range(len(drill_file.slot_mm))]
     counts = [len(chain) for chain in chains]
     at = np.concatenate([np.arange(len(drill_file.hole_xy_mm)) + 0.5, np.repeat(drill_file.slot_at, counts)])
-    order = np.argsort(at, kind="stable")
     xy_mm = np.concatenate([drill_file.hole_xy_mm, *chains])
-    tool = np.concatenate([drill_file.hole_tool, np.repeat(drill_file.slot_tool, counts)])
-    line = np.concatenate([drill_file.hole_line, np.repeat(drill_file.slot_line, counts)])
-    return _Hits(xy_mm[order], tool[order].astype(np.int64), line[order].astype(np.int64))
+    tool = np.concatenate([drill_file.hole_tool, np.repeat(drill_file.slot_tool, counts)]).astype(np.int64)
+    line = np.concatenate([drill_file.hole_line, np.repeat(drill_file.slot_line, counts)]).astype(np.int64)
+    return Hits(xy_mm, tool, line, np.zeros(len(tool), np.int64)).take(np.argsort(at, kind="stable"))
 
 
 def _chain(drill_file: DrillFile, index: int) -> Floats:
@@ -97,30 +106,77 @@ def _chain(drill_file: DrillFile, index: int) -> Floats:
     return start + along * (end - start)
 
 
-def _groups(drill_file: DrillFile, hits: _Hits) -> tuple[Group, ...]:
+def _chosen(drill_file: DrillFile, hits: Hits, wishes: Wishes) -> Hits:
+    """Without the tools to skip. Raises JobError for a skipped tool that is not there, or when nothing is left."""
+    numbers = np.array([tool.number for tool in drill_file.tools], np.int64)
+    unknown = wishes.skip_tools - set(numbers.tolist())
+    if unknown:
+        there = ", ".join(f"T{number}" for number in numbers.tolist())
+        raise JobError([f"--skip-tools: {drill_file.name} has no tool T{min(unknown)}; there are {there}"])
+    left = hits.take(~np.isin(numbers[hits.tool], list(wishes.skip_tools)) if len(numbers) else slice(None))
+    if not len(left.xy_mm):
+        raise JobError([f"{drill_file.name}: there is no hole to drill"])
+    return left
+
+
+def _on_every_board(hits: Hits, count: int) -> Hits:
+    repeated = hits.take(np.tile(np.arange(len(hits.tool)), count))
+    return Hits(repeated.xy_mm, repeated.tool, repeated.line, np.repeat(np.arange(count), len(hits.tool)))
+
+
+def _groups(drill_file: DrillFile, hits: Hits, wishes: Wishes) -> tuple[Group, ...]:
     used, starts = np.unique(hits.tool, return_index=True)
-    stops = [*starts[1:].tolist(), len(hits.tool)]
+    bounds = [*starts.tolist(), len(hits.tool)]
     tools = [drill_file.tools[index] for index in used.tolist()]
-    return tuple(Group(t.number, t.diameter_mm, a, b) for t, a, b in zip(tools, starts.tolist(), stops, strict=True))
+    drills: list[Drill | None] = [None] * len(tools)
+    if wishes.drills is not None:
+        pairs = [(tool.number, tool.diameter_mm) for tool in tools]
+        if problems := list(drill_problems(wishes.drills, pairs, drill_file.name)):
+            raise JobError(problems)
+        drills = [wishes.drills.serving(tool.diameter_mm or 0.0) for tool in tools]
+    return tuple(
+        Group(tool.number, tool.diameter_mm, bounds[index], bounds[index + 1], drills[index])
+        for index, tool in enumerate(tools)
+    )
+
+
+def _order(
+    groups: tuple[Group, ...], steps: Integers, how: str, machine: Machine, axes: tuple[int, int]
+) -> NDArray[np.intp]:
+    """Rows of ``steps`` in drilling order; the head starts at the working base."""
+    tables = [_travel(machine, axis, int(np.ptp([0, *steps[:, k]]))) for k, axis in enumerate(axes)]
+    parts = [steps[group.start : group.stop] for group in groups]
+    orders = plan_groups(parts, TravelCost(*tables), how, np.zeros(2, np.int64))
+    return np.concatenate([group.start + order for group, order in zip(groups, orders, strict=True)])
+
+
+def _travel(machine: Machine, axis: int, longest_steps: int) -> Integers:
+    table = machine.axes[axis]
+    return travel_table(table.ramp, longest_steps, columns_per_step=table.columns_per_step)
 
 
 def _check_reach(
-    drill_file: DrillFile, hits: _Hits, steps: Integers, machine: Machine, axes: tuple[int, int]
+    drill_file: DrillFile, hits: Hits, steps: Integers, machine: Machine, axes: tuple[int, int]
 ) -> None:
-    reach = np.array([machine.reach(axis) for axis in axes])
+    reach = np.array([_reach(machine, axis) for axis in axes])
     outside = (steps < reach[:, 0]) | (steps > reach[:, 1])
     problems = []
     for hole in np.flatnonzero(outside.any(axis=1)).tolist():
-        xy_mm = hits.xy_mm[hole]
-        told = [
-            f"{'xy'[k].upper()} {steps[hole, k]} steps is outside {reach[k, 0]}..{reach[k, 1]}"
+        told = "; ".join(
+            f"{'XY'[k]} {steps[hole, k]} steps is outside {reach[k, 0]}..{reach[k, 1]}"
             for k in (0, 1)
             if outside[hole, k]
-        ]
-        tool = drill_file.tools[int(hits.tool[hole])].number
+        )
+        x_mm, y_mm = hits.xy_mm[hole]
         problems.append(
-            f"{drill_file.name}:{hits.line[hole]}: hole of tool T{tool} at X{xy_mm[0]:.4f} Y{xy_mm[1]:.4f} mm "
-            f"is out of reach of {machine.name}: {'; '.join(told)}"
+            f"{drill_file.name}:{hits.line[hole]}: hole of tool T{drill_file.tools[hits.tool[hole]].number} "
+            f"at X{x_mm:.4f} Y{y_mm:.4f} mm is out of reach of {machine.name}: {told}"
         )
     if problems:
         raise JobError(problems)
+
+
+def _reach(machine: Machine, axis: int) -> tuple[int, int]:
+    """Short of the limit sensors, and with room to come from below where there is backlash to take up."""
+    low, high = machine.reach(axis)
+    return low + machine.axes[axis].backlash_steps, high

@@ -2,7 +2,8 @@
 
     model.py    a machine as everyone else sees it
     phase.py    phase tables         ramp.py   the automaton and its one rule       motor.py   what pulls a rotor
-    config.py   machine files        library.py  where all these are found          hazards.py valid but dangerous
+    config.py   machine files        shape.py   what may stand in one       parts.py   the tables that one names
+    library.py  where all these are found                                   hazards.py valid but dangerous
     travel.py   what follows from a ramp alone
     source.py   a TOML file that can say on which line a fault stands               errors.py  TableError
 """

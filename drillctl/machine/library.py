@@ -3,7 +3,7 @@
 Rule: the first that has the file wins; a name never leaves its folder. Called by the wiring and the CLI.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,13 +11,13 @@ from drillctl.machine.config import parse_machine
 from drillctl.machine.errors import TableError
 from drillctl.machine.hazards import phase_hazards
 from drillctl.machine.model import Machine
-from drillctl.machine.motor import Motor, read_motor
-from drillctl.machine.phase import PhaseTable, parse_phase
-from drillctl.machine.ramp import RampTable, parse_ramp
+from drillctl.machine.motor import parse_motor
+from drillctl.machine.parts import Parts, find_table
+from drillctl.machine.phase import parse_phase
+from drillctl.machine.ramp import parse_ramp
 from drillctl.machine.source import Source
 
 _PACKAGE = Path(__file__).resolve().parent.parent
-Place = tuple[str | int, ...]
 
 
 def shipped_tables() -> Path:
@@ -52,67 +52,55 @@ class Library:
     def machine(self, name_or_file: str) -> Machine:
         """A machine by its name, or by its file's path (anything with a slash or ``.toml``). Raises TableError."""
         if "/" in name_or_file or name_or_file.endswith(".toml"):
-            file = Path(name_or_file)
-            return Library((_tables_beside(file), *self.folders))._parse(file)
-        found = self._find("machines", name_or_file)
+            return self._machine_of(Source.read(Path(name_or_file)))
+        found = find_table(self.folders, "machines", name_or_file)
         if found is None:
             known = ", ".join(self.machine_names())
             raise TableError(name_or_file, f"no machine of this name; there are {known}")
-        return self._parse(found)
+        return self._parse(Source.read(found))
 
     def check(self, file: Path) -> list[str]:
         """Reads any table; returns its hazards as sentences. Raises TableError where it can't be used."""
         source = Source.read(file)
-        if "[[wire]]" in source.text:
-            table = parse_phase(source)
-            return phase_hazards(table, self._motor(None, table, source, ("name",)))
-        if "[[state]]" in source.text:
-            parse_ramp(source)
-            return []
-        if "[[axis]]" in source.text:
-            return machine_hazards(self.machine(str(file.absolute())))
-        if "[windings]" in source.text or "columns_per_pulse" in source.text:
-            read_motor(file)
-            return []
-        reason = "neither a phase table, a ramp, a motor nor a machine: no [[wire]], [[state]] or [[axis]]"
-        raise TableError(file, reason)
+        written = source.tree()
+        for key, hazards in _KINDS.items():
+            if key in written:
+                return hazards(self, source)
+        kinds = "a phase table has [[wire]], a ramp [[state]], a motor [windings], a machine [[axis]]"
+        raise TableError(file, f"no table of this program: {kinds}")
 
-    def _parse(self, file: Path) -> Machine:
-        shipped = shipped_tables() in file.resolve().parents
-        return parse_machine(Source.read(file), shipped, self._phase, self._ramp, self._motor)
+    def _machine_of(self, source: Source) -> Machine:
+        """A machine given by its file: the tables beside it come first."""
+        return Library((_tables_beside(source.file), *self.folders))._parse(source)
 
-    def _find(self, kind: str, name: str) -> Path | None:
-        if Path(name).name != name:
-            return None
-        files: Iterator[Path] = (folder / kind / f"{name}.toml" for folder in self.folders)
-        return next((file for file in files if file.is_file()), None)
+    def _parse(self, source: Source) -> Machine:
+        shipped = shipped_tables() in source.file.resolve().parents
+        return parse_machine(source, shipped, Parts(self.folders, source.file))
 
-    def _found(self, kind: str, name: str, source: Source, place: Place) -> Path:
-        file = self._find(kind, name)
-        if file is None:
-            raise source.error(f"no {kind} table is named {name!r}", *place)
-        return file
+    def _phase_hazards(self, source: Source) -> list[str]:
+        table = parse_phase(source)
+        return phase_hazards(table, Parts(self.folders, source.file).motor(None, table, source, ("name",)))
 
-    def _phase(self, name: str, source: Source, place: Place) -> PhaseTable:
-        return parse_phase(Source.read(self._found("phase", name, source, place)))
+    def _machine_hazards(self, source: Source) -> list[str]:
+        return machine_hazards(self._machine_of(source))
 
-    def _ramp(self, name: str, source: Source, place: Place) -> RampTable:
-        return parse_ramp(Source.read(self._found("ramp", name, source, place)))
+    def _ramp_hazards(self, source: Source) -> list[str]:
+        parse_ramp(source)
+        return []
 
-    def _motor(self, name: str | None, table: PhaseTable, source: Source, place: Place) -> Motor:
-        """The motor named, or the one whose windings are just the wires of the table, forcing wires apart."""
-        wires = {wire.name for wire in table.wires if not wire.forcing}
-        if name is not None:
-            motor = read_motor(self._found("motor", name, source, place))
-            if not motor.wire_names() <= wires:
-                missing = ", ".join(sorted(motor.wire_names() - wires))
-                raise source.error(f"motor {name} needs wires {missing}; table {table.name} has none", *place)
-            return motor
-        for folder in self.folders:
-            for file in sorted((folder / "motor").glob("*.toml")):
-                if (motor := read_motor(file)).wire_names() == wires:
-                    return motor
-        raise source.error(f"no motor has just the wires {', '.join(sorted(wires))}; name one", *place)
+    def _motor_hazards(self, source: Source) -> list[str]:
+        parse_motor(source)
+        return []
+
+
+# What a table is, by a key that only its kind has.
+_KINDS: Mapping[str, Callable[[Library, Source], list[str]]] = {
+    "wire": Library._phase_hazards,
+    "state": Library._ramp_hazards,
+    "axis": Library._machine_hazards,
+    "windings": Library._motor_hazards,
+    "pulse": Library._motor_hazards,
+}
 
 
 def _tables_beside(machine_file: Path) -> Path:

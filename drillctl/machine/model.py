@@ -32,6 +32,7 @@ class AxisTable:
     start_steps: int
     invert: bool
     wire_bits: tuple[int, ...]
+    backlash_steps: int = 0
 
     @property
     def steps_per_mm(self) -> float:
@@ -94,8 +95,13 @@ class Machine:
     drill_axes: tuple[int, ...]
     drill_down_steps: int | None  # None: down to the lower sensor
     board_surface: tuple[int | None, ...]  # by axis: where a drilling axis meets the board
-    file: str
+    files: tuple[str, ...]  # that it was read from, its own first
     shipped: bool
+
+    @property
+    def file(self) -> str:
+        """The machine's own file."""
+        return self.files[0]
 
     @property
     def axis_names(self) -> tuple[str, ...]:
@@ -143,5 +149,5 @@ class Machine:
     @property
     def digest(self) -> str:
         """16 hex digits over all that decides a run, the tick rate and the files' places left out."""
-        told = replace(self, file="", shipped=False, description="", tick_hz=0)
+        told = replace(self, files=(), shipped=False, description="", tick_hz=0)
         return hashlib.sha256(repr(told).encode()).hexdigest()[:16]

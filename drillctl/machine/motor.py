@@ -6,8 +6,7 @@ electrical cycle. Read by config.py; used by hazards.py and by plant/rotor.
 
 from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, radians, sin
-from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import msgspec
 
@@ -21,7 +20,7 @@ Count = Annotated[int, msgspec.Meta(ge=1, le=400)]
 
 class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     name: Name
-    windings: dict[str, Degrees] = {}
+    windings: dict[str, Any] = {}  # of Degrees
     columns_per_cycle: Count | None = None
     rests_per_cycle: Count | None = None
     zero_degrees: Degrees = 0
@@ -64,22 +63,18 @@ class Motor:
         return 180 if angle == -180 else angle
 
 
-def read_motor(file: Path) -> Motor:
-    """Reads and checks a motor file. Raises TableError."""
-    source = Source.read(file)
+def parse_motor(source: Source) -> Motor:
+    """A motor from its file's text: a stepper's windings or a drive's pulse, never both. Raises TableError."""
     raw = source.records(_File)
-    if raw.pulse and raw.direction and raw.columns_per_pulse and not raw.windings:
+    drive = (raw.pulse, raw.direction, raw.columns_per_pulse)
+    stepper = (raw.windings, raw.columns_per_cycle, raw.rests_per_cycle)
+    if raw.pulse and raw.direction and raw.columns_per_pulse and not any(stepper):
         return Motor(raw.name, (), raw.columns_per_pulse, 1, 0, raw.pulse, raw.direction)
-    if len(raw.windings) < 2 or not raw.columns_per_cycle or not raw.rests_per_cycle or raw.pulse:
-        reason = (
-            "a motor has either [windings] with columns_per_cycle and rests_per_cycle, "
-            "or pulse, direction and columns_per_pulse"
-        )
-        raise source.error(reason, "name")
-    return Motor(
-        raw.name,
-        tuple(raw.windings.items()),
-        raw.columns_per_cycle,
-        raw.rests_per_cycle,
-        raw.zero_degrees,
+    if len(raw.windings) > 1 and raw.columns_per_cycle and raw.rests_per_cycle and not any(drive):
+        windings = tuple(source.numbers(raw.windings, Degrees, "windings").items())
+        return Motor(raw.name, windings, raw.columns_per_cycle, raw.rests_per_cycle, raw.zero_degrees)
+    reason = (
+        "a motor has either [windings] with columns_per_cycle and rests_per_cycle, "
+        "or pulse, direction and columns_per_pulse"
     )
+    raise source.error(reason, "name")

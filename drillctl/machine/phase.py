@@ -4,6 +4,7 @@ Rule: a table is data; a wire above the table's normal voltage is a forcing wire
 Read by config.py for a machine's axes, by hazards.py for warnings, by execution/axis for its columns.
 """
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -14,7 +15,8 @@ from drillctl.machine.source import Source
 
 LONGEST_TABLE = 96
 Volts = Annotated[float, msgspec.Meta(gt=0, le=60)]
-Name = Annotated[str, msgspec.Meta(min_length=1, max_length=40, pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")]
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
+Name = Annotated[str, msgspec.Meta(min_length=1, max_length=40, pattern=rf"^{NAME.pattern}\Z")]
 
 
 class _Row(msgspec.Struct, forbid_unknown_fields=True, frozen=True):

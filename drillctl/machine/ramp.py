@@ -6,6 +6,7 @@ The rows are kept so that ``interval[state]`` works for a signed state: row -1 i
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Annotated
 
@@ -16,8 +17,9 @@ from drillctl.machine.source import Source
 
 MOST_STATES = 64
 LONGEST_INTERVAL = 100_000
+LONGEST_DISTANCE = 1000  # the proof that every move lands exactly walks through all of them
 Interval = Annotated[int, msgspec.Meta(ge=1, le=LONGEST_INTERVAL)]
-Distance = Annotated[int, msgspec.Meta(ge=-1_000_000, le=1_000_000)]
+Distance = Annotated[int, msgspec.Meta(ge=-LONGEST_DISTANCE, le=LONGEST_DISTANCE)]
 
 
 class _Row(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -67,14 +69,8 @@ class RampTable:
         After braking there is no accelerating until state 0; under a floor the state rises no further
         once its own interval is not above the floor.
         """
-        direction = 1 if steps >= 0 else -1
-        state, braked = 0, False
-        for to_go in range(abs(steps) - 1, -1, -1):
+        for _, state, _ in self._course(steps, floor_ticks):
             yield max(self.interval[state], floor_ticks), state
-            may_rise = not braked and self.interval[state] > floor_ticks
-            after = self.after_step(state, direction, to_go, may_rise)
-            braked = after != 0 and (braked or abs(after) < abs(state))
-            state = after
 
     def straight_from(self) -> int:
         """From this distance on, one step more is one cruising interval more: head and tail don't touch."""
@@ -86,13 +82,34 @@ class RampTable:
         Tried: every distance up to where moves only grow by cruising steps, both ways, and under every floor
         that caps the automaton at a lower state, so that feeds and creeping land exactly too.
         """
-        for floor_ticks in (0, *sorted(set(self.interval))):
+        for direction, floor_ticks in product((1, -1), (0, *sorted(set(self.interval)))):
+            proven: set[tuple[int, int, bool]] = set()
             for distance in range(1, self.straight_from() + 2):
-                for steps in (distance, -distance):
-                    *_, (_, state) = self.walk(steps, floor_ticks)
-                    if abs(state) > 1:
-                        return state, steps
+                state = self._last_state(direction * distance, floor_ticks, proven)
+                if abs(state) > 1:
+                    return state, direction * distance
         return None
+
+    def _course(self, steps: int, floor_ticks: int) -> Iterator[tuple[int, int, bool]]:
+        """For each step of a move from rest: (steps to go after it, state in which it is made, braking begun)."""
+        direction = 1 if steps >= 0 else -1
+        state, braked = 0, False
+        for to_go in range(abs(steps) - 1, -1, -1):
+            yield to_go, state, braked
+            may_rise = not braked and self.interval[state] > floor_ticks
+            after = self.after_step(state, direction, to_go, may_rise)
+            braked = after != 0 and (braked or abs(after) < abs(state))
+            state = after
+
+    def _last_state(self, steps: int, floor_ticks: int, proven: set[tuple[int, int, bool]]) -> int:
+        """The state of a move's last step; 0 once it goes on as an earlier move of its direction, proven to land, did."""
+        state = 0
+        for place in self._course(steps, floor_ticks):
+            if place in proven:
+                return 0
+            proven.add(place)
+            state = place[1]
+        return state
 
 
 def read_ramp(file: Path) -> RampTable:
@@ -103,12 +120,10 @@ def read_ramp(file: Path) -> RampTable:
 def parse_ramp(source: Source) -> RampTable:
     """As ``read_ramp``, for text that is already at hand. Every distance must be landed on exactly."""
     raw = source.records(_File)
-    rows = {row.state: index for index, row in enumerate(raw.state)}
-    top = max(rows)
-    if sorted(rows) != list(range(-top, top + 1)) or len(rows) != len(raw.state):
-        raise source.error(f"states must be -{top} to {top}, each once", "state", 0)
     for index, row in enumerate(raw.state):
         _check_row(source, index, row)
+    rows = _rows_by_state(source, raw)
+    top = max(rows)
     order = [raw.state[rows[state]] for state in (*range(top + 1), *range(-top, 0))]
     ramp = RampTable(
         raw.name,
@@ -123,6 +138,20 @@ def parse_ramp(source: Source) -> RampTable:
         reason = f"state {state}: a move of {steps} steps is not landed on exactly; brake earlier"
         raise source.error(reason, "state", rows[state], "brake")
     return ramp
+
+
+def _rows_by_state(source: Source, raw: _File) -> dict[int, int]:
+    """The index of each state's row; every state from -n to n must have just one."""
+    rows: dict[int, int] = {}
+    for index, row in enumerate(raw.state):
+        if row.state in rows:
+            raise source.error(f"state {row.state}: a second row of this state", "state", index, "state")
+        rows[row.state] = index
+    top = max(map(abs, rows))
+    if missing := [state for state in range(-top, top + 1) if state not in rows]:
+        reason = f"no row for state {', '.join(map(str, missing))}; a ramp has all from {-top} to {top}"
+        raise source.error(reason, "state", 0)
+    return rows
 
 
 def _check_row(source: Source, index: int, row: _Row) -> None:

@@ -6,9 +6,10 @@ Called by phase.py, ramp.py, motor.py and config.py.
 
 import re
 import tomllib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -18,9 +19,16 @@ LARGEST_TABLE_BYTES = 256 * 1024
 RecordT = TypeVar("RecordT", bound=msgspec.Struct)
 
 _HEADER = re.compile(r"\s*\[\[?\s*([^\]]+?)\s*\]")
-_KEY = re.compile(r"\s*(?:\"([^\"]+)\"|([A-Za-z0-9_-]+))\s*=")
+_KEY = re.compile(r"\s*(?:\"([^\"]+)\"|'([^']+)'|([A-Za-z0-9_-]+))\s*=")
 _AT = re.compile(r"(.*?) - at `\$\.?(.*)`$", re.S)
-_TOML_LINE = re.compile(r"(.*) \(at line (\d+), column \d+\)$")
+_TOML_LINE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)$", re.S)
+_UNKNOWN = re.compile(r"Object contains unknown field `(.+)`", re.S)
+# What msgspec says, in an instructor's words; the rest of its messages are plain enough.
+_PLAINLY = (
+    (_UNKNOWN, r"unknown key \1"),
+    (re.compile(r"Object missing required field `(.+)`"), r"\1 is missing"),
+    (re.compile(r"Expected `str` matching regex .*", re.S), "a name is letters, digits, - and _, no - or _ first"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,53 +42,89 @@ class Source:
     def read(cls, file: Path) -> "Source":
         """Reads a file. Raises TableError where it can't be opened, is too large or is not UTF-8."""
         try:
-            if file.stat().st_size > LARGEST_TABLE_BYTES:
-                raise TableError(file, f"larger than {LARGEST_TABLE_BYTES // 1024} KiB: not a table")
-            return cls(file, file.read_text("utf-8"))
+            with file.open("rb") as stream:
+                data = stream.read(LARGEST_TABLE_BYTES + 1)  # no more, whatever the path stands for
         except OSError as error:
             raise TableError(file, f"can't be read: {error.strerror}") from error
+        if len(data) > LARGEST_TABLE_BYTES:
+            raise TableError(file, f"larger than {LARGEST_TABLE_BYTES // 1024} KiB: not a table")
+        try:
+            return cls(file, data.decode("utf-8-sig"))
         except UnicodeDecodeError as error:
-            raise TableError(file, "not UTF-8 text, so not a table") from error
+            line = data.count(b"\n", 0, error.start) + 1
+            raise TableError(file, "not UTF-8 text, so not a table", line) from error
+
+    def tree(self) -> dict[str, Any]:
+        """The file as plain tables, lists and values. Raises TableError for what is not TOML."""
+        try:
+            return tomllib.loads(self.text)
+        except RecursionError as error:
+            raise TableError(self.file, "not TOML: nested too deeply") from error
+        except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
+            found = _TOML_LINE.match(str(error))
+            reason = found[1] if found else str(error)
+            line = int(found[2] or self.text.count("\n") + 1) if found else None
+            raise TableError(self.file, f"not TOML: {reason}", line) from error
 
     def records(self, shape: type[RecordT]) -> RecordT:
         """The file as a record of the given shape. Raises TableError for bad TOML, unknown keys, wrong types."""
         try:
-            return msgspec.convert(tomllib.loads(self.text), shape)
-        except tomllib.TOMLDecodeError as error:
-            found = _TOML_LINE.match(str(error))
-            reason, line = (found[1], int(found[2])) if found else (str(error), None)
-            raise TableError(self.file, f"not TOML: {reason}", line) from error
+            return msgspec.convert(self.tree(), shape)
         except msgspec.ValidationError as error:
             raise self._shape_error(str(error)) from error
+
+    def numbers(self, table: Mapping[str, Any], kind: Any, *place: str) -> dict[str, int]:
+        """A table of free keys, each value checked to be of ``kind``. Raises TableError on the line of its key."""
+        checked = {}
+        for key, value in table.items():
+            try:
+                checked[key] = msgspec.convert(value, kind)
+            except msgspec.ValidationError as error:
+                raise self.error(f'{place[-1]}: "{key}": {_plainly(str(error))}', *place, key) from error
+        return checked
 
     def error(self, reason: str, *place: str | int) -> TableError:
         """A TableError at a place such as ``"state", 2, "brake"``: the key in the third ``[[state]]``."""
         return TableError(self.file, reason, self.line_of(*place))
 
     def line_of(self, *place: str | int) -> int | None:
-        """The line, from 1, where a place stands; the nearest enclosing header where the key is not written."""
+        """The line, from 1, where a place stands; where its key is not written, the nearest enclosing one."""
         index = next((part for part in place if isinstance(part, int)), 0)
         names = [part for part in place if isinstance(part, str)]
-        header, seen, best = "", -1, None
-        for number, line in enumerate(self.text.splitlines(), start=1):
-            if found := _HEADER.match(line):
-                header = found[1]
-                seen += header == names[0]
-                if header == names[0] and seen == index:
-                    best = number
-            elif found := _KEY.match(line):
-                key = found[1] or found[2]
-                if names == [key] and not header:
-                    return number
-                if header == names[0] and seen == index and key == names[-1]:
-                    return number
+        seen, best = -1, None
+        for number, header, key in _entries(self.text):
+            seen += key is None and header == names[0]
+            inside = (header == names[0] and seen == index) or header in {f"{names[0]}.{name}" for name in names[1:]}
+            within = names[1:] if inside else names[:1] if not header else []
+            if key in within or (inside and key is None):
+                best = number
+            if key in within and key == names[-1]:
+                return number
         return best
 
     def _shape_error(self, message: str) -> TableError:
         found = _AT.match(message)
         reason, path = (found[1], found[2]) if found else (message, "")
         place = [int(p) if p.isdigit() else p for p in re.split(r"[.\[\]]+", path) if p and p != "..."]
-        unknown = re.search(r"unknown field `(.+)`", reason)
+        unknown = _UNKNOWN.search(reason)
         line = self.line_of(*place, *([unknown[1]] if unknown else [])) if place or unknown else None
         where = f"{path}: " if path else ""
-        return TableError(self.file, f"{where}{reason[:1].lower()}{reason[1:].replace('`', '')}", line)
+        return TableError(self.file, f"{where}{_plainly(reason)}", line)
+
+
+def _entries(text: str) -> Iterator[tuple[int, str, str | None]]:
+    """Headers and keys of a TOML text: (line from 1, the header it stands under, key or None for the header)."""
+    header = ""
+    for number, line in enumerate(text.split("\n"), start=1):
+        if found := _HEADER.match(line):
+            header = found[1]
+            yield number, header, None
+        elif found := _KEY.match(line):
+            yield number, header, found[1] or found[2] or found[3]
+
+
+def _plainly(reason: str) -> str:
+    for pattern, words in _PLAINLY:
+        if found := pattern.fullmatch(reason):
+            return found.expand(words)
+    return f"{reason[:1].lower()}{reason[1:].replace('`', '')}"

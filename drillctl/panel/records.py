@@ -1,7 +1,7 @@
 """What comes up to a person: how far a job is, and how it ended. Plain records; ``as_dict`` is the JSON form."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 
@@ -26,6 +26,10 @@ class FaultReport:
     cause: str
     remedy: str
     position: str  # "kept" or "lost"
+
+    def as_dict(self) -> dict[str, Any]:
+        """As it stands in JSON."""
+        return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +57,7 @@ class Outcome:
         return self.ticks / self.tick_hz
 
     def as_dict(self) -> dict[str, Any]:
-        """The object that ``--json`` prints."""
+        """The object that ``run --json`` prints."""
         fault = self.fault
         return {
             "machine": self.machine,
@@ -69,5 +73,50 @@ class Outcome:
             "late": {"count": self.late_count, "greatest_ms": self.late_greatest_ms},
             "starved": self.starved,
             "interrupted": self.interrupted,
-            "fault": fault and {name: getattr(fault, name) for name in FaultReport.__slots__},
+            "fault": fault and fault.as_dict(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class ToolEstimate:
+    """One tool's share of a job: its holes, and the ticks from its change to the next."""
+
+    number: int
+    diameter_mm: float | None
+    holes: int
+    ticks: int
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What a job will take. Exact on the ideal plant from the machine file's start; the operator's waits apart."""
+
+    machine: str
+    holes_total: int
+    ticks: int
+    tick_hz: int
+    tools: tuple[ToolEstimate, ...]
+    exact: bool
+    fault: FaultReport | None
+
+    def as_dict(self) -> dict[str, Any]:
+        """The object that ``estimate --json`` prints."""
+        return {
+            "machine": self.machine,
+            "holes_total": self.holes_total,
+            "ticks": self.ticks,
+            "tick_hz": self.tick_hz,
+            "machine_seconds": self.ticks / self.tick_hz,
+            "exact": self.exact,
+            "tools": [
+                {
+                    "number": tool.number,
+                    "diameter_mm": tool.diameter_mm,
+                    "holes": tool.holes,
+                    "ticks": tool.ticks,
+                    "machine_seconds": tool.ticks / self.tick_hz,
+                }
+                for tool in self.tools
+            ],
+            "fault": self.fault and self.fault.as_dict(),
         }

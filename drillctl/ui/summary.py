@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from drillctl.panel import Outcome
+from drillctl.panel import Estimate, Outcome
 from drillctl.ui.progress import clock
 
 
@@ -18,6 +18,20 @@ def summary_lines(outcome: Outcome) -> list[str]:
         lines += [f"FAULT {fault.name}: {fault.cause}", f"  position {fault.position}", f"  remedy: {fault.remedy}"]
     if outcome.lost_steps and any(outcome.lost_steps.values()):
         lines.append(f"WARNING: lost steps: {_by_axis(outcome.lost_steps)}")
+    return lines
+
+
+def estimate_lines(told: Estimate) -> list[str]:
+    """The lines that ``drillctl estimate`` prints."""
+    about = "" if told.exact else "about "
+    holes = f"{told.holes_total} holes, " if told.holes_total else ""
+    seconds = told.ticks / told.tick_hz
+    lines = [f"{told.machine}: {holes}{about}{told.ticks} ticks at {told.tick_hz} Hz = {clock(seconds)} of machine time"]
+    for tool in told.tools:
+        diameter = "?" if tool.diameter_mm is None else f"{tool.diameter_mm:.3f}"
+        lines.append(f"  T{tool.number:<4} {diameter:>7} mm  {tool.holes:>6} holes  {clock(tool.ticks / told.tick_hz):>8}")
+    if told.fault:
+        lines.append(f"it would end in FAULT {told.fault.name}: {told.fault.cause}")
     return lines
 
 

@@ -110,7 +110,8 @@ def _checked(
     """The same with its warnings; a format under which many holes overlap is doubted."""
     diameter = np.array([tool.diameter_mm or 0.0 for tool in drill_file.tools] or [0.0])
     overlapping, duplicate = meetings(drill_file.hole_xy_mm, diameter[drill_file.hole_tool])
-    if found.runner_up is None and len(overlapping) > checks.DOUBTFUL_SHARE * len(drill_file.hole_xy_mm):
+    crowded = len(overlapping) > checks.DOUBTFUL_SHARE * len(drill_file.hole_xy_mm)
+    if crowded and found.runner_up is None and not found.by_hand:
         found = doubted(machine, found)
     mm_per_unit = MM_PER_UNIT[found.choice.units]
     warnings = [

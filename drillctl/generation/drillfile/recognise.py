@@ -39,13 +39,15 @@ DIALECTS = {
 
 @dataclass(frozen=True)
 class Recognition:
-    """The chosen format, how sure (0 to 1), the next best, why, and what a person should know."""
+    """The chosen format, how sure (0 to 1), the next best, why, what a person should know, and whether a person
+    settled it by hand."""
 
     choice: FormatChoice
     confidence: float
     runner_up: FormatChoice | None
     reason: str
     remarks: tuple[Remark, ...] = ()
+    by_hand: bool = False
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,7 @@ def parse_option(text: str) -> FormatChoice:
 def recognise(machine: Machine, option: FormatChoice | None) -> Recognition:
     """The format of a program that has run; option is the one a person settled on."""
     if option:
-        return Recognition(option, 1.0, None, f"set by hand: {option}")
+        return Recognition(option, 1.0, None, f"set by hand: {option}", by_hand=True)
     sample = take_sample(machine)
     contradiction = _zeros_contradicted(machine.facts, sample.digits)
     scored = _scored(machine.facts, sample, contradiction is not None)

@@ -60,8 +60,8 @@ class Rows:
         self._pattern_start, self._pattern = self._count, None
 
     def end_pattern(self) -> None:
-        """M01: the pattern is complete. Without M25 it is only a stop for the operator."""
-        if self._pattern_start is not None:
+        """M01: the pattern is complete. Without M25, or a second time, it is only a stop for the operator."""
+        if self._pattern_start is not None and self._pattern is None:
             self._pattern = self.array()[self._pattern_start :].copy()
 
     def repeat_pattern(self, count: int, offset: Floats, line: int) -> None:

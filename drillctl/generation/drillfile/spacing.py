@@ -14,7 +14,7 @@ from .model import Floats, Integers
 
 TOUCH_MM = 0.002  # holes that only touch do not overlap; files round to about this
 SAME_MM = 1e-6
-LAG_LIMIT = 64  # neighbours looked at within one crowded cell; more cannot change a verdict
+LAG_LIMIT = 24  # neighbours looked at within one cell: more holes of one class cannot lie there without overlap
 
 
 def meetings(xy_mm: Floats, diameter_mm: Floats) -> tuple[Integers, Integers]:

@@ -1,4 +1,4 @@
-"""Shortening a path by small repairs until none of them helps any more: 2-opt and Or-opt.
+"""Shortening a path by small repairs, 2-opt and Or-opt, until no hole that was touched shows another.
 
 Rule: a repair is made only if it saves ticks, so the path never gets longer, and the search ends.
 Each repair takes out the way between a hole `a` and the hole `b` beside it and joins `a` to a near hole `c`
@@ -81,7 +81,6 @@ class Improver:
     def _or_opt(self, a: int, b: int, c: int, side: int, gain: int) -> int:
         """Take out the piece a..e, one to three holes leading away from b, and put it beside c, a next to c."""
         order, place, ticks = self.path.order, self.path.place, self.ticks
-        gaps = [(d, ticks(c, d)) for d in (order[place[c] + 1], order[place[c] - 1])]
         for far in range(place[a], place[a] - LONGEST_PIECE * side, -side):
             e = order[far]
             if e == c or e == self.end:
@@ -90,8 +89,8 @@ class Improver:
             freed = gain + ticks(e, f) - ticks(b, f)
             if freed <= 0:
                 continue
-            for d, opened in gaps:
-                saved = freed + opened - ticks(e, d)
+            for d in (order[place[c] + 1], order[place[c] - 1]):
+                saved = freed + ticks(c, d) - ticks(e, d)
                 if saved > 0 and d != e:
                     self._move_piece(a, e, c, d)
                     self._wake(a, b, c, d, e, f)

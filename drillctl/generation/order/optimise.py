@@ -19,9 +19,11 @@ from drillctl.generation.order.neighbours import find_neighbours
 from drillctl.generation.order.travel import Steps, TravelCost
 
 NEIGHBOURS = 8
-ROUNDS_PER_HOLE = 10
-MOST_ROUNDS = 10_000  # about as long as the repairs themselves take at 10,000 holes, times ten
-LONGEST_STRETCH = 50  # holes in each of the two stretches that change places
+# Measured by benchmarks/order_quality.py: twice the rounds gain less than 0.5 %.
+ROUNDS_PER_HOLE = 20
+MOST_ROUNDS = 4_000
+MOST_ROUNDS_TIMES_HOLES = 40_000_000  # a round may turn pieces of any length: fewer rounds for huge boards
+LONGEST_STRETCH = 25  # holes in each of the two stretches that change places
 SEED = 1996
 
 Draw = Callable[[], float]  # a number from 0 up to, not including, 1
@@ -34,9 +36,13 @@ def optimised_order(points: Steps, travel: TravelCost, order: Iterable[int]) -> 
     holes = len(points) - 1
     if holes > 1:  # a single hole has nothing to change places with
         draw = random.Random(SEED).random  # the one method whose numbers no later Python may change
-        for _ in range(min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS)):
+        for _ in range(_rounds(holes)):
             _round(improver, holes, draw)
     return np.array(improver.path.order[:-1])
+
+
+def _rounds(holes: int) -> int:
+    return min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS, MOST_ROUNDS_TIMES_HOLES // holes)
 
 
 def _round(improver: Improver, holes: int, draw: Draw) -> None:

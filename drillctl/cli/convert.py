@@ -1,0 +1,47 @@
+"""``drillctl convert FILE --to OUT``: a clean Excellon file, or a ``.kmd`` queue, from whatever was read."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from drillctl.cli import jobs, options
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("convert", help="write a clean Excellon file or a queue", description=__doc__)
+    verb.add_argument("file", type=Path, metavar="FILE")
+    verb.add_argument("--to", type=Path, required=True, metavar="OUT", help="OUT.kmd: a queue; else an Excellon file")
+    verb.add_argument("--style", default="mm,decimal", metavar="F", help="of the Excellon file; default: %(default)s")
+    options.add_machine(verb)
+    jobs.add_job(verb)
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """The whole text is made first; then the file is written, or nothing is."""
+    from drillctl.outputs import reserved
+
+    text, warnings = _queue(arguments) if arguments.to.suffix.lower() == ".kmd" else _excellon(arguments)
+    with reserved([arguments.to], inputs=[arguments.file]) as (output,):
+        for warning in warnings:
+            print(f"drillctl: warning: {warning}", file=sys.stderr)
+        assert output is not None
+        output.write(lambda file: print(text, file=file, end=""))
+    return 0
+
+
+def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
+    from drillctl.generation.job import load_job, queue_text
+
+    job = load_job(arguments.file, options.machine(arguments), jobs.wishes(arguments), arguments.format)
+    return queue_text(job), list(job.warnings)
+
+
+def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
+    """The file's own coordinates, whatever was asked about placing: that is a machine's matter."""
+    from drillctl.generation.drillfile import read, write
+
+    drill_file = read(arguments.file, fmt=arguments.format)
+    warnings = [f"{arguments.file}:{w.line or 1}: {w.text}" for w in drill_file.warnings]
+    return write(drill_file, arguments.style), warnings

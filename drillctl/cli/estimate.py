@@ -1,0 +1,29 @@
+"""``drillctl estimate FILE``: how long a job will take, exact on the ideal plant, tool by tool."""
+
+import argparse
+import json
+from pathlib import Path
+
+from drillctl.cli import jobs, options
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("estimate", help="say how long a job will take", description=__doc__)
+    verb.add_argument("job", type=Path, metavar="FILE", help="a drill file, or a queue of KMD commands (.kmd)")
+    options.add_machine(verb)
+    verb.add_argument("--json", action="store_true", help="print one JSON object")
+    jobs.add_job(verb)
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """Everything that ``run`` would refuse is refused here too; a job that would end in a fault is told so (exit 1)."""
+    from drillctl.estimate import estimate
+    from drillctl.generation.job import load_job
+    from drillctl.ui.summary import estimate_lines
+
+    machine = options.machine(arguments)
+    told = estimate(load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format))
+    print(json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(estimate_lines(told)))
+    return 1 if told.fault else 0

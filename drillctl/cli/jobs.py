@@ -1,0 +1,84 @@
+"""Options of the verbs that take a drill file to a job: placing, order, drills; and what they stand for."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from drillctl.generation.placing import Panel, Placing
+    from drillctl.generation.wishes import Wishes
+
+
+def add_job(verb: argparse.ArgumentParser) -> None:
+    """The options of a job, in two groups."""
+    placing = verb.add_argument_group("placing the board")
+    placing.add_argument(
+        "--origin", choices=("base", "file"),
+        help="base (default): lowest X and Y of the board at the working base; file: coordinates as they are",
+    )  # fmt: skip
+    placing.add_argument("--mirror", choices=("x", "y"), help="for the bottom side: this axis changes sign")
+    placing.add_argument("--rotate", type=float, default=0.0, metavar="DEG", help="counter-clockwise")
+    placing.add_argument("--offset", type=_pair, default=(0.0, 0.0), metavar="X,Y", help="mm, added last")
+    placing.add_argument("--align", type=Path, metavar="FILE", help="measured holes: file_x file_y machine_x machine_y")
+    placing.add_argument("--panel", type=_panel, metavar="CxR:PX,PY", help="step and repeat, e.g. 3x2:40,30 (mm)")
+    drilling = verb.add_argument_group("drilling")
+    drilling.add_argument("--order", choices=("file", "nearest", "optimised"), default="file", help="of the holes of a tool")
+    drilling.add_argument("--skip-tools", type=_numbers, default=frozenset(), metavar="N,N", help="tools not to drill")
+    drilling.add_argument("--drills", type=Path, metavar="FILE", help="the drills at hand, with tolerances and lives")
+    drilling.add_argument("--peck", type=float, metavar="MM", help="in steps of so much, drawn out between them")
+    drilling.add_argument("--spot", type=float, metavar="MM", help="first mark every hole of a tool so deep")
+    drilling.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
+
+
+def wishes(arguments: argparse.Namespace) -> "Wishes":
+    """What was asked for. Raises JobError, PlacingError or AlignmentError."""
+    from drillctl.generation.drills import read_drills
+    from drillctl.generation.wishes import Wishes
+
+    drills = read_drills(arguments.drills) if arguments.drills else None
+    return Wishes(
+        _placing(arguments), arguments.order, arguments.skip_tools, drills, arguments.peck, arguments.spot
+    )
+
+
+def _placing(arguments: argparse.Namespace) -> "Placing":
+    from drillctl.generation.alignment import load
+    from drillctl.generation.placing import Placing
+
+    alignment = load(arguments.align, mirrored=arguments.mirror is not None) if arguments.align else None
+    return Placing(
+        origin=arguments.origin,
+        mirror=None if alignment else arguments.mirror,
+        rotate_deg=arguments.rotate,
+        offset_mm=arguments.offset,
+        panel=_panel_of(arguments.panel),
+        alignment=alignment.affine if alignment else None,
+    )
+
+
+def _panel_of(given: "tuple[int, int, float, float] | None") -> "Panel | None":
+    from drillctl.generation.placing import Panel
+
+    return None if given is None else Panel(*given)
+
+
+def _pair(text: str) -> tuple[float, float]:
+    x, comma, y = text.partition(",")
+    if not comma:
+        raise argparse.ArgumentTypeError(f"{text!r} is not X,Y")
+    return float(x), float(y)
+
+
+def _numbers(text: str) -> frozenset[int]:
+    return frozenset(int(part.upper().removeprefix("T")) for part in text.split(","))
+
+
+def _panel(text: str) -> tuple[int, int, float, float]:
+    size, _, pitch = text.partition(":")
+    columns, cross, rows = size.partition("x")
+    if not cross:
+        raise argparse.ArgumentTypeError(f"{text!r} is not COLUMNSxROWS:PITCH_X,PITCH_Y")
+    return (int(columns), int(rows), *_pair(pitch))
+
+
+_pair.__name__, _numbers.__name__, _panel.__name__ = "X,Y", "list of tool numbers", "panel"

@@ -1,0 +1,32 @@
+"""Wiring: what a job will take, before it is run. The lab foresees its program, generation knows its tools.
+
+Called by the estimate verb.
+"""
+
+import numpy as np
+
+from drillctl.generation.job import Job
+from drillctl.kmd import Op
+from drillctl.lab import forecast
+from drillctl.panel import Estimate, ToolEstimate, fault_report
+
+
+def estimate(job: Job) -> Estimate:
+    """Exact on the ideal plant; the first tool's share begins with the initialisation, the last's ends at the end."""
+    told = forecast(job.program, job.machine)
+    groups = job.work.groups if job.work else ()
+    changes = np.flatnonzero(job.program["opcode"] == Op.NARZEDZIE).tolist()
+    shares = [int(ticks.sum()) for ticks in np.split(told.ticks, changes[1:])]
+    tools = [
+        ToolEstimate(group.number, group.diameter_mm, group.stop - group.start, share)
+        for group, share in zip(groups, shares, strict=False)
+    ]
+    return Estimate(
+        machine=job.machine.name,
+        holes_total=job.holes_total,
+        ticks=told.total_ticks,
+        tick_hz=job.machine.tick_hz,
+        tools=tuple(tools),
+        exact=told.fault == 0,
+        fault=fault_report(told.fault, kept=False) if told.fault else None,
+    )

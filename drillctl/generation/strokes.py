@@ -1,0 +1,79 @@
+"""How one hole is drilled: straight down, in pecks, with a spot first; and how the table gets there.
+
+Rule: all holes of a job are drilled alike, so a stroke is a short array of records that program.py repeats.
+Depths count from the board's surface, which the machine's file names. Called by program.py.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.generation.errors import JobError
+from drillctl.kmd import RECORD, Op
+from drillctl.kmd.commands import Flag
+from drillctl.machine import Machine
+
+MOST_PECKS = 100
+CHIP_CLEARANCE_MM = 0.5  # how far above the board the bit is drawn to throw its chips
+Records = NDArray[np.void]
+
+
+def record(op: Op, args: list[int] | None = None, axes: int = 0, flags: Flag = Flag.NONE) -> Records:
+    """One command, shape (1,)."""
+    made = np.zeros(1, dtype=RECORD)
+    made["opcode"], made["axes"], made["flags"] = op, axes, flags
+    made["args"][0, : len(args or [])] = args or []
+    return made
+
+
+def drill_stroke(machine: Machine, peck_mm: float | None) -> Records:
+    """Down to the lower sensor and up; in pecks, with the bit drawn out of the board between them."""
+    down, up = record(Op.WIERTLO_DOL), record(Op.WIERTLO_GORA)
+    if peck_mm is None:
+        return np.concatenate([down, up])
+    deepest_mm = min(_depth_mm(machine, axis) for axis in machine.drill_axes)
+    pecks = math.ceil(deepest_mm / peck_mm) - 1
+    if pecks > MOST_PECKS:
+        raise JobError([f"--peck: {peck_mm} mm makes {pecks} pecks a hole; at most {MOST_PECKS}"])
+    drawn = head_move(machine, -CHIP_CLEARANCE_MM)
+    pecked = [part for n in range(1, pecks + 1) for part in (head_move(machine, n * peck_mm), drawn)]
+    return np.concatenate([*pecked, down, up])
+
+
+def spot_stroke(machine: Machine, spot_mm: float) -> Records:
+    """A mark so deep, and up."""
+    return np.concatenate([head_move(machine, spot_mm), record(Op.WIERTLO_GORA)])
+
+
+def head_move(machine: Machine, depth_mm: float) -> Records:
+    """The heads to a depth below the board's surface (negative: above it)."""
+    args = [0] * len(machine.axes)
+    for axis in machine.drill_axes:
+        table = machine.axes[axis]
+        steps = _surface(machine, axis) + round(depth_mm * table.steps_per_mm)
+        lowest, deepest = 0, _bottom(machine, axis)
+        if steps > deepest:
+            raise JobError([f"--spot: {depth_mm} mm is deeper than {table.name} goes on {machine.name}"])
+        args[axis] = max(steps, lowest)
+    mask = sum(1 << axis for axis in machine.drill_axes)
+    return record(Op.RUCH, args, mask, Flag.ABSOLUTE)
+
+
+def _depth_mm(machine: Machine, axis: int) -> float:
+    """From the board's surface to where the head turns back."""
+    return (_bottom(machine, axis) - _surface(machine, axis)) / machine.axes[axis].steps_per_mm
+
+
+def _bottom(machine: Machine, axis: int) -> int:
+    sensor = machine.sensor_at(axis, "max")
+    reach = machine.drill_down_steps or machine.axes[axis].high_steps
+    return sensor.edge_steps - 1 if sensor else reach
+
+
+def _surface(machine: Machine, axis: int) -> int:
+    surface = machine.board_surface[axis]
+    if surface is None:
+        name = machine.axes[axis].name
+        raise JobError([f"{machine.file}: plant.board_surface says nothing of {name}; pecks and spots need it"])
+    return surface

@@ -1,0 +1,33 @@
+"""What the operator may ask for beside the file and the machine: where the board lies, how it is drilled.
+
+Rule: plain values, checked here against themselves; against file and machine they are checked by worklist.py and
+strokes.py. Made by the verbs from options.
+"""
+
+from dataclasses import dataclass, field
+
+from drillctl.generation.drills import DrillTable
+from drillctl.generation.errors import JobError
+from drillctl.generation.placing import Placing
+
+LEAST_PECK_MM = 0.05
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """Order is 'file', 'nearest' or 'optimised'; peck and spot are depths below the board's surface, None = none.
+
+    Raises JobError for a depth that would never come to an end.
+    """
+
+    placing: Placing = field(default_factory=Placing)
+    order: str = "file"
+    skip_tools: frozenset[int] = frozenset()
+    drills: DrillTable | None = None
+    peck_mm: float | None = None
+    spot_mm: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, depth_mm in (("--peck", self.peck_mm), ("--spot", self.spot_mm)):
+            if depth_mm is not None and not LEAST_PECK_MM <= depth_mm <= 1000:
+                raise JobError([f"{name}: {depth_mm} mm is not a depth of {LEAST_PECK_MM} mm or more"])

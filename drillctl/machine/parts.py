@@ -1,0 +1,70 @@
+"""The phase, ramp and motor tables that a machine's file names: found by name, read, and remembered as files.
+
+Rule: the first folder that has the file wins; a name never leaves its folder. Made by library.py for one machine's
+file, asked by config.py.
+"""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from drillctl.machine.motor import Motor, parse_motor
+from drillctl.machine.phase import PhaseTable, parse_phase
+from drillctl.machine.ramp import RampTable, parse_ramp
+from drillctl.machine.source import Source
+
+Place = tuple[str | int, ...]
+
+
+def find_table(folders: Sequence[Path], kind: str, name: str) -> Path | None:
+    """The file of a table in the first folder that has it, or None; ``kind`` is phase, ramp, motor or machines."""
+    if Path(name).name != name:
+        return None
+    files = (folder / kind / f"{name}.toml" for folder in folders)
+    return next((file for file in files if os.path.isfile(file)), None)  # False also for a name too long
+
+
+class Parts:
+    """Reads what one machine's file names. ``files`` are all that were read for it, the machine's own first.
+
+    Each method raises TableError, at ``place`` in the machine's ``source`` where there is no such table.
+    """
+
+    def __init__(self, folders: Sequence[Path], machine_file: Path):
+        self._folders = folders
+        self.files = [machine_file]
+
+    def phase(self, name: str, source: Source, place: Place) -> PhaseTable:
+        """The phase table of this name."""
+        return parse_phase(self._open("phase", name, source, place))
+
+    def ramp(self, name: str, source: Source, place: Place) -> RampTable:
+        """The ramp of this name."""
+        return parse_ramp(self._open("ramp", name, source, place))
+
+    def motor(self, name: str | None, table: PhaseTable, source: Source, place: Place) -> Motor:
+        """The motor named, or the one whose windings are just the wires of the table, forcing wires apart."""
+        wires = {wire.name for wire in table.wires if not wire.forcing}
+        if name is None:
+            return self._motor_for(wires, source, place)
+        motor = parse_motor(self._open("motor", name, source, place))
+        if missing := motor.wire_names() - wires:
+            needs = ", ".join(sorted(missing))
+            raise source.error(f"motor {name} needs wires {needs}; table {table.name} has none", *place)
+        return motor
+
+    def _motor_for(self, wires: set[str], source: Source, place: Place) -> Motor:
+        for folder in self._folders:
+            for file in sorted((folder / "motor").glob("*.toml")):
+                motor = parse_motor(Source.read(file))
+                if motor.wire_names() == wires:
+                    self.files.append(file)
+                    return motor
+        raise source.error(f"no motor has just the wires {', '.join(sorted(wires))}; name one", *place)
+
+    def _open(self, kind: str, name: str, source: Source, place: Place) -> Source:
+        file = find_table(self._folders, kind, name)
+        if file is None:
+            raise source.error(f"no {kind} table is named {name[:60]!r}", *place)
+        self.files.append(file)
+        return Source.read(file)

@@ -1,0 +1,99 @@
+"""What may stand in a machine's file, key by key: types, bounds, defaults. An unknown key is an error.
+
+Rule: shapes only; what the values mean to each other is checked by config.py, which alone uses these.
+"""
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from drillctl.machine.model import CARD_BITS
+from drillctl.machine.phase import Name
+
+MOST_CARDS = 4
+SLOWEST_TICK_HZ, FASTEST_TICK_HZ = 1, 100_000
+Bit = Annotated[int, msgspec.Meta(ge=0, lt=MOST_CARDS * CARD_BITS)]
+Steps = Annotated[int, msgspec.Meta(ge=-100_000_000, le=100_000_000)]
+Positive = Annotated[int, msgspec.Meta(ge=1, le=1_000_000)]
+TickHz = Annotated[int, msgspec.Meta(ge=SLOWEST_TICK_HZ, le=FASTEST_TICK_HZ)]
+End = Literal["min", "max"]
+
+
+class Strict(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A table with just these keys."""
+
+
+class AxisRow(Strict, frozen=True):
+    """``[[axis]]``: positions in steps from machine zero."""
+
+    name: Name
+    phase: str
+    ramp: str
+    columns_per_step: Positive
+    columns_per_inch: Positive
+    range: tuple[Steps, Steps]
+    start: Steps = 0
+    invert: bool = False
+    motor: str | None = None
+    backlash: Annotated[int, msgspec.Meta(ge=0, le=100_000)] = 0
+
+
+class SensorRow(Strict, frozen=True):
+    """``[[sensor]]``: a switch at one end of an axis."""
+
+    name: Name
+    bit: Bit
+    axis: str
+    end: End
+    edge: Steps
+    hysteresis: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
+    active: Literal[0, 1] = 1
+
+
+class HomingRow(Strict, frozen=True):
+    """``[[homing]]``: one row of initialisation."""
+
+    do: Literal["raise", "release", "seek", "creep", "zero"]
+    axes: Annotated[list[str], msgspec.Meta(min_length=1)]
+    end: End = "min"
+    limit: Positive = 60
+
+
+class ConfigurationPart(Strict, frozen=True):
+    """``[configuration]``: the paper's screen."""
+
+    card: str = "simulated"
+    card_address: Annotated[int, msgspec.Meta(ge=0, le=0xFFFF)] = 0x2A0
+    mode: Literal["SIMULATED", "REAL"] = "SIMULATED"
+    longest_drilling_s: Annotated[float, msgspec.Meta(gt=0, le=3600)] = 18
+    tool_change: Literal["AUTOMATIC", "MANUAL"] = "MANUAL"
+
+
+class DrillPart(Strict, frozen=True):
+    """``[drill]``: which axes drill, and how deep where no sensor says."""
+
+    axes: Annotated[list[str], msgspec.Meta(min_length=1)]
+    down: Steps | None = None
+
+
+class PlantPart(Strict, frozen=True):
+    """``[plant]``: what a simulation must know beyond the ports."""
+
+    board_surface: dict[str, Any] = {}  # of Steps
+
+
+class MachineFile(Strict, frozen=True):
+    """The whole file. Tables of free keys are checked value by value (Source.numbers), so that a fault has a line."""
+
+    name: Name
+    tick_hz: TickHz
+    axis: Annotated[list[AxisRow], msgspec.Meta(min_length=1, max_length=8)]
+    wiring: dict[str, Any]  # of Bit
+    description: str = ""
+    emergency_stop: Literal["drop", "hold"] = "drop"
+    configuration: ConfigurationPart = ConfigurationPart()
+    sensor: list[SensorRow] = []
+    outputs: dict[str, Any] = {}  # of Bit
+    homing: list[HomingRow] = []
+    drill: DrillPart | None = None
+    plant: PlantPart = PlantPart()

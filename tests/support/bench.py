@@ -1,0 +1,127 @@
+"""A machine on the bench: the real controller on a simulated card that can be watched and made to lie.
+
+Rule: nothing of the tick is replaced; only the card stands between the controller and the ideal plant.
+Used by tests/execution.
+"""
+
+from collections.abc import Callable
+from functools import cache
+
+from drillctl.generation.job import names_of
+from drillctl.kmd import Condition, Request, parse_program
+from drillctl.machine import Library, Machine, shipped_tables
+from drillctl.plant import IdealPlant
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.ticker import Ticker
+
+LONGEST_RUN_WAKES = 400_000
+MACHINES = ("pcb-drill", "pcb-drill-ramp-lab", "boiler-drum", "eight-axis")
+
+
+@cache
+def shipped(name: str) -> Machine:
+    """A machine as it is shipped, whatever tables the user has."""
+    return Library((shipped_tables(),)).machine(name)
+
+
+class WatchedCard(SimulatedCard):
+    """A simulated card that counts, remembers what was flushed, and whose inputs may be stuck.
+
+    stuck_high, stuck_low   input bits that read so whatever the plant does
+    """
+
+    def __init__(self, plant: IdealPlant):
+        super().__init__(plant)
+        self.calls: list[str] = []
+        self.images: list[int] = []
+        self.stuck_high = self.stuck_low = 0
+
+    def latch(self) -> int:
+        self.calls.append("latch")
+        return (super().latch() | self.stuck_high) & ~self.stuck_low
+
+    def flush(self, image: int) -> None:
+        self.calls.append("flush")
+        self.images.append(image)
+        super().flush(image)
+
+
+class Bench:
+    """A machine, its controller ``m``, its ``card``; ``images[n]`` is what tick n put out (no starved wakes)."""
+
+    def __init__(self, machine: Machine, traced: bool = False):
+        self.machine = machine
+        plant = IdealPlant(machine)
+        self.card = WatchedCard(plant)
+        self.ticker = Ticker(machine, self.card, plant, traced, derived=traced)
+        self.m = self.ticker.controller
+        self.images = self.card.images
+
+    def queue(self, text: str, end: bool = True) -> "Bench":
+        """Puts commands into the queue, one a line or separated by ``;``; ``end`` adds KMD_KONIEC."""
+        program = parse_program(text.replace(";", "\n"), names_of(self.machine))
+        program["epoch"] = self.m.epoch
+        program = program if end else program[:-1]
+        assert self.ticker.queue.put(program) == len(program), "the program does not fit into the queue"
+        return self
+
+    def tick(self, ticks: int = 1) -> "Bench":
+        """So many wakes."""
+        self.ticker.run(ticks)
+        return self
+
+    def ask(self, *requests: Request) -> "Bench":
+        """Posts requests; the next tick serves them."""
+        for request in requests:
+            self.ticker.requests.post(request)
+        return self
+
+    def until(self, holds: Callable[[], bool]) -> int:
+        """Runs until a condition holds after a tick; returns how many ticks that took."""
+        ticks = self.ticker.run(LONGEST_RUN_WAKES, holds)
+        assert holds(), f"not reached within {LONGEST_RUN_WAKES} wakes"
+        return ticks
+
+    def finish(self) -> int:
+        """Runs to the end of the job, or to where a stop or fault ends it; returns the ticks it took."""
+        return self.until(self.ticker.over)
+
+    def ready(self) -> "Bench":
+        """Initialises, so that the position is known, and forgets what was recorded meanwhile."""
+        self.queue("KMD_INICJALIZACJA").finish()
+        assert self.m.position_known
+        self.images.clear()
+        self.card.calls.clear()
+        return self
+
+    def done_at(self, sequence: int) -> int:
+        """Runs until a command is done; the index of the tick that completed it."""
+        self.until(lambda: self.m.done == sequence)
+        return self.m.tick - 1
+
+    def bits(self, axis: str, *wires: str) -> int:
+        """The output bits of some wires of an axis (all of them when none is named)."""
+        table = self.machine.axes[self.index(axis)]
+        named = zip(table.phase.wire_names(), table.wire_bits, strict=True)
+        return sum(1 << bit for name, bit in named if not wires or name in wires)
+
+    def forcing(self, axis: str) -> int:
+        """The bits of an axis's forcing wires."""
+        table = self.machine.axes[self.index(axis)]
+        named = zip(table.phase.wires, table.wire_bits, strict=True)
+        return sum(1 << bit for wire, bit in named if wire.forcing)
+
+    def input_bit(self, sensor: str) -> int:
+        """A sensor's bit in the input image."""
+        return next(1 << found.bit for found in self.machine.sensors if found.name == sensor)
+
+    def index(self, axis: str) -> int:
+        """An axis's place in the machine's file."""
+        return self.machine.axis_names.index(axis)
+
+    def positions(self) -> list[int]:
+        """By axis, in steps from machine zero."""
+        return [axis.position for axis in self.m.axes]
+
+    def latched(self) -> bool:
+        return self.m.condition == Condition.LATCHED
