@@ -26,9 +26,11 @@ SEEDS = (
     bytes.fromhex("540708802304080823017680320b803707388007388054132080") * 3,
 )
 WORDS = (
-    *(b"M48 M30 M95 M71 M72 M25 M01 M02 M08 M15 M16 G85 G90 G91 G93 G00 G05 % T1 T2C0.8 T0 R3 R999999999".split()),
-    *(b"X1 Y2 X-0.5 Y+12 X99999999999999999999 X. Xnan INCH,LZ METRIC,TZ,000.000 ICI,ON ;FILE_FORMAT=9:9 /* */".split()),
-    *(b"T99999 T1C1e9 T1C0 ( ) ; , \r \n \n \n \x00 \x1a \xff M97,TEXT FORMAT={2:4/ absolute / inch / keep".split(b" ")),
+    *(b"/* */ M48 M30 M95 M71 M72 M25 M01 M02 M08 M15 M16 G85 G90 G91 G93".split()),
+    *(b"M97,TEXT G00 G05 % T1 T2C0.8 T0 R3 R999999999".split()),
+    *(b"X1 Y2 X-0.5 Y+12 X99999999999999999999 X. Xnan INCH,LZ METRIC,TZ,000.000".split()),
+    *(b"ICI,ON ;FILE_FORMAT=9:9".split()),
+    *(b"T99999 T1C1e9 T1C0 ( ) ; , \r \n \n \n \x00 \x1a \xff FORMAT={2:4/ absolute / inch / keep".split(b" ")),
 )
 Random = random.Random
 

@@ -29,7 +29,8 @@ def places_mm() -> list[tuple[float, float]]:
 def kicad_decimal() -> str:
     """As KiCad writes it: metric, with decimal points."""
     body = "".join(f"X{x:.3f}Y{-y:.3f}\n" for x, y in places_mm())
-    return f"M48\n; FORMAT={{-:-/ absolute / metric / decimal}}\nFMAT,2\nMETRIC\nT1C0.800\n%\nG90\nG05\nT1\n{body}T0\nM30\n"
+    comment = "; FORMAT={-:-/ absolute / metric / decimal}"
+    return f"M48\n{comment}\nFMAT,2\nMETRIC\nT1C0.800\n%\nG90\nG05\nT1\n{body}T0\nM30\n"
 
 
 def altium_4_4() -> str:

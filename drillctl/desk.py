@@ -4,7 +4,6 @@ Rule: no layer is skipped; the desk knows a job, a queue and a status record, th
 the outputs are safe. Called by the verbs.
 """
 
-import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from types import FrameType
 
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import Job, MadeHole, names_of
+from drillctl.interrupts import caught
 from drillctl.kmd import Request, to_text
 from drillctl.lab import forecast
 from drillctl.panel import Outcome, Progress, fault_report
@@ -28,6 +28,7 @@ class Run:
     outcome: Outcome
     holes: list[MadeHole]
     trace: Trace | None
+    signal: int | None  # that stopped it
 
 
 def run(job: Job, watcher: Watcher, traced: bool = False, derived: bool = False) -> Run:
@@ -44,7 +45,7 @@ def run(job: Job, watcher: Watcher, traced: bool = False, derived: bool = False)
                 ticker.run(max(1, len(ticker.queue)), ticker.over)
                 over = ticker.over()
                 watcher(_progress(job, ticker, total_ticks))
-        return _ended(job, ticker, bool(stopped))
+        return _ended(job, ticker, stopped[0] if stopped else None)
     finally:
         ticker.port.close()
 
@@ -58,12 +59,8 @@ def _stopping(ticker: Ticker) -> Iterator[list[int]]:
         ticker.requests.post(Request.ESTOP if came else Request.STOP)
         came.append(number)
 
-    previous = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
+    with caught(ask):
         yield came
-    finally:
-        for number, handler in previous.items():
-            signal.signal(number, handler)
 
 
 def _progress(job: Job, ticker: Ticker, total_ticks: int | None) -> Progress:
@@ -72,7 +69,7 @@ def _progress(job: Job, ticker: Ticker, total_ticks: int | None) -> Progress:
     return Progress(m.holes_done, job.holes_total, m.tool, m.tick, m.tick / hz, left)
 
 
-def _ended(job: Job, ticker: Ticker, stopped: bool) -> Run:
+def _ended(job: Job, ticker: Ticker, stopped_by: int | None) -> Run:
     status = ticker.report()
     names = job.machine.axis_names
     fault = fault_report(int(status["fault"]), bool(status["fault_kept"])) if status["fault"] else None
@@ -88,10 +85,10 @@ def _ended(job: Job, ticker: Ticker, stopped: bool) -> Run:
         lost_steps=dict(zip(names, map(round, ticker.lost_steps()), strict=True)),
         starved=int(status["starved"]),
         fault=fault,
-        interrupted=stopped,
+        interrupted=stopped_by is not None,
     )
     holes = [job.made_hole(*touch) for touch in ticker.touched]
-    return Run(outcome, holes, _trace(job, ticker))
+    return Run(outcome, holes, _trace(job, ticker), stopped_by)
 
 
 def _trace(job: Job, ticker: Ticker) -> Trace | None:

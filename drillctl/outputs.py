@@ -17,16 +17,17 @@ class OutputError(Exception):
 
 
 class Output:
-    """One reserved file; ``write`` fills it and puts it in place."""
+    """One reserved file; ``write`` fills it and puts it in place, through a link where the path is one."""
 
     def __init__(self, path: Path):
         self.path = path
+        self._place = Path(os.path.realpath(path))
         self._temporary: Path | None = None
         try:
             if path.exists() and not path.is_file():
                 path.open("a").close()  # a device or a pipe: written as it is; a folder raises
                 return
-            handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+            handle, name = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=self._place.parent)
             os.close(handle)
             self._temporary = Path(name)
         except OSError as error:
@@ -41,7 +42,7 @@ class Output:
                 file.flush()
             if self._temporary:
                 self._temporary.chmod(0o666 & ~_umask())
-                self._temporary.replace(self.path)
+                self._temporary.replace(self._place)
                 self._temporary = None
         except OSError as error:
             raise OutputError(f"{self.path}: can't be written: {error.strerror}") from error
@@ -54,14 +55,14 @@ class Output:
 
 
 @contextmanager
-def reserved(paths: Sequence[Path | None], inputs: Sequence[Path]) -> Iterator[list[Output | None]]:
+def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Iterator[list[Output | None]]:
     """Outputs for the paths given (None stays None). Raises OutputError, also where a path would hit an input."""
-    wanted = [path for path in paths if path is not None]
-    taken = {path.resolve() for path in inputs}
-    for target in wanted:
-        if target.resolve() in taken:
-            raise OutputError(f"{target}: would overwrite a file that this run reads or writes")
-        taken.add(target.resolve())
+    taken = {os.path.realpath(path) for path in inputs if path is not None}
+    for wanted in filter(None, paths):
+        place = os.path.realpath(wanted)
+        if place in taken:
+            raise OutputError(f"{wanted}: would overwrite a file that this run reads or writes")
+        taken.add(place)
     outputs: list[Output | None] = []
     try:
         for path in paths:

@@ -6,11 +6,13 @@ the paper uses 18 and 6 of one). Outputs and inputs are images of the same shape
 Rule: within a tick inputs are latched once, first, and outputs flushed once, last. Imports nothing of ours.
 """
 
+from dataclasses import dataclass
 from typing import Protocol
 
 CARD_BITS = 32
 CARD_MASK = (1 << CARD_BITS) - 1
 SAFE_IMAGE = 0  # every output low: no phase, no forcing, no spindle
+SLOWEST_SAFE_S = 0.05  # what a driver may wait for while it makes the outputs safe, or puts an image out
 
 
 def word(image: int, card: int) -> int:
@@ -18,17 +20,74 @@ def word(image: int, card: int) -> int:
     return image >> CARD_BITS * card & CARD_MASK
 
 
+def bits_of(image: int) -> list[int]:
+    """The numbers of the bits that are set, ascending."""
+    return [bit for bit in range(image.bit_length()) if image >> bit & 1]
+
+
+class PortError(OSError):
+    """A port that can't be used. ``str()`` is ``PORT: reason, and what to do``."""
+
+    def __init__(self, port: str, reason: str):
+        super().__init__(f"{port}: {reason}")
+        self.port, self.reason = port, reason
+
+
+class PortRefused(PortError):
+    """Before anything moves: no such port, no rights, a machine or a rate that it can't carry."""
+
+
+class PortLost(PortError):
+    """While it was in use: the port is gone, or too slow. What its outputs are now is unknown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wiring:
+    """What a driver must know of a machine, in port images: bits set where something is connected.
+
+    axis_outputs   by axis: the output bits of its wires
+    other_outputs  the named outputs (spindle, lamps)
+    inputs         the sensors
+    card_address   of the first card, as the machine's file has it
+    """
+
+    tick_hz: int
+    card_address: int
+    axis_outputs: tuple[int, ...]
+    other_outputs: int
+    inputs: int
+
+    @property
+    def outputs(self) -> int:
+        """All output bits in use."""
+        image = self.other_outputs
+        for bits in self.axis_outputs:
+            image |= bits
+        return image
+
+    @property
+    def cards(self) -> int:
+        """How many cards of 32 outputs and 32 inputs that takes."""
+        return max(1, -(-(self.outputs | self.inputs).bit_length() // CARD_BITS))
+
+
 class Driver(Protocol):
-    """One card or several, real or simulated. Errors of the port are OSError; a driver never retries by itself."""
+    """One card or several, real or simulated. Errors of the port are OSError; a driver never retries by itself.
+
+    Made before the processes part and used in one of them, while another keeps it only to call ``safe``: so it has
+    no thread and no lock, and a new one begins with the safe image.
+    """
 
     def latch(self) -> int:
-        """The input image as it stands now. Called once a tick, before anything else."""
+        """The input image as it stands now. Never waits. Called once a tick, before anything else."""
 
     def flush(self, image: int) -> None:
-        """Puts the output image out. Called once a tick, after everything else, changed or not."""
+        """Puts the output image out, within SLOWEST_SAFE_S. Called once a tick, after everything else, changed
+        or not."""
 
     def safe(self) -> None:
-        """Puts the safe image out, whatever came before. Called on every way out."""
+        """Puts the whole safe image out, whatever came before, within SLOWEST_SAFE_S and from any process that
+        inherited the driver. Called on every way out, and as often as anybody likes."""
 
     def close(self) -> None:
-        """Gives the port back; the outputs are safe afterwards."""
+        """Gives the port back; the outputs are safe afterwards, where the port still answers."""

@@ -14,6 +14,7 @@ from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import names_of
 from drillctl.kmd import KmdError, parse_program
 from drillctl.machine import Library, Machine
+from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.outputs import Output
 from drillctl.portio.playback import PlaybackCard
 from drillctl.ports import CARD_BITS
@@ -68,7 +69,7 @@ def machine_of(trace: Trace, file: Path, library: Library) -> Machine:
     beside = file.parent / named
     found = library.machine(str(beside) if named.endswith(".toml") else named)
     rate = _header(trace, "tick_hz", file)
-    if not rate.isdigit() or not 1 <= int(rate) <= 100_000:
+    if not rate.isdecimal() or not SLOWEST_TICK_HZ <= int(rate) <= FASTEST_TICK_HZ:
         raise TraceError(str(file), None, f"tick_hz {rate!r} is no tick rate")
     return found.at_rate(int(rate))
 

@@ -8,21 +8,40 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
 """
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
+from typing import NoReturn, TextIO
 
 from drillctl import __version__
 from drillctl.cli import convert, estimate, inspect, replay, run, tables
+from drillctl.interrupts import caught, exit_code, leave
 
-DONE, STOPPED, REFUSED = 0, 1, 2
+REFUSED = 2
+NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (run, estimate, inspect, convert, replay, tables)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
-EPILOG = "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved"
+EPILOG = (
+    "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "
+    "130 or 143 interrupted (Ctrl-C, SIGTERM), outputs off"
+)
 
 
-def parser() -> argparse.ArgumentParser:
+class Parser(argparse.ArgumentParser):
+    """Complains as the rest of the program does; takes a module's docstring for its description."""
+
+    def format_help(self) -> str:
+        """The help text, without the docstring's marks."""
+        return super().format_help().replace("``", "")
+
+    def error(self, message: str) -> NoReturn:
+        """One line on standard error, exit code 2."""
+        self.exit(REFUSED, f"drillctl: {message} (see {self.prog} --help)\n")
+
+
+def parser() -> Parser:
     """The whole command line."""
-    top = argparse.ArgumentParser("drillctl", description=DESCRIPTION, epilog=EPILOG)
+    top = Parser("drillctl", description=DESCRIPTION, epilog=EPILOG)
     top.add_argument("--version", action="version", version=f"drillctl {__version__}")
     verbs = top.add_subparsers(title="verbs", metavar="VERB", dest="verb", required=True)
     for verb in VERBS:
@@ -37,17 +56,32 @@ def main(argv: Sequence[str] | None = None) -> int:
         return REFUSED
     arguments = parser().parse_args(argv)
     try:
-        return int(arguments.call(arguments))
-    except KeyboardInterrupt:
-        return 130
+        with caught(leave):
+            code = int(arguments.call(arguments))
+            print(end="", flush=True)  # whether somebody reads shows now, not at exit
+            return code
+    except KeyboardInterrupt as stop:
+        return exit_code(*stop.args)
     except BrokenPipeError:
-        return _quiet_pipe()
+        _silence(sys.stdout, sys.stderr)
+        return NOBODY_READS
     except Exception as error:
-        if not _is_refusal(error):
-            raise
-        for line in str(error).splitlines():
-            print(f"drillctl: {line}", file=sys.stderr)
-        return REFUSED
+        return _refuse(error)
+
+
+def _refuse(error: Exception) -> int:
+    """Tells what the operator got wrong; whatever else it is goes on up, as a fault of ours."""
+    if isinstance(error, OSError):
+        if error.filename is None:
+            _silence(sys.stdout)
+        reason = f"{error.filename or 'standard output'}: {error.strerror}"
+    elif _is_refusal(error):
+        reason = str(error)
+    else:
+        raise error
+    for line in reason.splitlines():
+        print(f"drillctl: {line}", file=sys.stderr)
+    return REFUSED
 
 
 def _is_refusal(error: Exception) -> bool:
@@ -63,7 +97,8 @@ def _is_refusal(error: Exception) -> bool:
     return isinstance(error, refusals)
 
 
-def _quiet_pipe() -> int:
-    """Whoever read our output has gone; say nothing more, not even at exit."""
-    sys.stderr.close()
-    return 141
+def _silence(*streams: TextIO) -> None:
+    """What is still to be written, at exit too, goes nowhere."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in streams:
+        os.dup2(nowhere, stream.fileno())

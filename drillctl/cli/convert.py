@@ -10,7 +10,7 @@ from drillctl.cli import jobs, options
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("convert", help="write a clean Excellon file or a queue", description=__doc__)
-    verb.add_argument("file", type=Path, metavar="FILE")
+    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program")
     verb.add_argument("--to", type=Path, required=True, metavar="OUT", help="OUT.kmd: a queue; else an Excellon file")
     verb.add_argument("--style", default="mm,decimal", metavar="F", help="of the Excellon file; default: %(default)s")
     options.add_machine(verb)
@@ -40,8 +40,14 @@ def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
 
 def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     """The file's own coordinates, whatever was asked about placing: that is a machine's matter."""
-    from drillctl.generation.drillfile import read, write
+    from drillctl.generation.drillfile import read
+    from drillctl.generation.drillfile.write import write
+    from drillctl.generation.errors import JobError
+    from drillctl.generation.job import file_warnings
 
     drill_file = read(arguments.file, fmt=arguments.format)
-    warnings = [f"{arguments.file}:{w.line or 1}: {w.text}" for w in drill_file.warnings]
-    return write(drill_file, arguments.style), warnings
+    try:
+        data = write(drill_file, arguments.style)
+    except ValueError as error:
+        raise JobError([f"--style {arguments.style}: {error}"]) from error
+    return data.decode("ascii"), file_warnings(arguments.file, drill_file)

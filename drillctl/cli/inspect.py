@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("inspect", help="say what a drill file holds", description=__doc__)
-    verb.add_argument("file", type=Path, metavar="FILE")
+    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program")
     verb.add_argument("--format", metavar="F", help="settle the format, e.g. inch,2:4,leading")
     verb.add_argument("--json", action="store_true", help="print one JSON object, also for a refused file")
     verb.set_defaults(call=call)
@@ -27,9 +27,9 @@ def call(arguments: argparse.Namespace) -> int:
 
     try:
         drill_file = read(arguments.file, fmt=arguments.format)
-    except DrillFileError as error:
+    except (DrillFileError, OSError) as error:
         if arguments.json:
-            print(json.dumps(error.as_dict()))
+            print(json.dumps(error.as_dict() if isinstance(error, DrillFileError) else _unreadable(error)))
         raise
     told = summary(drill_file)
     if arguments.json:
@@ -38,6 +38,10 @@ def call(arguments: argparse.Namespace) -> int:
         print("\n".join(inspect_lines(arguments.file.name, told)))
         print("\n".join(_drawing(drill_file)))
     return 0
+
+
+def _unreadable(error: OSError) -> dict[str, object]:
+    return {"error": {"code": "unreadable", "line": None, "text": "", "reason": f"can't be read: {error.strerror}"}}
 
 
 def _drawing(drill_file: "DrillFile") -> list[str]:

@@ -1,10 +1,12 @@
 """Options of the verbs that take a drill file to a job: placing, order, drills; and what they stand for."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from drillctl.generation.alignment import Alignment
     from drillctl.generation.placing import Panel, Placing
     from drillctl.generation.wishes import Wishes
 
@@ -46,6 +48,8 @@ def _placing(arguments: argparse.Namespace) -> "Placing":
     from drillctl.generation.placing import Placing
 
     alignment = load(arguments.align, mirrored=arguments.mirror is not None) if arguments.align else None
+    if alignment is not None:
+        _show_alignment(alignment)
     return Placing(
         origin=arguments.origin,
         mirror=None if alignment else arguments.mirror,
@@ -54,6 +58,22 @@ def _placing(arguments: argparse.Namespace) -> "Placing":
         panel=_panel_of(arguments.panel),
         alignment=alignment.affine if alignment else None,
     )
+
+
+def _show_alignment(alignment: "Alignment") -> None:
+    """What the measured holes say, and how well they agree, before anything is drilled by them."""
+    from drillctl.generation.alignment import decompose
+
+    parts = decompose(alignment.affine)
+    residuals = " ".join(f"{residual_mm:.3f}" for residual_mm in alignment.residual_mm)
+    print(
+        f"drillctl: alignment ({alignment.kind}): turned {parts.turn_deg:.4f} deg, scale {parts.scale_x:.6f} "
+        f"{parts.scale_y:.6f}, shear {parts.shear:.6f}; residuals {residuals} mm, RMS {alignment.rms_mm:.3f} mm, "
+        f"{alignment.spare_holes} holes to spare, length error {alignment.length_error_mm:.3f} mm",
+        file=sys.stderr,
+    )
+    for warning in alignment.warnings:
+        print(f"drillctl: warning: {warning}", file=sys.stderr)
 
 
 def _panel_of(given: "tuple[int, int, float, float] | None") -> "Panel | None":

@@ -14,7 +14,7 @@ def add_machine(verb: argparse.ArgumentParser) -> None:
     """``--machine``, ``--tables`` and ``--tick-hz``."""
     verb.add_argument("--machine", default=DEFAULT_MACHINE, metavar="NAME|FILE", help="default: %(default)s")
     add_tables(verb)
-    verb.add_argument("--tick-hz", type=int, metavar="N", help="interrupt frequency; default: the machine's own")
+    verb.add_argument("--tick-hz", type=_rate, metavar="N", help="interrupt frequency; default: the machine's own")
 
 
 def add_tables(verb: argparse.ArgumentParser) -> None:
@@ -33,13 +33,14 @@ def library(arguments: argparse.Namespace) -> "Library":
 
 def machine(arguments: argparse.Namespace) -> "Machine":
     """The machine asked for, at the rate asked for. Raises TableError."""
-    from drillctl.machine import TableError
+    found = library(arguments).machine(arguments.machine)
+    return found if arguments.tick_hz is None else found.at_rate(arguments.tick_hz)
+
+
+def _rate(text: str) -> int:
     from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 
-    found = library(arguments).machine(arguments.machine)
-    rate = arguments.tick_hz
-    if rate is None:
-        return found
-    if not SLOWEST_TICK_HZ <= rate <= FASTEST_TICK_HZ:
-        raise TableError("--tick-hz", f"{rate} is outside {SLOWEST_TICK_HZ}..{FASTEST_TICK_HZ}")
-    return found.at_rate(rate)
+    if not text.isdecimal() or not SLOWEST_TICK_HZ <= int(text) <= FASTEST_TICK_HZ:
+        reason = f"{text[:20]!r} is not a whole number from {SLOWEST_TICK_HZ} to {FASTEST_TICK_HZ}"
+        raise argparse.ArgumentTypeError(reason)
+    return int(text)

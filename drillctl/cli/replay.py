@@ -9,7 +9,7 @@ from drillctl.cli import options
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("replay", help="run traces again and compare", description=__doc__)
-    verb.add_argument("traces", nargs="+", type=Path, metavar="TRACE")
+    verb.add_argument("traces", nargs="+", type=Path, metavar="TRACE", help="what run --trace wrote")
     options.add_tables(verb)
     verb.add_argument("--same-tables", action="store_true", help="other tables than the recorded ones are a failure")
     verb.set_defaults(call=call)

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from drillctl.generation.job import Job
     from drillctl.outputs import Output
 
-INTERRUPTED = 130
-
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
@@ -33,21 +31,24 @@ def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
     from drillctl import desk
     from drillctl.generation.job import load_job
+    from drillctl.interrupts import exit_code
+    from drillctl.machine import machine_hazards
     from drillctl.outputs import reserved
     from drillctl.ui.progress import ProgressView
 
     machine = options.machine(arguments)
     job = load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
-    with reserved(wanted, inputs=[arguments.job, Path(machine.file)]) as (trace, vcd, holes):
-        for warning in job.warnings:
+    inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files))
+    with reserved(wanted, inputs) as (trace, vcd, holes):
+        for warning in (*machine_hazards(machine), *job.warnings):
             print(f"drillctl: warning: {warning}", file=sys.stderr)
         with ProgressView(sys.stderr) as view:
             done = desk.run(job, view.show, traced=bool(trace or vcd), derived=bool(vcd))
         _write(job, done, trace, vcd, holes)
     _print(done, arguments.json)
-    if done.outcome.interrupted:
-        return INTERRUPTED
+    if done.signal is not None:
+        return exit_code(done.signal)
     return 1 if done.outcome.fault else 0
 
 

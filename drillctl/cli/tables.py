@@ -8,20 +8,23 @@ from typing import TYPE_CHECKING
 
 from drillctl.cli import options
 
+MACHINES = "Lists the machines that can be driven: name, interrupt frequency, axes, description."
+CHECK = "Checks table files. One that can't be used is refused with its line, a dangerous one is warned about."
+
 if TYPE_CHECKING:
     from drillctl.machine import Machine
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds both verbs to the command line."""
-    machines = verbs.add_parser("machines", help="list the machines that can be driven")
+    machines = verbs.add_parser("machines", help="list the machines that can be driven", description=MACHINES)
     options.add_tables(machines)
     machines.add_argument("--json", action="store_true", help="print one JSON array")
     machines.set_defaults(call=list_machines)
-    tables = verbs.add_parser("tables", help="check phase tables, ramps, motors and machines")
+    tables = verbs.add_parser("tables", help="check phase tables, ramps, motors and machines", description=CHECK)
     actions = tables.add_subparsers(metavar="ACTION", required=True)
-    check = actions.add_parser("check", help="check table files; a dangerous one is warned about")
-    check.add_argument("files", nargs="+", type=Path, metavar="FILE")
+    check = actions.add_parser("check", help="check table files", description=CHECK)
+    check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a phase table, ramp, motor or machine")
     options.add_tables(check)
     check.set_defaults(call=check_tables)
 

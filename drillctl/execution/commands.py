@@ -113,12 +113,12 @@ def _drive_head(m: Controller, command: Command, direction: int) -> int:
     """Each head towards its sensor at that end; without one, to the distance that the machine's file gives."""
     for index, axis in enumerate(m.axes):
         if _is_head(m, command, index, axis):
-            sensor = axis.limits[direction]
+            sensor = _head_sensor(m, axis, direction)
             if not sensor and not m.position_known:
                 return Fault.HOMING_REQUIRED
             axis.seek_mask, axis.clear_mask = sensor, 0
             if not m.sensors & sensor:
-                axis.aim(_head_target(m, axis, direction), command.floor_ticks)
+                axis.aim(_head_target(m, axis, direction, sensor), command.floor_ticks)
     return Fault.NONE
 
 
@@ -126,8 +126,14 @@ def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
     return bool(command.axes >> index & 1) if command.axes else axis in m.drill_axes
 
 
-def _head_target(m: Controller, axis: Axis, direction: int) -> int:
-    if not axis.limits[direction]:
+def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:
+    """The sensor that ends the way, as an input bit. A head fed by a distance does not look for its lower one."""
+    by_distance = direction == DOWN and m.machine.drill_down_steps is not None
+    return 0 if by_distance else axis.limits[direction]
+
+
+def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:
+    if not sensor:
         return (m.machine.drill_down_steps or axis.high) if direction == DOWN else 0
     if not m.position_known:
         return axis.position + direction * axis.span
@@ -137,7 +143,7 @@ def _head_target(m: Controller, axis: Axis, direction: int) -> int:
 def _at_sensors(m: Controller, command: Command, direction: int) -> bool:
     for index, axis in enumerate(m.axes):
         if _is_head(m, command, index, axis):
-            sensor = axis.limits[direction]
+            sensor = _head_sensor(m, axis, direction)
             axis.seek_mask = 0
             if sensor and not m.sensors & sensor:
                 return False

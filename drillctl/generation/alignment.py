@@ -19,6 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from drillctl.generation.placing import Affine
 
+Millimetres = NDArray[np.float64]
+
 COLUMNS = ("file_x", "file_y", "machine_x", "machine_y")
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 MAX_BYTES = 1_000_000
@@ -41,8 +43,8 @@ class AlignmentError(ValueError):
 class Measured:
     """Holes known in both coordinates: file and machine millimetres, each float64 (n, 2)."""
 
-    file_xy_mm: NDArray[np.float64]
-    machine_xy_mm: NDArray[np.float64]
+    file_xy_mm: Millimetres
+    machine_xy_mm: Millimetres
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ class Alignment:
 
     affine: Affine
     kind: str
-    residual_mm: NDArray[np.float64]
+    residual_mm: Millimetres
     length_ratio: float
     span_mm: float
     warnings: tuple[str, ...]
@@ -102,7 +104,7 @@ def load(path: Path, *, mirrored: bool = False) -> Alignment:
 def parse(data: bytes, *, name: str) -> Measured:
     """Lines `file_x file_y machine_x machine_y` in mm; `#` starts a comment. Raises AlignmentError."""
     if len(data) > MAX_BYTES:
-        raise AlignmentError(f"{name}:1:1: longer than {MAX_BYTES} bytes; an alignment is a few lines of numbers")
+        raise AlignmentError(f"{name}:1:1: longer than {MAX_BYTES} bytes, too long for a list of holes")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -115,11 +117,13 @@ def parse(data: bytes, *, name: str) -> Measured:
 
 def _row(line: str, where: str) -> list[float]:
     words = list(re.finditer(r"\S+", line.partition("#")[0]))
-    if words and len(words) != len(COLUMNS):
+    if not words:
+        return []
+    if len(words) != len(COLUMNS):
         wanted = len(COLUMNS)
         column = words[wanted].start() + 1 if len(words) > wanted else words[-1].end() + 1
         raise AlignmentError(f"{where}:{column}: {len(words)} numbers where {' '.join(COLUMNS)} are meant")
-    return [_number(word, what, where) for word, what in zip(words, COLUMNS)]
+    return [_number(word, what, where) for word, what in zip(words, COLUMNS, strict=True)]
 
 
 def _number(word: re.Match[str], what: str, where: str) -> float:
@@ -170,7 +174,7 @@ def decompose(affine: Affine) -> Parts:
     return Parts(math.degrees(math.atan2(c, a)), scale_x, scale_y, shear, mirrored)
 
 
-def _pairs(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _pairs(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike) -> tuple[Millimetres, Millimetres]:
     file_mm = np.asarray(file_xy_mm, np.float64).reshape(-1, 2)
     machine_mm = np.asarray(machine_xy_mm, np.float64).reshape(-1, 2)
     if file_mm.shape != machine_mm.shape:
@@ -188,18 +192,18 @@ def _refuse_same_place(whose: str, span_mm: float) -> None:
         )
 
 
-def _span_mm(xy_mm: NDArray[np.float64]) -> float:
+def _span_mm(xy_mm: Millimetres) -> float:
     """Size of the box around the points, corner to corner."""
     return float(np.hypot(*np.ptp(xy_mm, axis=0)))
 
 
-def _spread_mm(xy_mm: NDArray[np.float64]) -> tuple[float, float]:
+def _spread_mm(xy_mm: Millimetres) -> tuple[float, float]:
     """Spread along the points' main direction and across it: singular values of the centred points."""
     along_mm, across_mm = np.linalg.svd(xy_mm - xy_mm.mean(axis=0), compute_uv=False)
     return float(along_mm), float(across_mm)
 
 
-def _fit_rigid(file_mm: NDArray[np.float64], machine_mm: NDArray[np.float64], mirrored: bool) -> Affine:
+def _fit_rigid(file_mm: Millimetres, machine_mm: Millimetres, mirrored: bool) -> Affine:
     """Shift and turn by least squares: in the plane the best turn is the angle of two plain sums
     (orthogonal Procrustes problem, Schoenemann 1966, for two dimensions)."""
     mirror = np.diag([-1.0 if mirrored else 1.0, 1.0])
@@ -213,13 +217,15 @@ def _fit_rigid(file_mm: NDArray[np.float64], machine_mm: NDArray[np.float64], mi
     return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
 
 
-def _fit_affine(file_mm: NDArray[np.float64], machine_mm: NDArray[np.float64]) -> Affine:
+def _fit_affine(file_mm: Millimetres, machine_mm: Millimetres) -> Affine:
     source = file_mm - file_mm.mean(axis=0)
     target = machine_mm - machine_mm.mean(axis=0)
-    along_mm, across_mm = _spread_mm(machine_mm)
-    if across_mm < LINE_RATIO * along_mm:
-        raise AlignmentError("the measured places lie on one line, the file's do not; measure again")
     linear = np.linalg.lstsq(source, target, rcond=None)[0].T
+    most, least = np.linalg.svd(linear, compute_uv=False)
+    if least <= LINE_RATIO * most:
+        raise AlignmentError(
+            "the measured places press the board flat onto a line: were they confused with one another?"
+        )
     return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
 
 
@@ -229,7 +235,7 @@ def _doubts(alignment: Alignment, mirrored: bool) -> Iterator[str]:
     if alignment.kind == "rigid" and alignment.spare_holes > 0:
         yield "the holes lie on one line, so only shift and turn were fitted; for scale measure one beside it"
     if alignment.span_mm < SHORT_SPAN_MM:
-        yield f"the holes lie within {alignment.span_mm:.1f} mm, so the turn is uncertain; measure holes farther apart"
+        yield f"the holes lie within {alignment.span_mm:.1f} mm: the turn is uncertain; take holes far apart"
     scales = {"along the holes": alignment.length_ratio}
     if alignment.kind == "affine":
         scales = {"in x": parts.scale_x, "in y": parts.scale_y}

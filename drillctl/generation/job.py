@@ -14,7 +14,7 @@ from drillctl.generation.errors import JobError
 from drillctl.generation.placing import Affine
 from drillctl.generation.program import board_program
 from drillctl.generation.wishes import Wishes
-from drillctl.generation.worklist import Group, WorkList, build, positioning_axes
+from drillctl.generation.worklist import Group, WorkList, build
 from drillctl.kmd import KmdError, Names, parse_program, to_text
 from drillctl.machine import Machine
 
@@ -49,11 +49,15 @@ class Job:
 
     def made_hole(self, tool: int, tag: int, places: tuple[float, ...]) -> MadeHole:
         """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis."""
-        x, y = positioning_axes(self.machine)
-        board_mm = [places[axis] / self.machine.axes[axis].steps_per_mm for axis in (x, y)]
+        board_mm = [self._place_mm("x", places), self._place_mm("y", places)]
         group, placed = self._hole(tag)
         x_mm, y_mm = placed.inverse().apply([board_mm])[0].tolist()
         return MadeHole(group.number if group else tool, group.diameter_mm if group else None, x_mm, y_mm)
+
+    def _place_mm(self, name: str, places: tuple[float, ...]) -> float:
+        """From machine zero; 0 on a machine without such an axis, which a queue may run on."""
+        axis = self.machine.axis_index(name)
+        return 0.0 if axis is None else places[axis] / self.machine.axes[axis].steps_per_mm
 
     def _hole(self, tag: int) -> tuple[Group | None, Affine]:
         """The tool group and the board of a hole by its number, as far as a work list knows it."""
@@ -72,12 +76,13 @@ def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = Non
     except DrillFileError as error:
         raise JobError([str(error)]) from error
     work = build(drill_file, wishes, machine)
-    warnings = (*_file_warnings(path, drill_file), *_life_warnings(path, work))
+    warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
     return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
 
 
-def _file_warnings(path: Path, drill_file: DrillFile) -> list[str]:
-    told = [f"{path}:{w.line}: {w.text}" if w.line else f"{path}: {w.text}" for w in drill_file.warnings]
+def file_warnings(path: Path, drill_file: DrillFile) -> list[str]:
+    """A line for each thing that was read with a doubt, and for what is not drilled."""
+    told = [f"{path}{f':{w.line}' if w.line else ''}: {w.code}: {w.reason}" for w in drill_file.warnings]
     routs = drill_file.routs
     return [*told, f"{path}: {routs} milled cuts are not drilled"] if routs else told
 

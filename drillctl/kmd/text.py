@@ -6,15 +6,17 @@ Rule: a text is wrong as a whole or a program as a whole. Called by generation a
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, RECORD, Flag, Form, Names, Op, Spec
+from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, RECORD, Form, Names, Op, Spec
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
 _WORD = re.compile(r"\S+")
+_PREFIX = "KMD_"
 _INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
 
 
@@ -57,6 +59,8 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
         ended = spec.op is Op.KONIEC
         if len(rows) > MOST_COMMANDS:
             raise KmdError(file, number, 1, f"more than {MOST_COMMANDS} commands")
+    if not rows:
+        raise KmdError(file, 1, 1, "no command in it; a queue that does nothing is KMD_KONIEC alone")
     if not ended:
         rows.append((Op.KONIEC, 0, 0, 0, []))
     return _program(rows)
@@ -71,7 +75,7 @@ def to_text(record: np.void, names: Names) -> str:
 def _lines(text: str, file: str) -> Iterator[tuple[int, list[_Word]]]:
     for number, line in enumerate(text.removeprefix("\ufeff").split("\n"), start=1):
         if len(line) > LONGEST_LINE:
-            raise KmdError(file, number, LONGEST_LINE, f"a line of more than {LONGEST_LINE} characters")
+            raise KmdError(file, number, LONGEST_LINE + 1, f"a line of more than {LONGEST_LINE} characters")
         words = [_Word(found[0], found.start() + 1) for found in _WORD.finditer(line.partition("#")[0])]
         if words:
             yield number, words
@@ -87,17 +91,17 @@ def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]
 
 
 def _nearest(name: str) -> str:
-    from difflib import get_close_matches
-
-    close = get_close_matches(name[:40].upper(), {known.upper(): known for known in COMMANDS}, n=1)
-    known = {known.upper(): known for known in COMMANDS}
+    """A hint for a slip of the finger; what all names begin with says nothing."""
+    known = {command.removeprefix(_PREFIX).upper(): command for command in COMMANDS}
+    close = get_close_matches(name[:40].upper().removeprefix(_PREFIX), known, n=1, cutoff=0.7)
     return f"; did you mean {known[close[0]]}?" if close else ""
 
 
 def _count(spec: Spec, name: _Word, rest: list[_Word], wanted: int) -> None:
     if len(rest) != wanted:
         word = rest[wanted] if len(rest) > wanted else name
-        raise _LineError(word, f"{len(rest)} arguments; {spec.name} {spec.usage}".rstrip())
+        count = f"{len(rest)} argument{'s' * (len(rest) != 1)}"
+        raise _LineError(word, f"{count}; it is written {spec.name} {spec.usage}".rstrip())
 
 
 def _integer(word: _Word, least: int = -MOST_ARGUMENT) -> int:
@@ -222,6 +226,3 @@ def _program(rows: list[tuple[Op, int, int, int, list[int]]]) -> NDArray[np.void
         row["floor_ticks"] = floor_ticks
         row["args"][: len(args)] = args
     return program
-
-
-__all__ = ["Flag", "KmdError", "parse_program", "to_text"]

@@ -32,7 +32,8 @@ def _both_halves(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[str]:
         for angle, name in angles.items():
             other = angles.get(angle + 180)
             if other is not None:
-                yield f"column {number}: {name} and {other} are both on: the halves of one winding cancel"
+                halves = " and ".join(sorted((name, other)))
+                yield f"column {number}: {halves} are both on: the halves of one winding cancel"
 
 
 def _forcing_alone(table: PhaseTable, patterns: list[frozenset[str]]) -> Iterator[str]:

@@ -89,7 +89,7 @@ def parse_phase(source: Source) -> PhaseTable:
         forward = _bits(source, row.name, row.pattern, columns, "wire", index)
         wires.append(Wire(row.name, row.volts > normal_volts, forward, backward.get(row.name, forward)))
     if raw.direction is not None:
-        wires.append(_direction_wire(source, raw.direction, columns))
+        wires.append(_direction_wire(source, raw.direction, columns, [wire.name for wire in wires]))
     return PhaseTable(raw.name, tuple(wires), columns)
 
 
@@ -117,7 +117,9 @@ def _bits(source: Source, name: str, pattern: str, columns: int, key: str, index
     return tuple(mark == "x" for mark in pattern)
 
 
-def _direction_wire(source: Source, row: _Direction, columns: int) -> Wire:
+def _direction_wire(source: Source, row: _Direction, columns: int, taken: list[str]) -> Wire:
+    if row.name in taken:
+        raise source.error(f"direction {row.name}: a row has this name already", "direction", "name")
     if row.forward not in ("x", "."):
         raise source.error(f"direction {row.name}: forward is 'x' or '.'", "direction", "forward")
     level = row.forward == "x"

@@ -102,7 +102,7 @@ class RampTable:
             state = after
 
     def _last_state(self, steps: int, floor_ticks: int, proven: set[tuple[int, int, bool]]) -> int:
-        """The state of a move's last step; 0 once it goes on as an earlier move of its direction, proven to land, did."""
+        """The state of a move's last step; 0 once it goes on as a move did that is proven to land (one way)."""
         state = 0
         for place in self._course(steps, floor_ticks):
             if place in proven:

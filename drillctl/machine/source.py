@@ -58,13 +58,13 @@ class Source:
         """The file as plain tables, lists and values. Raises TableError for what is not TOML."""
         try:
             return tomllib.loads(self.text)
-        except RecursionError as error:
-            raise TableError(self.file, "not TOML: nested too deeply") from error
-        except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
+        except tomllib.TOMLDecodeError as error:
             found = _TOML_LINE.match(str(error))
             reason = found[1] if found else str(error)
             line = int(found[2] or self.text.count("\n") + 1) if found else None
             raise TableError(self.file, f"not TOML: {reason}", line) from error
+        except (RecursionError, ValueError) as error:
+            raise TableError(self.file, "nested too deeply, or a number of thousands of digits") from error
 
     def records(self, shape: type[RecordT]) -> RecordT:
         """The file as a record of the given shape. Raises TableError for bad TOML, unknown keys, wrong types."""

@@ -12,7 +12,8 @@ from tqdm import tqdm
 from drillctl.panel import Progress
 
 PLAIN_EVERY_S = 10.0
-BAR = "{desc} {bar} {n_fmt}/{total_fmt}{postfix}"
+DRAWN_EVERY_S = 0.1
+BAR = "drilling {bar} {n_fmt}/{total_fmt}{postfix}"
 
 
 class ProgressView:
@@ -20,8 +21,9 @@ class ProgressView:
 
     def __init__(self, stream: TextIO):
         self._stream = stream
-        self._bar = tqdm(file=stream, bar_format=BAR, leave=False, desc="drilling") if stream.isatty() else None
-        self._next_plain_s = time.monotonic() + PLAIN_EVERY_S
+        self._on_terminal = stream.isatty()
+        self._bar: tqdm[None] | None = None
+        self._due_s = 0.0 if self._on_terminal else time.monotonic() + PLAIN_EVERY_S
 
     def __enter__(self) -> "ProgressView":
         return self
@@ -34,13 +36,21 @@ class ProgressView:
 
     def show(self, progress: Progress) -> None:
         """The newest record; drawn as often as a person can read it."""
-        if self._bar is not None:
-            self._bar.total = progress.holes_total
-            self._bar.set_postfix_str(_left(progress), refresh=False)
-            self._bar.update(progress.holes_done - self._bar.n)
-        elif time.monotonic() >= self._next_plain_s:
-            self._next_plain_s = time.monotonic() + PLAIN_EVERY_S
+        now_s = time.monotonic()
+        if now_s < self._due_s:
+            return
+        self._due_s = now_s + (DRAWN_EVERY_S if self._on_terminal else PLAIN_EVERY_S)
+        if self._on_terminal:
+            self._draw(progress)
+        else:
             print(_line(progress), file=self._stream, flush=True)
+
+    def _draw(self, progress: Progress) -> None:
+        if self._bar is None:
+            self._bar = tqdm(file=self._stream, bar_format=BAR, leave=False, total=progress.holes_total, delay=1e9)
+        self._bar.n = progress.holes_done
+        self._bar.set_postfix_str(_left(progress), refresh=False)
+        self._bar.refresh()
 
 
 def clock(seconds: float) -> str:

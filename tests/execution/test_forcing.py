@@ -38,19 +38,19 @@ def test_an_axis_rests_while_another_still_moves() -> None:
 
 @pytest.mark.parametrize(("leader", "follower"), [("x", "y"), ("y", "x"), ("x", "z"), ("z", "y")])
 def test_the_last_step_of_a_linked_axis_carries_its_forcing(leader: str, follower: str) -> None:
-    """The follower's column of this tick must go out as the table has it, whichever axis is served first."""
-    b = bench(f"KMD_LINIAd {leader}=2 {follower}=1; KMD_CZEKAJ 9")
+    """The follower's fourth column carries 24 V, and goes out as the table has it, whichever axis is served first."""
+    b = bench(f"KMD_LINIAd {leader}=5 {follower}=4; KMD_CZEKAJ 9")
+    last_step = b.done_at(1)
     b.finish()
-    (hot,) = forced_ticks(b, follower)
-    assert not b.images[hot - 1] & b.bits(follower)
-    assert b.images[hot] & b.bits(follower) == b.bits(follower, "1a", "2a", "24a")
-    assert b.images[hot + 1] & b.bits(follower) == b.bits(follower, "1a", "2a")
+    assert forced_ticks(b, follower)[-1] == last_step
+    assert b.images[last_step] & b.bits(follower) == b.bits(follower, "1a", "2b", "24b")
+    assert b.images[last_step + 1] & b.bits(follower) == b.bits(follower, "1a", "2b")
 
 
 def test_a_linked_axis_that_sits_a_step_out_rests_meanwhile() -> None:
     b = bench("KMD_LINIAd x=100 y=1")
     b.finish()
-    assert len(forced_ticks(b, "y")) == 1
+    assert len(forced_ticks(b, "y")) == 1  # the leader is at full speed, so its next step is one tick later
 
 
 @pytest.mark.parametrize("request_at", [HOT_TICK, HOT_TICK + 1, HOT_TICK + 2])

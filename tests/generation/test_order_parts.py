@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from drillctl.generation.order.improve import Improver
 from drillctl.generation.order.neighbours import find_neighbours
@@ -16,10 +17,14 @@ TRAVEL = TravelCost(RAMP_TICKS, RAMP_TICKS)
 
 crowd = st.integers(0, 9)
 spread = st.integers(0, 4000)
-clustered = st.lists(st.tuples(crowd, crowd) | st.tuples(spread, spread), min_size=1, max_size=150)
+clustered = st.lists(
+    st.tuples(crowd, crowd) | st.tuples(spread, spread), min_size=1, max_size=150
+).map(np.array)
 
 
-def sorted_by_cost(points, travel, count):
+def sorted_by_cost(
+    points: NDArray[np.int64], travel: TravelCost, count: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The lists the slow way: all pairs, by ticks and then by number."""
     cost = travel.between(points[:, None], points[None])
     rows = []
@@ -31,8 +36,7 @@ def sorted_by_cost(points, travel, count):
 
 @settings(deadline=None)
 @given(clustered, st.integers(1, 12))
-def test_neighbour_lists_are_exact(points, count):
-    points = np.array(points)
+def test_neighbour_lists_are_exact(points: NDArray[np.int64], count: int) -> None:
     expected, cost = sorted_by_cost(points, TRAVEL, count)
     found = find_neighbours(points, TRAVEL, count)
     np.testing.assert_array_equal(found.index, expected)
@@ -47,7 +51,7 @@ def test_neighbour_lists_are_exact(points, count):
         pytest.param(np.random.default_rng(5).integers(0, 50, 5001), id="at random"),
     ],
 )
-def test_neighbour_lists_trust_no_tables_shape(ticks):
+def test_neighbour_lists_trust_no_tables_shape(ticks: NDArray[np.int64]) -> None:
     points = np.random.default_rng(6).integers(0, 5000, (300, 2))
     travel = TravelCost(ticks, RAMP_TICKS)
     np.testing.assert_array_equal(
@@ -55,7 +59,7 @@ def test_neighbour_lists_trust_no_tables_shape(ticks):
     )
 
 
-def test_turning_and_swapping_by_hand():
+def test_turning_and_swapping_by_hand() -> None:
     path = Path([0, 1, 2, 3, 4, 5, 6])
     path.turn(1, 3)
     assert path.order == [0, 3, 2, 1, 4, 5, 6]
@@ -65,7 +69,7 @@ def test_turning_and_swapping_by_hand():
 
 
 @given(st.data())
-def test_a_moved_piece_lands_where_it_should(data):
+def test_a_moved_piece_lands_where_it_should(data: st.DataObject) -> None:
     path = Path(list(range(10)))
     first = data.draw(st.integers(1, 8))
     last = data.draw(st.integers(first, 8))
@@ -79,7 +83,7 @@ def test_a_moved_piece_lands_where_it_should(data):
 
 
 @given(st.lists(st.tuples(st.integers(1, 8), st.integers(1, 8)), max_size=20))
-def test_undo_restores_what_was_kept(turns):
+def test_undo_restores_what_was_kept(turns: list[tuple[int, int]]) -> None:
     path = Path(list(range(10)))
     path.turn(2, 5)
     path.keep()
@@ -93,8 +97,7 @@ def test_undo_restores_what_was_kept(turns):
 
 @settings(deadline=None)
 @given(clustered)
-def test_ticks_said_to_be_saved_are_saved(points):
-    points = np.array(points)
+def test_ticks_said_to_be_saved_are_saved(points: NDArray[np.int64]) -> None:
     order = list(range(len(points)))
     improver = Improver(points, TRAVEL, find_neighbours(points, TRAVEL, 8), order)
     saved = improver.settle(order)

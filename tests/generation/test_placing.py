@@ -1,5 +1,8 @@
 """Placing a board: each option by hand on one asymmetric board, then what must hold for all of them."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -29,65 +32,69 @@ placings = st.builds(
 )
 
 
+def as_filed(**options: Any) -> Placing:
+    return Placing(origin="file", **options)
+
+
 @pytest.mark.parametrize(
     ("placing", "expected_mm"),
     [
-        pytest.param(Placing(origin="file"), [[10, 20], [40, 20], [10, 25]], id="as the file has it"),
+        pytest.param(as_filed(), [[10, 20], [40, 20], [10, 25]], id="as the file has it"),
         pytest.param(Placing(), [[0, 0], [30, 0], [0, 5]], id="lowest corner at the base"),
         pytest.param(Placing(offset_mm=(1, -2)), [[1, -2], [31, -2], [1, 3]], id="offset after the corner"),
-        pytest.param(Placing(origin="file", mirror="x"), [[-10, 20], [-40, 20], [-10, 25]], id="x changes sign"),
-        pytest.param(Placing(origin="file", mirror="y"), [[10, -20], [40, -20], [10, -25]], id="y changes sign"),
+        pytest.param(as_filed(mirror="x"), [[-10, 20], [-40, 20], [-10, 25]], id="x changes sign"),
+        pytest.param(as_filed(mirror="y"), [[10, -20], [40, -20], [10, -25]], id="y changes sign"),
         pytest.param(Placing(mirror="x"), [[30, 0], [0, 0], [30, 5]], id="mirrored, then cornered"),
-        pytest.param(Placing(origin="file", rotate_deg=90), [[-20, 10], [-20, 40], [-25, 10]], id="left turn"),
-        pytest.param(Placing(origin="file", rotate_deg=-90), [[20, -10], [20, -40], [25, -10]], id="right turn"),
+        pytest.param(as_filed(rotate_deg=90), [[-20, 10], [-20, 40], [-25, 10]], id="left turn"),
+        pytest.param(as_filed(rotate_deg=-90), [[20, -10], [20, -40], [25, -10]], id="right turn"),
         pytest.param(Placing(rotate_deg=180), [[30, 5], [0, 5], [30, 0]], id="upside down"),
         pytest.param(
-            Placing(origin="file", mirror="x", rotate_deg=90), [[-20, -10], [-20, -40], [-25, -10]], id="mirror first"
+            as_filed(mirror="x", rotate_deg=90), [[-20, -10], [-20, -40], [-25, -10]], id="mirror first"
         ),
     ],
 )
-def test_where_the_holes_come_to_lie(placing, expected_mm):
+def test_where_the_holes_come_to_lie(placing: Placing, expected_mm: list[list[float]]) -> None:
     # Quarter turns are exact, so nothing is approximate here.
     np.testing.assert_array_equal(transform(placing, BOARD_MM).apply(BOARD_MM), expected_mm)
 
 
-def test_rotation_by_an_odd_angle_is_counter_clockwise():
-    turned = transform(Placing(origin="file", rotate_deg=30), BOARD_MM).apply([[2.0, 0.0]])
+def test_rotation_by_an_odd_angle_is_counter_clockwise() -> None:
+    turned = transform(as_filed(rotate_deg=30), BOARD_MM).apply([[2.0, 0.0]])
     np.testing.assert_allclose(turned, [[np.sqrt(3), 1.0]])
 
 
-def test_corner_counts_all_points_handed_in_but_maps_any():
+def test_corner_counts_all_points_handed_in_but_maps_any() -> None:
     affine = transform(Placing(), [[5.0, 5.0], [9.0, 1.0]])
     np.testing.assert_array_equal(affine.apply([[6.0, 6.0]]), [[1.0, 5.0]])
 
 
-def test_board_without_a_point_lies_at_the_files_zero():
+def test_board_without_a_point_lies_at_the_files_zero() -> None:
     affine = transform(Placing(offset_mm=(3.0, 4.0)), np.zeros((0, 2)))
     np.testing.assert_array_equal(affine.apply([[0.0, 0.0]]), [[3.0, 4.0]])
     assert affine.apply(np.zeros((0, 2))).shape == (0, 2)
 
 
 @given(placings, points_mm)
-def test_holes_made_map_back_to_the_file(placing, xy_mm):
+def test_holes_made_map_back_to_the_file(placing: Placing, xy_mm: list[tuple[float, float]]) -> None:
     for board in boards(placing, xy_mm):
         np.testing.assert_allclose(board.inverse().apply(board.apply(xy_mm)), xy_mm, atol=1e-9)
 
 
 @given(placings, points_mm)
-def test_distances_are_kept(placing, xy_mm):
+def test_distances_are_kept(placing: Placing, xy_mm: list[tuple[float, float]]) -> None:
     before, after = np.array(xy_mm), transform(placing, xy_mm).apply(xy_mm)
     np.testing.assert_allclose(np.hypot(*(after - after[0]).T), np.hypot(*(before - before[0]).T), atol=1e-9)
 
 
 @given(placings, points_mm)
-def test_lowest_corner_lies_at_base_plus_offset(placing, xy_mm):
+def test_lowest_corner_lies_at_base_plus_offset(placing: Placing, xy_mm: list[tuple[float, float]]) -> None:
     lowest_mm = transform(placing, xy_mm).apply(xy_mm).min(axis=0)
     if placing.origin != "file":
         np.testing.assert_allclose(lowest_mm, placing.offset_mm, atol=1e-9)
 
 
 @given(placings, points_mm)
-def test_then_is_one_map_after_the_other(placing, xy_mm):
+def test_then_is_one_map_after_the_other(placing: Placing, xy_mm: list[tuple[float, float]]) -> None:
     one, other = transform(placing, xy_mm), Affine.of([[1.0, 0.2], [0.0, 0.9]], (7.0, -3.0))
     np.testing.assert_allclose(one.then(other).apply(xy_mm), other.apply(one.apply(xy_mm)), atol=1e-9)
 
@@ -99,25 +106,25 @@ def test_then_is_one_map_after_the_other(placing, xy_mm):
         ("serpentine", [[0, 0], [50, 0], [100, 0], [100, 40], [50, 40], [0, 40]]),
     ],
 )
-def test_panel_steps_and_repeats(order, expected_mm):
+def test_panel_steps_and_repeats(order: str, expected_mm: list[list[float]]) -> None:
     panel = Panel(columns=3, rows=2, pitch_x_mm=50, pitch_y_mm=40, order=order)
     np.testing.assert_array_equal(panel.shifts_mm(), expected_mm)
     placed = [board.apply(BOARD_MM[:1])[0] for board in boards(Placing(panel=panel), BOARD_MM)]
     np.testing.assert_array_equal(placed, expected_mm)
 
 
-def test_panel_repeats_along_the_machine_whatever_the_board_is_turned_to():
+def test_panel_repeats_along_the_machine_whatever_the_board_is_turned_to() -> None:
     panel = Panel(columns=2, rows=1, pitch_x_mm=50, pitch_y_mm=0)
     first, second = boards(Placing(rotate_deg=90, mirror="x", panel=panel), BOARD_MM)
     np.testing.assert_array_equal(second.apply(BOARD_MM) - first.apply(BOARD_MM), [[50, 0]] * 3)
 
 
-def test_panel_on_a_measured_sheet_is_turned_with_the_sheet():
+def test_panel_on_a_measured_sheet_is_turned_with_the_sheet() -> None:
     turned = Affine.of([[0.0, -1.0], [1.0, 0.0]], (100.0, 0.0))
     panel = Panel(columns=2, rows=1, pitch_x_mm=50, pitch_y_mm=0)
     first, second = boards(Placing(alignment=turned, panel=panel), BOARD_MM)
     np.testing.assert_array_equal(first.matrix, turned.matrix)
-    np.testing.assert_array_equal(second.apply(BOARD_MM), turned.apply(BOARD_MM + (50.0, 0.0)))
+    np.testing.assert_array_equal(second.apply(BOARD_MM), turned.apply(BOARD_MM + np.array([50.0, 0.0])))
 
 
 @pytest.mark.parametrize(
@@ -130,7 +137,7 @@ def test_panel_on_a_measured_sheet_is_turned_with_the_sheet():
         ({"offset_mm": (0.0, 1.0)}, "offset"),
     ],
 )
-def test_alignment_decides_alone(option, name):
+def test_alignment_decides_alone(option: dict[str, Any], name: str) -> None:
     with pytest.raises(PlacingError, match=f"^{name} given together with an alignment: the measured holes"):
         Placing(alignment=Affine.of(np.eye(2)), **option)
 
@@ -152,11 +159,11 @@ def test_alignment_decides_alone(option, name):
         (lambda: Affine(np.eye(2)), "finite numbers"),
     ],
 )
-def test_what_cannot_be_meant_is_refused(make, reason):
+def test_what_cannot_be_meant_is_refused(make: Callable[[], Any], reason: str) -> None:
     with pytest.raises(PlacingError, match=reason):
         make()
 
 
-def test_a_map_cannot_be_changed_behind_its_owners_back():
+def test_a_map_cannot_be_changed_behind_its_owners_back() -> None:
     with pytest.raises(ValueError, match="read-only"):
         Affine.of(np.eye(2)).matrix[0, 0] = 2.0

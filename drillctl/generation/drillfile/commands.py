@@ -12,7 +12,7 @@ from functools import partial
 
 from .errors import Refusal
 from .facts import Fact, Voice
-from .lexer import KEYWORD, Word, split_words
+from .lexer import KEYWORD, Word, split_words, take_axes, take_end
 from .machine import Machine
 from .tools import NUMBER_LIMIT, Entry
 
@@ -109,36 +109,14 @@ def _code(machine: Machine, words: list[Word]) -> None:
 
 
 def _coordinates(machine: Machine, words: list[Word]) -> None:
-    axes = _take_axes(words)
+    axes = take_axes(words)
     if words and words[0] == ("G", "85"):
         words.pop(0)
-        machine.slot(axes, _take_end(words))
+        machine.slot(axes, take_end(words))
         return
     if machine.routing and not machine.cutting:
         machine.remark("rout-move")
     machine.move(axes)
-
-
-def _take_axes(words: list[Word], letters: str = "XYAIJ") -> dict[str, str]:
-    """The coordinates that come next (A, I and J are radius and centre of a routed arc)."""
-    axes: dict[str, str] = {}
-    while words and words[0].letter in letters:
-        word = words.pop(0)
-        if not word.number:
-            raise Refusal("bad-number", f"{word.letter} without a number")
-        if word.letter in axes:
-            raise Refusal("duplicate-axis", str(word))
-        axes[word.letter] = word.number
-    if axes and words and words[0].letter not in "GMTRFSN":
-        raise Refusal("bad-number", "".join(map(str, words)))
-    return axes
-
-
-def _take_end(words: list[Word]) -> dict[str, str]:
-    axes = _take_axes(words)
-    if not axes:
-        raise Refusal("bad-number", "G85 without an end")
-    return axes
 
 
 def _tool(machine: Machine, words: list[Word]) -> None:
@@ -180,7 +158,7 @@ def _repeat(machine: Machine, words: list[Word]) -> None:
     pattern = bool(words) and words[0] == ("M", "02")
     if pattern:
         words.pop(0)
-    axes = _take_axes(words, "XY")
+    axes = take_axes(words, "XY")
     if not axes:
         raise Refusal("repeat-without-offset", f"R{digits}")
     (machine.repeat_pattern if pattern else machine.repeat)(int(digits), axes)
@@ -200,7 +178,7 @@ LETTERS: dict[str, Action] = {
 
 def _pattern_copy(machine: Machine, words: list[Word]) -> None:
     """M02 with a distance repeats the pattern; bare it ends pattern or program."""
-    axes = _take_axes(words, "XY")
+    axes = take_axes(words, "XY")
     if axes:
         machine.repeat_pattern(1, axes)
     else:
@@ -211,20 +189,20 @@ def _pattern_copy(machine: Machine, words: list[Word]) -> None:
 def _rout(machine: Machine, words: list[Word]) -> None:
     """G00 to G03: from here to G05 coordinates are the router's way."""
     machine.routing = True
-    axes = _take_axes(words)
+    axes = take_axes(words)
     if axes:
         machine.move(axes)
 
 
 def _zero_set(machine: Machine, words: list[Word]) -> None:
     """G92, G93: where the machine's zero is; says nothing about distances between holes."""
-    axes = _take_axes(words)
+    axes = take_axes(words)
     if any(float(number) for number in axes.values()):
         machine.remark("zero-set-ignored", str(axes))
 
 
 def _skip_axes(machine: Machine, words: list[Word]) -> None:
-    _take_axes(words)
+    take_axes(words)
 
 
 def _set(**state: bool) -> Action:
@@ -253,7 +231,7 @@ CODES: dict[str, Action] = {
     **dict.fromkeys(("G00", "G01", "G02", "G03"), _rout),
     "M15": _do("cut", down=True),
     **dict.fromkeys(("M16", "M17"), _do("cut", down=False)),
-    "G85": lambda machine, words: machine.slot({}, _take_end(words)),
+    "G85": lambda machine, words: machine.slot({}, take_end(words)),
     "M25": lambda machine, words: machine.rows.begin_pattern(),
     "M01": lambda machine, words: machine.rows.end_pattern(),
     "M02": _pattern_copy,

@@ -8,30 +8,33 @@ call `hear`.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from .facts import Fact, Facts, Size, Voice
 from .model import MM_PER_UNIT
 
-Patterns = Iterable[re.Pattern[str]]
+Patterns = tuple[re.Pattern[str], ...]
+
+
+def patterns(*expressions: str) -> Patterns:
+    """The expressions compiled, blind to capitals."""
+    return tuple(re.compile(expression, re.I) for expression in expressions)
+
 
 # The writer of each pattern is named; group names are listed above.
-COMMENT_PATTERNS = tuple(
-    re.compile(pattern, re.I)
-    for pattern in (
-        # Altium, Protel, EasyEDA, P-CAD: ;FILE_FORMAT=4:4
-        r"FILE_FORMAT\s*=\s*(?P<integer>\d):(?P<decimal>\d)",
-        # KiCad: ; FORMAT={2:4/ absolute / inch / suppress leading zeros}, or -:- and decimal
-        r"FORMAT=\{(?:(?P<integer>\d):(?P<decimal>\d)|-:-)\s*/[\w ]+/\s*(?P<units>\w+)\s*/\s*(?P<zeros>[\w ]+)\}",
-        # Mentor Xpedition: ; Format  : 3.3 / Absolute / MM / Leading
-        r"Format\s*:\s*(?P<integer>\d)\.(?P<decimal>\d)\s*/[\w ]+/\s*(?P<units>\w+)\s*/\s*(?P<zeros>\w+)",
-        # Allegro: ;T01 Holesize 1. = 8.000000 Tolerance = +3.0/-3.0 PLATED MILS Quantity = 801
-        r"(?:T(?P<tool>\d+)\s+)?Holesize\s+(?P<index>\d+)\.\s*=\s*(?P<size>\d+\.?\d*)"
-        r".*\s(?P<size_units>\w+)\s+Quantity\s*=\s*(?P<count>\d+)",
-        # anybody
-        r"^\W*Format\s*[:=]\s*(?P<integer>\d)[.:](?P<decimal>\d)\s*$",
-        r"^\W*Units?\s*[:=]\s*(?P<units>[A-Z]+)\s*$",
-    )
+COMMENT_PATTERNS = patterns(
+    # Altium, Protel, EasyEDA, P-CAD: ;FILE_FORMAT=4:4
+    r"FILE_FORMAT\s*=\s*(?P<integer>\d):(?P<decimal>\d)",
+    # KiCad: ; FORMAT={2:4/ absolute / inch / suppress leading zeros}, or -:- and decimal
+    r"FORMAT=\{(?:(?P<integer>\d):(?P<decimal>\d)|-:-)\s*/[\w ]+/\s*(?P<units>\w+)\s*/\s*(?P<zeros>[\w ]+)\}",
+    # Mentor Xpedition: ; Format  : 3.3 / Absolute / MM / Leading
+    r"Format\s*:\s*(?P<integer>\d)\.(?P<decimal>\d)\s*/[\w ]+/\s*(?P<units>\w+)\s*/\s*(?P<zeros>\w+)",
+    # Allegro: ;T01 Holesize 1. = 8.000000 Tolerance = +3.0/-3.0 PLATED MILS Quantity = 801
+    r"(?:T(?P<tool>\d+)\s+)?Holesize\s+(?P<index>\d+)\.\s*=\s*(?P<size>\d+\.?\d*)"
+    r".*\s(?P<size_units>\w+)\s+Quantity\s*=\s*(?P<count>\d+)",
+    # anybody
+    r"^\W*Format\s*[:=]\s*(?P<integer>\d)[.:](?P<decimal>\d)\s*$",
+    r"^\W*Units?\s*[:=]\s*(?P<units>[A-Z]+)\s*$",
 )
 
 MM_PER_WORD = {

@@ -2,7 +2,7 @@
 
 Rule: every complaint is a code out of the two tables below, with the source line and a shortened
 piece of the file; a message never carries more of the file than TEXT_LIMIT characters.
-Refusals stop the file, warnings travel with the result. Every module of this package uses it.
+Refusals stop the file, warnings travel with the result (line-too-long is either). Every module of this package uses it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ REFUSALS = {
     "gcode-not-drill": "this is G-code for a milling machine; export an Excellon drill file",
     "gerber-not-drill": "this is a Gerber picture; export the drill data (Excellon) instead",
     "hpgl-not-drill": "this is an HPGL plot; export the drill data (Excellon) instead",
-    "line-too-long": "the line is longer than any drill command; the file is damaged",
+    "line-too-long": "the line is longer than any in a drill file; a comment is cut, a command refused",
     "no-tool-selected": "a hole is drilled while no tool is selected; select a tool before it",
     "not-a-drill-file": "nothing in it looks like a drill file; is it the right one?",
     "not-text": "this is a binary file, not a drill file",
@@ -55,7 +55,6 @@ WARNINGS = {
     "format-guessed": "the number format is a guess; settle it with --format if the board looks wrong",
     "header-not-closed": "holes begin before the header is closed by % or M95",
     "inner-spaces": "spaces inside coordinate lines are passed over",
-    "line-too-long": "a comment longer than the limit was cut",
     "missing-diameter": "a tool has no diameter, neither here nor in a file beside it",
     "missing-tools": "no tool is ever selected; every hole belongs to one tool of unknown diameter",
     "missing-units": "neither inch nor metric is declared; the units are a guess",

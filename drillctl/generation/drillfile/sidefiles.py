@@ -7,10 +7,9 @@ ncdrill.log, EAGLE's .dri, Protel's .DRR and .TOL, Ultiboard's .rep and bare tab
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
-from .comments import declare, find
+from .comments import declare, find, patterns
 from .facts import Facts, Voice
 
 NAMES = frozenset({"nc_param.txt", "ncdrill.log"})  # one for the whole folder
@@ -19,27 +18,24 @@ BYTE_LIMIT = 1_000_000
 LINE_LIMIT = 2_000
 
 # Group names as in comments.py; `tens`, `whole_mask` and `fraction_mask` are counted, not read.
-PATTERNS = tuple(
-    re.compile(pattern, re.I)
-    for pattern in (
-        # Allegro nc_param.txt, repeated in ncdrill.log
-        r"^\s*FORMAT\s+(?P<integer>\d)\.(?P<decimal>\d)\s*$",
-        r"^\s*INTEGER-PLACES\s+(?P<integer>\d)\s*$",
-        r"^\s*DECIMAL-PLACES\s+(?P<decimal>\d)\s*$",
-        r"^\s*OUTPUT-UNITS\s+(?P<units>\w+)",
-        r"^\s*SUPPRESS-(?P<zeros>LEAD|TRAIL)-ZEROES\s+YES",
-        # EAGLE .dri: Units : 1/10000 Inch
-        r"^\s*Units\s*:\s*1/1(?P<tens>0+)\s*(?P<units>\w+)",
-        # Protel .DRR: T1  31mil (0.7874mm)  [tolerance] [Round]  12 ...
-        r"^\s*T(?P<tool>\d+)\s+[\d.]+\s*mil \((?P<size>\d+\.?\d*)(?P<size_units>mm)\)"
-        r"(?:\s+\S+mil \(\S+mm\))?(?:\s+[A-Z]+)?\s+(?P<count>\d+)\b",
-        # Ultiboard .rep
-        r"^\s*Coord format\s*:\s*(?P<whole_mask>N+)(?P<fraction_mask>D+)",
-        r"^\s*Units\s*:\s*(?P<units>\w+)\s*$",
-        # tool tables: T01 0.0236inch 14 / 2 0.820 mm 47 / T1 0.0300 13
-        r"^\s*(?:T(?P<tool>\d+)|(?P<index>\d+))\s+(?P<size>\d*\.\d+|\d+(?=\s*[mi]))"
-        r"\s*(?P<size_units>mm|mils?|inch|in)?(?:\s+(?P<count>\d+))?\s*$",
-    )
+PATTERNS = patterns(
+    # Allegro nc_param.txt, repeated in ncdrill.log
+    r"^\s*FORMAT\s+(?P<integer>\d)\.(?P<decimal>\d)\s*$",
+    r"^\s*INTEGER-PLACES\s+(?P<integer>\d)\s*$",
+    r"^\s*DECIMAL-PLACES\s+(?P<decimal>\d)\s*$",
+    r"^\s*OUTPUT-UNITS\s+(?P<units>\w+)",
+    r"^\s*SUPPRESS-(?P<zeros>LEAD|TRAIL)-ZEROES\s+YES",
+    # EAGLE .dri: Units : 1/10000 Inch
+    r"^\s*Units\s*:\s*1/1(?P<tens>0+)\s*(?P<units>\w+)",
+    # Protel .DRR: T1  31mil (0.7874mm)  [tolerance] [Round]  12 ...
+    r"^\s*T(?P<tool>\d+)\s+[\d.]+\s*mil \((?P<size>\d+\.?\d*)(?P<size_units>mm)\)"
+    r"(?:\s+\S+mil \(\S+mm\))?(?:\s+[A-Z]+)?\s+(?P<count>\d+)\b",
+    # Ultiboard .rep
+    r"^\s*Coord format\s*:\s*(?P<whole_mask>N+)(?P<fraction_mask>D+)",
+    r"^\s*Units\s*:\s*(?P<units>\w+)\s*$",
+    # tool tables: T01 0.0236inch 14 / 2 0.820 mm 47 / T1 0.0300 13
+    r"^\s*(?:T(?P<tool>\d+)|(?P<index>\d+))\s+(?P<size>\d*\.\d+|\d+(?=\s*[mi]))"
+    r"\s*(?P<size_units>mm|mils?|inch|in)?(?:\s+(?P<count>\d+))?\s*$",
 )
 ZERO_WORDS = {"LEAD": "leading", "TRAIL": "trailing"}
 COUNTED = {"tens": "decimal", "whole_mask": "integer", "fraction_mask": "decimal"}

@@ -44,7 +44,7 @@ def _neighbours(xy_mm: Floats, diameter_mm: Floats) -> Iterator[tuple[Integers, 
     for power in np.unique(octave):
         pool = np.flatnonzero(octave <= power)
         belongs = octave[pool] == power
-        for first, second in _cell_mates(xy_mm[pool], 2.0**power, belongs):
+        for first, second in _cell_mates(xy_mm[pool], float(size[pool].max()), belongs):
             yield pool[first], pool[second]
 
 

@@ -8,6 +8,7 @@ Holes around which nothing can be saved sleep until a repair touches them (Bentl
 
 The path is treated as a loop: behind the last hole stands END, which every hole reaches for nothing, so
 the end is free; from END back to the start the loop is closed by a way that no repair can afford to take out.
+Position -1 is END's, so "the hole before the start" needs no case of its own.
 """
 
 from __future__ import annotations
@@ -33,7 +34,10 @@ class Improver:
         self.end = len(points)
         self.path = Path([*order, self.end])
         self.ticks = loop_ticks(points, travel)
-        self._near = [list(zip(*row)) for row in zip(near.index.tolist(), near.ticks.tolist())]
+        self._near = [
+            list(zip(holes, ticks, strict=True))
+            for holes, ticks in zip(near.index.tolist(), near.ticks.tolist(), strict=True)
+        ]
         self._awake: dict[int, None] = {}  # a set that remembers in which order it was filled
 
     def settle(self, holes: Iterable[int]) -> int:
@@ -79,7 +83,7 @@ class Improver:
         return saved
 
     def _or_opt(self, a: int, b: int, c: int, side: int, gain: int) -> int:
-        """Take out the piece a..e, one to three holes leading away from b, and put it beside c, a next to c."""
+        """Take out the piece a..e, one to three holes leading away from b; put its end a next to c."""
         order, place, ticks = self.path.order, self.path.place, self.ticks
         for far in range(place[a], place[a] - LONGEST_PIECE * side, -side):
             e = order[far]

@@ -1,6 +1,6 @@
 """Always to the nearest hole that is left; of equally near ones to the one that stands first in the file.
 
-Rule: exact. A list of near holes answers most times; where all of them are done, every hole left is looked at.
+Rule: exact. A list of near holes answers most times; once all of those are done, every hole left is tried.
 Called by `plan`, and by it as the starting point of `optimise`.
 """
 

@@ -33,7 +33,7 @@ class Path:
         self.turn(first + end - middle, end - 1)
 
     def move(self, first: int, last: int, after: int, *, turned: bool) -> None:
-        """Take the piece first..last to behind position `after` (outside it), the other way round if `turned`."""
+        """Put the piece first..last behind position `after`, outside it; `turned`: the other way round."""
         length = last - first + 1
         if after > last:
             self.swap(first, last + 1, after + 1)

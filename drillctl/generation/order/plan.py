@@ -68,7 +68,8 @@ def _file_order(stops: Steps, travel: TravelCost) -> NDArray[np.int64]:
 def _optimised(stops: Steps, travel: TravelCost) -> NDArray[np.int64]:
     """Begin with the shorter of the two cheap orders, since repairs only ever shorten."""
     cheap = [_file_order(stops, travel), nearest_order(stops, travel)]
-    return optimised_order(stops, travel, min(cheap, key=lambda order: _length_ticks(stops[order], travel)))
+    lengths = [_length_ticks(stops[order], travel) for order in cheap]
+    return optimised_order(stops, travel, cheap[int(np.argmin(lengths))])
 
 
 HOWS: dict[str, Callable[[Steps, TravelCost], NDArray[np.int64]]] = {

@@ -53,8 +53,8 @@ class TravelCost:
 
     def check_reach(self, points: Steps) -> None:
         """Raise OrderError unless the tables hold every move between two of `points` (n, 2), n >= 1."""
-        reach = np.array([len(self.ticks_x) - 1, len(self.ticks_y) - 1])
-        for axis, needed, held in zip("xy", np.ptp(points, axis=0), reach):
+        reach = (len(self.ticks_x) - 1, len(self.ticks_y) - 1)
+        for axis, needed, held in zip("xy", np.ptp(points, axis=0), reach, strict=True):
             if needed > held:
                 raise OrderError(
                     f"the holes lie {needed} steps apart in {axis}, the travel table ends at {held}; "

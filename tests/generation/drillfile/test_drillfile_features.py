@@ -126,7 +126,9 @@ def test_a_run_and_single_lines_are_one_grammar() -> None:
         pytest.param("M48\nMETRIC\nT120C0.8\n%\nT120\nX1.0Y1.0\n", [(120, 0.8, 1)], id="more than 99"),
         pytest.param("%\nT01\nX1.0Y1.0\nM00\n", [(1, None, 1)], id="never defined"),
         pytest.param("M48\n%\nX1.0Y1.0\nX9.0\nM30\n", [(1, None, 2)], id="never selected"),
-        pytest.param(HEADER + "X1.0Y1.0\nM48\nT1C0.9\n%\nT1\nX9.0\n", [(1, 0.8, 1), (2, 1.0, 0), (1, 0.9, 1)], id="again"),
+        pytest.param(
+            HEADER + "X1.0Y1.0\nM48\nT1C0.9\n%\nT1\nX9.0\n", [(1, 0.8, 1), (2, 1.0, 0), (1, 0.9, 1)], id="again"
+        ),
     ],
 )
 def test_tools(text: str, tools: list[tuple[int, float | None, int]]) -> None:
@@ -165,8 +167,8 @@ def test_warnings(text: str, code: str) -> None:
 @pytest.mark.parametrize(
     ("name", "report"),
     [
-        ("BOARD.DRR", "NCDrill File Report For: b.pcb\n\nT1        31mil (0.7874mm)         2        3.4 Inch (86 mm)\n"),
-        ("board.drr", "T1      31mil (0.7874mm)    +/-3mil (0.076mm)     Round     2     PTH    2.26inch (57.52mm)\n"),
+        ("BOARD.DRR", "NCDrill File Report For: b.pcb\n\nT1     31mil (0.7874mm)     2     3.4 Inch (86 mm)\n"),
+        ("board.drr", "T1      31mil (0.7874mm)    +/-3mil (0.076mm)   Round   2   PTH  2.26inch (57.52mm)\n"),
         ("board.tol", "T1 0.0310 2\n"),
         ("board.dri", "Data Mode : Absolute\nUnits : 1/10000 Inch\nT01 0.031inch 2\n"),
         ("board.rep", "Coord format : NNDDDD\nUnits : IMPERIAL\nTool Diam Holes\n1 0.7874 mm 2\n"),
@@ -192,5 +194,6 @@ def test_allegro_parameters_beside_the_file(tmp_path) -> None:
 
 
 def test_summary_has_the_promised_fields() -> None:
-    fields = "holes slots routs tools bbox_mm units format zeros confidence runner_up reason warnings".split()
-    assert set(fields) <= set(summary(file_of(HEADER + "X1.0Y1.0\nM30\n")))
+    fields = {"holes", "slots", "routs", "tools", "bbox_mm", "units", "format", "zeros"}
+    fields |= {"confidence", "runner_up", "reason", "warnings"}
+    assert fields <= set(summary(file_of(HEADER + "X1.0Y1.0\nM30\n")))

@@ -1,4 +1,4 @@
-"""Whatever the bytes: a drill file or a DrillFileError, within a second. The long run is benchmarks/drillfile_fuzz.py."""
+"""Whatever the bytes: a drill file or a DrillFileError, within a second (long run: benchmarks/drillfile_fuzz.py)."""
 
 import importlib.util
 from pathlib import Path

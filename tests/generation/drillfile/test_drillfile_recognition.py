@@ -15,7 +15,9 @@ from drillctl.generation.drillfile.spacing import SAME_MM, TOUCH_MM, meetings
 from drillctl.generation.drillfile.write import write
 
 BBOX_MM = 0.06  # the coarsest format written here has a place of 0.0254 mm
-DECLARATION = re.compile(rb"^;[^\r\n]*format[^\r\n]*|^(?:INCH|METRIC|M71|M72)\b[^\r\n]*|(?<=PLATED) MILS| MM", re.M | re.I)
+DECLARATION = re.compile(
+    rb"^;[^\r\n]*format[^\r\n]*|^(?:INCH|METRIC|M71|M72)\b[^\r\n]*|(?<=PLATED) (?:MILS|MM)", re.M | re.I
+)
 UNDECLARED = [
     *("inch,2:3,leading", "inch,2:3,trailing", "inch,2:4,leading", "inch,2:4,trailing", "inch,2:4,none"),
     *("inch,2:5,leading", "inch,2:5,none", "inch,3:3,none", "inch,3:5,none"),
@@ -26,7 +28,8 @@ UNDECLARED = [
 
 def grid(columns: int, rows: int, pitch: int, start: int = 5000) -> str:
     """Holes in 0.0001 units, written with leading zeros dropped."""
-    return "".join(f"X{start + pitch * (i % columns)}Y{start + pitch * (i // columns)}\n" for i in range(columns * rows))
+    places = [(start + pitch * (i % columns), start + pitch * (i // columns)) for i in range(columns * rows)]
+    return "".join(f"X{x}Y{y}\n" for x, y in places)
 
 
 def alike(one: DrillFile, other: DrillFile, mm: float = BBOX_MM) -> bool:
@@ -121,7 +124,13 @@ def test_a_format_set_by_hand_settles_it(fmt: str) -> None:
 
 @pytest.mark.parametrize(
     ("word", "triple"),
-    [("0125", (125, 0.0125, 0)), ("-0125", (-125, -0.0125, 0)), ("+5", (5, 0.5, 0)), ("1.25", (0, 0, 1.25)), ("0", (0, 0, 0))],
+    [
+        ("0125", (125, 0.0125, 0)),
+        ("-0125", (-125, -0.0125, 0)),
+        ("+5", (5, 0.5, 0)),
+        ("1.25", (0, 0, 1.25)),
+        ("0", (0, 0, 0)),
+    ],
 )
 def test_a_number_is_read_three_ways(word: str, triple: tuple[float, float, float]) -> None:
     assert read_numbers([word], Evidence())[0].tolist() == pytest.approx(triple)
@@ -129,7 +138,12 @@ def test_a_number_is_read_three_ways(word: str, triple: tuple[float, float, floa
 
 @pytest.mark.parametrize(
     ("fmt", "mm"),
-    [("inch,2:4,leading", 25.4 * 0.0125), ("inch,2:4,trailing", 25.4 * 1.25), ("mm,3:3,none", 0.125), ("mm,3:3,trailing", 12.5)],
+    [
+        ("inch,2:4,leading", 25.4 * 0.0125),
+        ("inch,2:4,trailing", 25.4 * 1.25),
+        ("mm,3:3,none", 0.125),
+        ("mm,3:3,trailing", 12.5),
+    ],
 )
 def test_one_number_in_four_formats(fmt: str, mm: float) -> None:
     choice = parse_option(fmt)

@@ -1,0 +1,131 @@
+"""What one tick costs: CPU time with three axes moving, and memory kept over 20,000 ticks.
+
+Run as ``python -m benchmarks.tick_cost``. Targets: under 10 us a tick, so that 500 Hz is under 1 % of a core, and
+nothing kept by any tick or command. The median of 7 runs stands beside the machine's load and beside the cost of calling an empty Python
+function in the same loop, since a figure in microseconds alone says little about another computer.
+"""
+
+import gc
+import os
+import sys
+from collections.abc import Callable
+from itertools import pairwise
+from statistics import median
+from time import process_time_ns
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution import Controller, tick
+from drillctl.generation.job import names_of
+from drillctl.kmd import Command, Queue, Requests, parse_program
+from drillctl.machine import Library, shipped_tables
+
+MACHINES = ("pcb-drill", "pcb-drill-ramp-lab", "eight-axis")
+TARGET_US = 10.0
+MOST_KEPT = 0.5  # blocks a command; what is kept by each command or tick would be 1 at the least
+RUNS = 7
+WINDOW_TICKS = 20_000
+WARM_UP_TICKS = 3_000
+LONG_STEPS, SHORT_STEPS = 600, 20
+ROUNDS = 60  # there and back
+
+
+class DeadCard:
+    """A port without a machine: its inputs stay low, so that only the tick is measured."""
+
+    def latch(self) -> int:
+        return 0
+
+    def flush(self, image: int) -> None:
+        pass
+
+    def safe(self) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+def three_axes_moving(name: str, steps: int) -> Controller:
+    """A controller whose queue holds moves of its first three axes, there and back, without an end."""
+    machine = Library((shipped_tables(),)).machine(name)
+    reach = min(steps, *(axis.span_steps - 10 for axis in machine.axes[:3]))
+    there = "KMD_RUCHd " + " ".join(f"{axis}={reach}" for axis in machine.axis_names[:3])
+    program = parse_program("\n".join([there, there.replace("=", "=-")] * ROUNDS), names_of(machine))[:-1]
+    queue = EndlessQueue(program)
+    return Controller(machine, queue, Requests(), DeadCard())
+
+
+class EndlessQueue(Queue):
+    """A queue that begins again when it is empty."""
+
+    def __init__(self, program: NDArray[np.void]):
+        super().__init__()
+        self.program = program
+        self.taken = 0
+
+    def take(self, command: Command) -> bool:
+        if not len(self):
+            self.put(self.program)
+        self.taken += 1
+        return super().take(command)
+
+
+def ticks_us(name: str) -> float:
+    """CPU microseconds of one tick, with three axes in long moves."""
+    m = three_axes_moving(name, LONG_STEPS)
+    spent_us = _per_call_us(lambda: tick(m))
+    assert not m.fault, "the job ended before the measurement"
+    return spent_us
+
+
+def empty_call_us() -> float:
+    """CPU microseconds of calling an empty function, in the same loop."""
+    return _per_call_us(lambda: None)
+
+
+def blocks_kept(name: str) -> float:
+    """Memory blocks kept by 20,000 ticks of short moves, for each command: the least of three such windows.
+
+    What a tick or a command keeps it keeps in every window, and is 1 at the least; the caches of the interpreter and
+    of numpy still move by some blocks a window.
+    """
+    m = three_axes_moving(name, SHORT_STEPS)
+    queue = m.queue
+    assert isinstance(queue, EndlessQueue)
+    marks = [(_blocks_after(m, ticks), queue.taken) for ticks in (WARM_UP_TICKS, *[WINDOW_TICKS] * 3)]
+    return min((after - before) / (last - first) for (before, first), (after, last) in pairwise(marks))
+
+
+def _blocks_after(m: Controller, ticks: int) -> int:
+    for _ in range(ticks):
+        tick(m)
+    gc.collect()
+    return sys.getallocatedblocks()
+
+
+def _per_call_us(call: Callable[[], None]) -> float:
+    started = process_time_ns()
+    for _ in range(WINDOW_TICKS):
+        call()
+    return (process_time_ns() - started) / 1000 / WINDOW_TICKS
+
+
+def main() -> int:
+    """Prints a line a machine; 1 where a target is missed."""
+    empty_us = median(empty_call_us() for _ in range(RUNS))
+    print(f"python {sys.version.split()[0]}, numpy {np.__version__}, load {os.getloadavg()[0]:.2f}")
+    print(f"an empty call {empty_us:.3f} us; {WINDOW_TICKS} ticks, median of {RUNS}")
+    missed = False
+    for name in MACHINES:
+        cost_us = median(ticks_us(name) for _ in range(RUNS))
+        kept = blocks_kept(name)
+        missed = missed or cost_us >= TARGET_US or kept >= MOST_KEPT
+        calls = cost_us / empty_us
+        print(f"{name:20} {cost_us:6.2f} us a tick, {calls:4.0f} empty calls, {kept:.3f} blocks kept a command")
+    return int(missed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,34 @@
+"""Wiring: what Ctrl-C and SIGTERM do, and the exit code that tells of them.
+
+Rule: within a job they ask the machine to stop; anywhere else they end the verb by an exception, so that every
+``finally`` on the way out is run. Called by the CLI and, while a machine runs, by desk.
+"""
+
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+CAUGHT = (signal.SIGINT, signal.SIGTERM)
+Handler = Callable[[int, FrameType | None], None]
+
+
+@contextmanager
+def caught(handler: Handler) -> Iterator[None]:
+    """Both signals go to ``handler``, and afterwards where they went before. For the main thread only."""
+    previous = {number: signal.signal(number, handler) for number in CAUGHT}
+    try:
+        yield
+    finally:
+        for number, before in previous.items():
+            signal.signal(number, before)
+
+
+def leave(number: int, frame: FrameType | None) -> None:
+    """A handler: raises KeyboardInterrupt with the signal's number, for ``exit_code``."""
+    raise KeyboardInterrupt(number)
+
+
+def exit_code(number: int = signal.SIGINT) -> int:
+    """130 for Ctrl-C, 143 for SIGTERM, as shells have it."""
+    return 128 + number

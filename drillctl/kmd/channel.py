@@ -1,0 +1,133 @@
+"""The doors as shared memory: queue, requests and status between desk and ticker, in one mapped file.
+
+Rule: every field has one writer, and nobody waits: counters only rise, the status is copied under a sequence lock and
+read again when it was torn. The file outlives both sides, so that what the ticker confirmed last can be read after a
+crash. Created by the wiring before it forks; a program in one process uses the plain Queue and Requests instead.
+"""
+
+import mmap
+import os
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.kmd.commands import RECORD, Command
+from drillctl.kmd.queue import CAPACITY, Request
+from drillctl.kmd.status import STATUS
+
+MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
+MOST_READS = 1000
+
+CHANNEL = np.dtype(
+    [
+        ("magic", "<u8"),
+        ("desk_beat_ns", "<i8"),  # monotonic; written by desk
+        ("written", "<u8"),  # records put; desk
+        ("asked", "<u4", (len(Request),)),  # how often each request was asked; desk
+        ("ticker_beat_ns", "<i8"),  # ticker
+        ("taken", "<u8"),  # records taken; ticker
+        ("ended", "<u4"),  # 1 when the ticker has left in good order, its outputs safe; ticker
+        ("ready", "<u4"),  # 1 once the ticker runs; ticker
+        ("guarded", "<u4"),  # 1 when the guard had to make the outputs safe; guard
+        ("lock", "<u8"),  # odd while the status is being written; ticker
+        ("status", STATUS),  # ticker
+        ("ring", RECORD, (CAPACITY,)),  # desk
+    ]
+)
+
+
+class Channel:
+    """One mapped file of dtype CHANNEL. Raises OSError where it can't be made or is too short."""
+
+    def __init__(self, file: Path, create: bool):
+        flags = os.O_RDWR | (os.O_CREAT | os.O_TRUNC if create else 0)
+        handle = os.open(file, flags | os.O_CLOEXEC, 0o600)
+        try:
+            if create:
+                os.ftruncate(handle, CHANNEL.itemsize)
+            self.file = file
+            self.memory = mmap.mmap(handle, CHANNEL.itemsize)
+        finally:
+            os.close(handle)
+        self.fields: NDArray[np.void] = np.frombuffer(self.memory, dtype=CHANNEL, count=1)
+        if create:
+            self.fields["magic"] = MAGIC
+        elif int(self.fields["magic"][0]) != MAGIC:
+            raise OSError(f"{file}: not a channel of this program")
+
+    def status(self) -> np.void:
+        """A whole copy of the newest status record, never a torn one. Raises OSError if its writer died in it."""
+        for _ in range(MOST_READS):
+            before = int(self.fields["lock"][0])
+            copy = self.fields["status"][0].copy()
+            if before % 2 == 0 and int(self.fields["lock"][0]) == before:
+                return copy
+        raise OSError(f"{self.file}: the status record was left half written")
+
+    def publish(self, status: np.void) -> None:
+        """Puts a new status record up; called by the ticker alone."""
+        self.fields["lock"] += 1
+        self.fields["status"][0] = status
+        self.fields["lock"] += 1
+
+    def __getitem__(self, name: str) -> int:
+        return int(self.fields[name][0])
+
+    def __setitem__(self, name: str, value: int) -> None:
+        self.fields[name] = value
+
+
+class SharedQueue:
+    """The Queue of a channel: desk puts, ticker takes."""
+
+    def __init__(self, channel: Channel):
+        self._ring = channel.fields["ring"][0]
+        self._written = channel.fields["written"]
+        self._taken = channel.fields["taken"]
+
+    def __len__(self) -> int:
+        return int(self._written[0]) - int(self._taken[0])
+
+    @property
+    def room(self) -> int:
+        """How many records may be put now."""
+        return CAPACITY - len(self)
+
+    def put(self, records: NDArray[np.void]) -> int:
+        """Takes as many of the records as there is room for; returns how many. They count once they are whole."""
+        count = min(len(records), self.room)
+        written = int(self._written[0])
+        self._ring[(written + np.arange(count)) % CAPACITY] = records[:count]
+        self._written[0] = written + count
+        return count
+
+    def take(self, command: Command) -> bool:
+        """Overwrites ``command`` with the oldest record; False where there is none."""
+        taken = int(self._taken[0])
+        if taken == int(self._written[0]):
+            return False
+        command.load(self._ring[taken % CAPACITY])
+        self._taken[0] = taken + 1
+        return True
+
+
+class SharedRequests:
+    """The mailbox of a channel: desk counts up what it asks, the ticker sees what has risen."""
+
+    def __init__(self, channel: Channel):
+        self._asked = channel.fields["asked"][0]
+        self._seen = self._asked.copy()
+
+    def post(self, request: Request) -> None:
+        """Asks for something; called by desk alone."""
+        self._asked[request] += 1
+
+    def take(self) -> int:
+        """The requests asked since the last call, as bits."""
+        if (self._asked == self._seen).all():
+            return 0
+        asked = self._asked.copy()
+        risen = np.flatnonzero(asked != self._seen).tolist()
+        self._seen[:] = asked
+        return sum(1 << request for request in risen)

@@ -1,0 +1,106 @@
+"""An Arduino with unmodified StandardFirmata as the card: a Mega for 32 outputs and 16 inputs, an Uno for small drills.
+
+Rule: of an output image only the ports that changed are sent, three bytes each; so one motor to a port costs least,
+and its phases change together. A rate that the line can't carry is refused before it is opened.
+Opened by registry.py; firmata_line.py has the wire, firmata_protocol.py the bytes, firmata_pins.py the pins.
+"""
+
+from collections.abc import Iterable
+from contextlib import suppress
+
+from drillctl.portio.firmata_line import LISTEN_S, FirmataLine
+from drillctl.portio.firmata_pins import Board, Pins
+from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport
+from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring
+
+BAUD = 57_600  # StandardFirmata's own; a sketch with another is told as DEVICE@BAUD
+SLOWEST_BAUD, FASTEST_BAUD = 300, 4_000_000
+BITS_A_BYTE = 10  # on the wire: start, eight, stop
+USABLE_PERCENT = 95
+
+
+class FirmataCard:
+    """A driver (ports.Driver) over a line whose board has its pins ready."""
+
+    def __init__(self, line: FirmataLine, pins: Pins):
+        self._line, self._pins = line, pins
+        self._outputs = SAFE_IMAGE
+        self._inputs = 0
+        self._safe = b"".join(pins.messages(SAFE_IMAGE))
+
+    def latch(self) -> int:
+        """The levels as far as reports have come; each change takes 0.5 ms on the wire. Raises PortLost."""
+        for message in self._line.received():
+            if isinstance(message, DigitalReport):
+                self._inputs = self._pins.latched(self._inputs, message)
+        return self._inputs
+
+    def flush(self, image: int) -> None:
+        """Sends the ports that differ from what was sent last. Raises PortLost."""
+        changed = image ^ self._outputs
+        if changed:
+            self._line.send(b"".join(self._pins.messages(image, changed)))
+            self._outputs = image
+
+    def safe(self) -> None:
+        """Sends every output port, whatever was sent before. Raises PortLost."""
+        self._line.send_first(self._safe)
+        self._outputs = SAFE_IMAGE
+
+    def close(self) -> None:
+        """Makes the outputs safe, if the board still answers, and gives the line back."""
+        with suppress(OSError):
+            self.safe()
+        self._line.close()
+
+
+def open_firmata(board: Board, address: str, wiring: Wiring, listen_s: float = LISTEN_S) -> FirmataCard:
+    """Opens ``[DEVICE][@BAUD]``, greets the board and makes its pins ready. Raises PortRefused; PortLost where the
+    board goes away meanwhile.
+
+    listen_s  for so long the board's own greeting is waited for before it is asked
+    """
+    device, baud = _split(address)
+    device = device or _only_device()
+    name = f"firmata:{device}"
+    pins = Pins(board, wiring, name)
+    line = FirmataLine(name, device, baud)
+    try:
+        line.greet(listen_s)
+        pins.prepare(line)
+    except BaseException:
+        line.close()
+        raise
+    return FirmataCard(line, pins)
+
+
+def max_tick_hz(board: Board, address: str, wiring: Wiring, moving_axes: Iterable[int]) -> int | None:
+    """The most ticks a second that the line carries while these axes move; None where nothing is sent."""
+    ports = {port for axis in moving_axes for port in board.ports_of(wiring.axis_outputs[axis])}
+    _, baud = _split(address)
+    bytes_a_second = baud // BITS_A_BYTE * USABLE_PERCENT // 100
+    return bytes_a_second // (MESSAGE_BYTES * len(ports)) if ports else None
+
+
+def usb_devices() -> list[str]:
+    """The serial lines at USB, where an Arduino would be."""
+    from serial.tools.list_ports import comports
+
+    return sorted(found.device for found in comports() if found.vid is not None)
+
+
+def _split(address: str) -> tuple[str, int]:
+    device, at, baud = address.rpartition("@")
+    if not at:
+        return address, BAUD
+    if not baud.isdecimal() or not SLOWEST_BAUD <= int(baud) <= FASTEST_BAUD:
+        raise PortRefused(f"firmata:{address}", f"{baud!r} is no baud rate: {SLOWEST_BAUD} to {FASTEST_BAUD}")
+    return device, int(baud)
+
+
+def _only_device() -> str:
+    found = usb_devices()
+    if len(found) != 1:
+        there = ", ".join(found) or "none"
+        raise PortRefused("firmata", f"which serial line? At USB there is {there}; name it: firmata:/dev/ttyACM0")
+    return found[0]

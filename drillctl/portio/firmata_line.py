@@ -1,0 +1,116 @@
+"""A serial line with a Firmata board at its end: opened, greeted, spoken to in whole messages.
+
+Rule: every wait is bounded; a line that is gone or too slow is PortLost, never a retry. No thread: what has arrived
+is read when it is asked for. Opened by firmata.py, which alone uses it.
+"""
+
+import select
+import termios
+import time
+from contextlib import suppress
+from typing import TypeVar
+
+import serial
+
+from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, Decoder, Firmware, Message
+from drillctl.ports import SLOWEST_SAFE_S, PortLost, PortRefused
+
+OLDEST_FIRMWARE = (2, 3)
+LISTEN_S = 3.0  # opening the line resets a Mega; its boot loader takes a byte sent too early for an upload
+GREETING_S = 10.0
+ASK_AGAIN_S = 1.0
+ANSWER_S = 1.0
+MOST_WAITING_BYTES = 512  # in the kernel, not yet on the wire: at 57600 baud 89 ms, far too late for a motor
+MessageT = TypeVar("MessageT", bound=Message)
+
+
+class FirmataLine:
+    """Bytes to and from one board. ``name`` is the port as the user named it; all errors begin with it."""
+
+    def __init__(self, name: str, device: str, baud: int):
+        """Opens the device for this process alone. Raises PortRefused. On a Mega the outputs go low for 1 to 3 s."""
+        self.name = name
+        self._decoder = Decoder()
+        self._earlier: list[Message] = []
+        try:
+            self._serial = serial.Serial(device, baud, timeout=0, write_timeout=SLOWEST_SAFE_S, exclusive=True)
+        except (OSError, ValueError) as error:
+            reason = f"can't be opened ({error}); see that it is there, that nobody else has it, and your rights"
+            raise PortRefused(name, reason) from error
+        # A wish: only some USB converters hold bytes back, and only some of their drivers can be told not to.
+        with suppress(OSError, ValueError, NotImplementedError):
+            self._serial.set_low_latency_mode(True)
+
+    def greet(self, listen_s: float = LISTEN_S) -> Firmware:
+        """Waits for the board's firmware: listens to it start, then asks. Raises PortRefused for none, or too old."""
+        firmware = self._next(Firmware, listen_s)
+        gives_up = time.monotonic() + GREETING_S
+        while firmware is None and time.monotonic() < gives_up:
+            self.send(FIRMWARE_QUERY)
+            firmware = self._next(Firmware, ASK_AGAIN_S)
+        if firmware is None:
+            raise PortRefused(self.name, "no Firmata answers; upload StandardFirmata, and check the baud rate")
+        if firmware.version < OLDEST_FIRMWARE:
+            found, oldest = ("{}.{}".format(*version) for version in (firmware.version, OLDEST_FIRMWARE))
+            raise PortRefused(self.name, f"firmware {firmware.name} {found} is too old; upload {oldest} or newer")
+        return firmware
+
+    def send(self, data: bytes) -> None:
+        """All of it, within SLOWEST_SAFE_S. Raises PortLost; then part of it may have gone out."""
+        try:
+            self._serial.write(data)
+            waiting = self._serial.out_waiting
+        except OSError as error:
+            raise self._lost(error) from error
+        if waiting > MOST_WAITING_BYTES:
+            raise PortLost(self.name, f"too slow: {waiting} bytes wait to be sent; use fewer interrupts a second")
+
+    def send_first(self, data: bytes) -> None:
+        """As ``send``, before anything that still waits in the kernel, which is dropped."""
+        try:
+            self._serial.reset_output_buffer()
+        except (OSError, termios.error) as error:
+            raise self._lost(error) from error
+        self.send(data)
+
+    def received(self) -> list[Message]:
+        """What has come since the last call, at once. Raises PortLost."""
+        messages, self._earlier = self._earlier, []
+        try:
+            if waiting := self._serial.in_waiting:
+                messages += self._decoder.feed(self._serial.read(waiting))
+        except OSError as error:
+            raise self._lost(error) from error
+        return messages
+
+    def answer(self, question: bytes, kind: type[MessageT]) -> MessageT:
+        """Sends a question and waits for a message of this kind; others stay for ``received``. Raises PortRefused."""
+        self.send(question)
+        message = self._next(kind, ANSWER_S)
+        if message is None:
+            raise PortRefused(self.name, "the board answers no more; press its reset button and start again")
+        return message
+
+    def close(self) -> None:
+        """Gives the line back."""
+        self._serial.close()
+
+    def _next(self, kind: type[MessageT], wait_s: float) -> MessageT | None:
+        """The first message of a kind within so long; everything else that came is kept."""
+        ends = time.monotonic() + wait_s
+        kept: list[Message] = []
+        found: MessageT | None = None
+        while found is None and (left_s := ends - time.monotonic()) > 0:
+            select.select([self._serial], [], [], left_s)
+            for message in self.received():
+                if found is None and isinstance(message, kind):
+                    found = message
+                else:
+                    kept.append(message)
+        self._earlier = kept
+        return found
+
+    def _lost(self, error: Exception) -> PortLost:
+        if isinstance(error, serial.SerialTimeoutException):
+            return PortLost(self.name, "too slow: the line took no more; use fewer interrupts a second")
+        return PortLost(self.name, f"the board is gone ({error}); check cable and power, then initialise again")

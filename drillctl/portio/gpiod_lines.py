@@ -1,0 +1,149 @@
+"""GPIO lines of a Linux board (a Raspberry Pi has 26) through libgpiod 2, as the bits of a card.
+
+Rule: which line is which bit stands in a small file, the line map; one request holds all lines, so that each latch
+and each flush is one call to the kernel. Needs the extra ``gpio``. Opened by registry.py.
+
+    chip = "/dev/gpiochip0"
+    outputs = { 0 = 17, 1 = 27 }     # output bit = line
+    inputs = { 0 = 5 }               # input bit = line; with pull-up, so a switch closes to ground
+"""
+
+import tomllib
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, Protocol
+
+from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring, bits_of
+
+MOST_LINES = 64  # of one request
+LARGEST_MAP_BYTES = 64 * 1024
+CONSUMER = "drillctl"
+
+
+class Request(Protocol):
+    """What is used of a gpiod.LineRequest; values are the members of gpiod.line.Value."""
+
+    def get_values(self, lines: list[int]) -> list[Any]:
+        """The levels of some lines, in their order."""
+
+    def set_values(self, values: dict[int, Any]) -> None:
+        """Sets some lines at once."""
+
+    def release(self) -> None:
+        """Gives all lines back."""
+
+
+@dataclass(frozen=True)
+class LineMap:
+    """The chip, and by bit of the card the number of its line there."""
+
+    chip: str
+    outputs: Mapping[int, int]
+    inputs: Mapping[int, int]
+
+
+class GpioLines:
+    """A driver (ports.Driver) over a request that holds the lines of a map.
+
+    levels  what the request takes and gives for low and for high
+    """
+
+    def __init__(self, request: Request, lines: LineMap, levels: tuple[Any, Any]):
+        self._request = request
+        self._outputs, self._levels = lines.outputs, levels
+        self._input_bits = [1 << bit for bit in lines.inputs]
+        self._input_lines = list(lines.inputs.values())
+        self.safe()
+
+    def latch(self) -> int:
+        """All inputs. Raises OSError."""
+        if not self._input_lines:
+            return 0
+        levels = self._request.get_values(self._input_lines)
+        high = self._levels[1]
+        return sum(bit for bit, level in zip(self._input_bits, levels, strict=True) if level == high)
+
+    def flush(self, image: int) -> None:
+        """All outputs, in one call. Raises OSError."""
+        self._request.set_values({line: self._levels[image >> bit & 1] for bit, line in self._outputs.items()})
+
+    def safe(self) -> None:
+        """All outputs low. Raises OSError."""
+        self.flush(SAFE_IMAGE)
+
+    def close(self) -> None:
+        """Outputs low, and the lines given back."""
+        with suppress(OSError):
+            self.safe()
+        self._request.release()
+
+
+def open_gpio(address: str, wiring: Wiring) -> GpioLines:
+    """Requests the lines of the map in file ``ADDRESS``, outputs low from the first moment. Raises PortRefused."""
+    lines = read_line_map(address, wiring)
+    if reason := missing():
+        raise PortRefused("gpio", reason)
+    import gpiod
+    from gpiod.line import Bias, Direction, Value
+
+    output = gpiod.LineSettings(direction=Direction.OUTPUT, output_value=Value.INACTIVE)
+    switch = gpiod.LineSettings(direction=Direction.INPUT, bias=Bias.PULL_UP)
+    config = dict.fromkeys(lines.outputs.values(), output) | dict.fromkeys(lines.inputs.values(), switch)
+    try:
+        request = gpiod.request_lines(lines.chip, config, CONSUMER)
+    except OSError as error:
+        reason = f"{lines.chip}: {error.strerror}; see that it is there, that no line is taken, and your rights"
+        raise PortRefused("gpio", reason) from error
+    return GpioLines(request, lines, (Value.INACTIVE, Value.ACTIVE))
+
+
+def read_line_map(file: str, wiring: Wiring) -> LineMap:
+    """A line map that has all bits of the machine; other bits of the map are left alone. Raises PortRefused."""
+    raw = _read(file)
+    chip = raw.pop("chip", None)
+    tables = {key: raw.pop(key, {}) for key in ("outputs", "inputs")}
+    if not isinstance(chip, str) or raw:
+        raise PortRefused("gpio", f"{file}: a line map has chip, outputs and inputs, and nothing else")
+    outputs, inputs = (
+        _picked(file, key, tables[key], image)
+        for key, image in (("outputs", wiring.outputs), ("inputs", wiring.inputs))
+    )
+    lines = [*outputs.values(), *inputs.values()]
+    if len(set(lines)) < len(lines):
+        raise PortRefused("gpio", f"{file}: two bits have the same line")
+    if len(lines) > MOST_LINES:
+        raise PortRefused("gpio", f"{file}: the machine uses {len(lines)} lines; {MOST_LINES} can be had at once")
+    return LineMap(chip, outputs, inputs)
+
+
+def missing() -> str:
+    """Why there are no GPIO lines here, or nothing."""
+    if find_spec("gpiod") is None:
+        return "the package gpiod is not installed: pip install 'drillctl[gpio]'"
+    return "" if list(Path("/dev").glob("gpiochip*")) else "no /dev/gpiochip: this computer has no GPIO lines"
+
+
+def _read(file: str) -> dict[str, Any]:
+    if not file:
+        raise PortRefused("gpio", "which bit is which line? Name a line map: gpio:FILE")
+    try:
+        with open(file, "rb") as stream:
+            return tomllib.loads(stream.read(LARGEST_MAP_BYTES).decode())
+    except OSError as error:
+        raise PortRefused("gpio", f"{file}: can't be read: {error.strerror}") from error
+    except ValueError as error:
+        raise PortRefused("gpio", f"{file}: no line map: {error}") from error
+
+
+def _picked(file: str, key: str, table: Any, image: int) -> dict[int, int]:
+    """The lines of the bits in an image."""
+    picked: dict[int, int] = {}
+    for bit in bits_of(image):
+        line = table.get(str(bit)) if isinstance(table, dict) else None
+        if type(line) is not int or line < 0:
+            raise PortRefused("gpio", f"{file}: {key} has no line for bit {bit}, which the machine uses")
+        picked[bit] = line
+    return picked

@@ -1,0 +1,123 @@
+"""A card whose outputs and inputs stand in a mapped file: it outlives the process, as a real card does.
+
+So whoever looks into the file after a crash sees what the coils would have been left with. Layout, little-endian
+32-bit words: "DRIL", version 1, n cards, flushes so far (modulo 2**32), n words of outputs, n words of inputs.
+
+Rule: the card proper is another driver (with its plant, in the process that ticks); this one writes through to the
+file. Opened by registry.py; read by ``read_map``, which needs no driver.
+"""
+
+import mmap
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from drillctl.ports import CARD_BITS, SAFE_IMAGE, Driver, PortRefused, Wiring, word
+
+MAGIC = int.from_bytes(b"DRIL", "little")
+VERSION = 1
+WORD_BYTES = CARD_BITS // 8
+MOST_CARDS = 4
+_FLUSHES, _OUTPUTS = 3, 4  # places of words; the inputs follow the outputs
+LARGEST_FILE_BYTES = WORD_BYTES * (_OUTPUTS + 2 * MOST_CARDS)
+
+
+@dataclass(frozen=True)
+class CardMap:
+    """What stands in a mapped card's file."""
+
+    flushes: int
+    outputs: int
+    inputs: int
+
+
+class MappedCard:
+    """A driver (ports.Driver) around another one. The file is shared by all processes that inherit this."""
+
+    def __init__(self, inner: Driver, file: Path, cards: int):
+        """Makes the file, or takes one over that an earlier run left. Raises PortRefused for any other file."""
+        self._inner, self._cards = inner, cards
+        self._map = _mapped(file, _OUTPUTS + 2 * cards)
+        self._words = memoryview(self._map).cast("I")
+        self._words[:_OUTPUTS] = memoryview(_header(cards)).cast("I")
+        self.safe()
+
+    def latch(self) -> int:
+        """The inner card's inputs, which then stand in the file too."""
+        image = self._inner.latch()
+        self._put(_OUTPUTS + self._cards, image)
+        return image
+
+    def flush(self, image: int) -> None:
+        """Into the file first: there it is even if nothing else happens any more."""
+        self._put(_OUTPUTS, image)
+        self._words[_FLUSHES] = self._words[_FLUSHES] + 1 & 0xFFFF_FFFF
+        self._inner.flush(image)
+
+    def safe(self) -> None:
+        """Zeros into the file, and all outputs of the inner card low."""
+        self._put(_OUTPUTS, SAFE_IMAGE)
+        self._inner.safe()
+
+    def close(self) -> None:
+        """The file stays, with its outputs low."""
+        if self._map.closed:
+            return
+        self._put(_OUTPUTS, SAFE_IMAGE)
+        self._words.release()
+        self._map.close()
+        self._inner.close()
+
+    def _put(self, place: int, image: int) -> None:
+        for card in range(self._cards):
+            self._words[place + card] = word(image, card)
+
+
+def open_mapped(address: str, wiring: Wiring, card: Driver) -> MappedCard:
+    """Puts the file ``ADDRESS`` behind a simulated card. Raises PortRefused."""
+    if not address:
+        raise PortRefused("mapped", "where should the card's image be? Name a file: mapped:FILE")
+    return MappedCard(card, Path(address), wiring.cards)
+
+
+def read_map(file: Path) -> CardMap:
+    """A look at a mapped card, of a run or after it. Raises PortRefused for any other file, OSError for none."""
+    with file.open("rb") as stream:
+        data = stream.read(LARGEST_FILE_BYTES + 1)
+    words = memoryview(data[: len(data) // WORD_BYTES * WORD_BYTES]).cast("I")
+    if not _is_map(words):
+        raise PortRefused("mapped", f"{file} is there, and no image of a mapped card")
+    cards = words[2]
+    outputs, inputs = (_image(words[start : start + cards]) for start in (_OUTPUTS, _OUTPUTS + cards))
+    return CardMap(words[_FLUSHES], outputs, inputs)
+
+
+def _header(cards: int) -> bytes:
+    return b"".join(value.to_bytes(WORD_BYTES, "little") for value in (MAGIC, VERSION, cards, 0))
+
+
+def _is_map(words: memoryview) -> bool:
+    if len(words) < _OUTPUTS or words[0] != MAGIC or words[1] != VERSION:
+        return False
+    return words[2] <= MOST_CARDS and len(words) == _OUTPUTS + 2 * words[2]
+
+
+def _image(words: memoryview) -> int:
+    return sum(value << CARD_BITS * card for card, value in enumerate(words))
+
+
+def _mapped(file: Path, words: int) -> mmap.mmap:
+    """Exactly so many words of a file, shared."""
+    try:
+        descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        try:
+            if os.fstat(descriptor).st_size:
+                read_map(file)
+            os.ftruncate(descriptor, words * WORD_BYTES)
+            return mmap.mmap(descriptor, words * WORD_BYTES)
+        finally:
+            os.close(descriptor)
+    except PortRefused:
+        raise
+    except OSError as error:
+        raise PortRefused("mapped", f"{file}: can't be the card's file: {error.strerror}") from error

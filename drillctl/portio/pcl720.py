@@ -1,0 +1,93 @@
+"""Advantech PCL-720 cards on an ISA bus, through the kernel's /dev/port: 32 outputs and 32 inputs a card.
+
+Register map (Vixie Enterprises' pcl720.h, 1995): base+0 to base+3 carry bits 0-7, 8-15, 16-23 and 24-31; what is
+written are the outputs, what is read the inputs. base+4 to base+7 are the counters, which nobody needs here.
+
+Rule: outputs can't be read back, so every flush writes all of every card: the image of the tick is the only memory,
+and a disturbed output is right again one tick later. Opened by registry.py.
+"""
+
+import os
+from collections.abc import Sequence
+from contextlib import suppress
+
+from drillctl.ports import SAFE_IMAGE, PortLost, PortRefused, Wiring, word
+
+DEVICE = "/dev/port"
+REGISTERS = 8  # a card; the next one follows, unless ADDRESS says where it is
+DATA_BYTES = 4
+HIGHEST_BASE = 0x10000 - REGISTERS
+
+
+class Pcl720:
+    """A driver (ports.Driver) for one card or several.
+
+    write_to, read_from  descriptors in which offset n is I/O port n: both /dev/port's, apart from tests
+    bases                the first register of each card
+    """
+
+    def __init__(self, write_to: int, read_from: int, bases: Sequence[int]):
+        self._write_to, self._read_from = write_to, read_from
+        self._bases = tuple(bases)
+        self.safe()
+
+    def latch(self) -> int:
+        """All inputs of all cards. Raises OSError."""
+        image = 0
+        for base in reversed(self._bases):
+            data = os.pread(self._read_from, DATA_BYTES, base)
+            if len(data) < DATA_BYTES:
+                raise PortLost("pcl720", f"no answer at 0x{base:x}; check the card's address, then initialise again")
+            image = image << 8 * DATA_BYTES | int.from_bytes(data, "little")
+        return image
+
+    def flush(self, image: int) -> None:
+        """All outputs of all cards. Raises OSError."""
+        for card, base in enumerate(self._bases):
+            data = word(image, card).to_bytes(DATA_BYTES, "little")
+            if os.pwrite(self._write_to, data, base) < DATA_BYTES:
+                raise PortLost("pcl720", f"took no output at 0x{base:x}; check the card, then initialise again")
+
+    def safe(self) -> None:
+        """All outputs of all cards low. Raises OSError."""
+        self.flush(SAFE_IMAGE)
+
+    def close(self) -> None:
+        """Outputs low, and the ports given back."""
+        with suppress(OSError):
+            self.safe()
+        for descriptor in {self._write_to, self._read_from}:
+            os.close(descriptor)
+
+
+def open_pcl720(address: str, wiring: Wiring) -> Pcl720:
+    """Opens the cards at ``ADDRESS[,ADDRESS..]``, by default the machine's and those after it. Raises PortRefused."""
+    bases = card_bases(address, wiring)
+    if reason := missing():
+        raise PortRefused("pcl720", reason)
+    try:
+        descriptor = os.open(DEVICE, os.O_RDWR)
+    except OSError as error:
+        reason = f"{DEVICE} can't be opened ({error.strerror}); be root, and the kernel not locked down"
+        raise PortRefused("pcl720", reason) from error
+    return Pcl720(descriptor, descriptor, bases)
+
+
+def card_bases(address: str, wiring: Wiring) -> list[int]:
+    """Where the machine's cards are. Raises PortRefused for what is no address, or too few of them."""
+    if not address:
+        return [wiring.card_address + REGISTERS * card for card in range(wiring.cards)]
+    try:
+        bases = [int(base, 16) for base in address.split(",")]
+    except ValueError as error:
+        raise PortRefused("pcl720", f"{address!r} is no address; such as 2A0 or 2A0,2A8, in hexadecimal") from error
+    if len(bases) != wiring.cards or not all(0 <= base <= HIGHEST_BASE for base in bases):
+        raise PortRefused("pcl720", f"the machine needs {wiring.cards} addresses below 10000, not {address}")
+    return bases
+
+
+def missing() -> str:
+    """Why there is no PCL-720 here, or nothing."""
+    if not os.path.exists(DEVICE):
+        return f"no {DEVICE}: this kernel was built without it, or this is no PC"
+    return "" if os.access(DEVICE, os.R_OK | os.W_OK) else f"{DEVICE} is for root alone"

@@ -1,0 +1,139 @@
+"""The ports that drillctl can drive, as a table: what each is, what it needs, what it can carry, how it is opened.
+
+Rule: everything that can be refused is refused here, before anything moves. To add a port, add a row.
+Called by the wiring with ``--port NAME[:ADDRESS]``, and by ``drillctl ports``.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
+
+from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
+from drillctl.portio.firmata_pins import MEGA, UNO, Board
+from drillctl.ports import Driver, PortRefused, Wiring
+
+Open = Callable[[str, Wiring, Driver | None], Driver]
+Rate = Callable[[str, Wiring, Iterable[int]], int | None]
+
+
+def _here() -> str:
+    return ""
+
+
+def _any_rate(address: str, wiring: Wiring, moving_axes: Iterable[int]) -> int | None:
+    return None
+
+
+def _no_serial_line() -> str:
+    return "" if firmata.usb_devices() else "no serial line at USB: plug the board in"
+
+
+@dataclass(frozen=True)
+class Port:
+    """One row.
+
+    address      what may stand after the colon; [in brackets] where it may be left out
+    real         a real machine hangs on it: paced by the clock, lost steps unknown
+    missing      why it can't be used here, or nothing
+    open         (address, wiring, the simulated card of a port that is not real); raises PortError
+    max_tick_hz  (address, wiring, moving axes by index): the most it carries, None for more than any machine asks
+    """
+
+    name: str
+    summary: str
+    needs: str
+    address: str
+    real: bool
+    missing: Callable[[], str]
+    open: Open
+    max_tick_hz: Rate = _any_rate
+
+
+def _simulated(address: str, wiring: Wiring, card: Driver | None) -> Driver:
+    assert card is not None
+    if address:
+        raise PortRefused("simulated", f"it has no address, and so not {address!r}")
+    return card
+
+
+def _mapped(address: str, wiring: Wiring, card: Driver | None) -> Driver:
+    assert card is not None
+    return mapped.open_mapped(address, wiring, card)
+
+
+def _real(opened: Callable[[str, Wiring], Driver]) -> Open:
+    """A port that has no simulated card behind it."""
+    return lambda address, wiring, card: opened(address, wiring)
+
+
+def _firmata_row(name: str, board: Board, summary: str) -> Port:
+    return Port(
+        name,
+        summary,
+        needs=f"an Arduino {board.name} with StandardFirmata 2.3 or newer, and the right to use its serial line",
+        address="[DEVICE][@BAUD]",
+        real=True,
+        missing=_no_serial_line,
+        open=_real(partial(firmata.open_firmata, board)),
+        max_tick_hz=partial(firmata.max_tick_hz, board),
+    )
+
+
+PORTS = {
+    port.name: port
+    for port in (
+        Port("simulated", "a card whose wires end in a simulated machine", "nothing", "", False, _here, _simulated),
+        Port(
+            "mapped",
+            "the simulated card with its image in a file that outlives a crash",
+            needs="a file that may be written",
+            address="FILE",
+            real=False,
+            missing=_here,
+            open=_mapped,
+        ),
+        _firmata_row("firmata", MEGA, "an Arduino Mega on a serial line: 32 outputs, 16 inputs"),
+        _firmata_row("firmata-uno", UNO, "an Arduino Uno on a serial line: 18 pins, for a CNC shield"),
+        Port(
+            "pcl720",
+            "Advantech PCL-720 cards: 32 outputs and 32 inputs each",
+            needs="an ISA bus, /dev/port, root",
+            address="[BASE[,BASE..]], hexadecimal; default: the machine's card_address",
+            real=True,
+            missing=pcl720.missing,
+            open=_real(pcl720.open_pcl720),
+        ),
+        Port(
+            "gpio",
+            "GPIO lines of a Linux board such as a Raspberry Pi",
+            needs="the extra gpio (libgpiod 2), a line map, the right to use /dev/gpiochip",
+            address="FILE, the line map",
+            real=True,
+            missing=gpiod_lines.missing,
+            open=_real(gpiod_lines.open_gpio),
+        ),
+    )
+}
+
+
+def select(spec: str) -> tuple[Port, str]:
+    """The port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
+    name, _, address = spec.partition(":")
+    if name not in PORTS:
+        raise PortRefused(name, f"there is no such port; there are {', '.join(PORTS)}")
+    return PORTS[name], address
+
+
+def open_port(spec: str, wiring: Wiring, card: Driver | None = None) -> Driver:
+    """Opens ``NAME[:ADDRESS]`` with its outputs safe; ``card`` is the simulated one, for a port that is not real.
+
+    Raises PortRefused, also for a rate that it can't carry with all axes moving; PortLost where it goes away
+    meanwhile. Nothing has moved then.
+    """
+    port, address = select(spec)
+    axes = range(len(wiring.axis_outputs))
+    most_hz = port.max_tick_hz(address, wiring, axes)
+    if most_hz is not None and wiring.tick_hz > most_hz:
+        reason = f"{wiring.tick_hz} interrupts a second are too many for it with {len(axes)} axes moving"
+        raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")
+    return port.open(address, wiring, card)

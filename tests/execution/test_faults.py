@@ -1,0 +1,215 @@
+"""Every fault of the table, provoked; what the table says of it is what happens (docs/SPEC.md, 1.8)."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from drillctl.kmd import FAULTS, RECORD, Condition, Fault, Reaction, Request
+from tests.support.bench import Bench, shipped
+
+REST_COLUMNS = 3  # the paper's rotor rests every third column
+LONG_MOVE = "KMD_GOTO_X_Y 300 200; KMD_CZEKAJ 9"
+
+
+def ready() -> Bench:
+    return Bench(shipped("pcb-drill")).ready()
+
+
+def limit() -> Bench:
+    b = ready().queue(LONG_MOVE).tick(60)
+    b.card.stuck_high = b.input_bit("x_max")
+    return b
+
+
+def wrong_count() -> Bench:
+    b = ready().queue(LONG_MOVE).tick(60)
+    b.m.axes[1].position += 20_000
+    return b
+
+
+def beyond_the_range() -> Bench:
+    return ready().queue("KMD_GOTO_X_Y 10 20000; KMD_CZEKAJ 9")
+
+
+def not_homed() -> Bench:
+    return Bench(shipped("pcb-drill")).queue("KMD_GOTO_X_Y 10 10; KMD_CZEKAJ 9")
+
+
+def sensor_never_lets_go() -> Bench:
+    b = Bench(shipped("pcb-drill")).queue("KMD_INICJALIZACJA; KMD_CZEKAJ 9")
+    b.card.stuck_high = b.input_bit("y_min")
+    return b
+
+
+def blunt_drill() -> Bench:
+    b = ready().queue("KMD_WIERTLO_DOL; KMD_WIERTLO_GORA")
+    b.card.stuck_low = b.input_bit("z_bottom")
+    return b
+
+
+def head_stays_down() -> Bench:
+    b = ready().queue("KMD_WIERTLO_DOL").tick(900)
+    b.card.stuck_low = b.input_bit("z_top")
+    return b.queue("KMD_WIERTLO_GORA; KMD_CZEKAJ 9")
+
+
+def slow_drill() -> Bench:
+    return ready().queue("KMD_PREDKOSC 20; KMD_WIERTLO_DOL; KMD_CZEKAJ 9")
+
+
+def both_ends() -> Bench:
+    b = ready().queue(LONG_MOVE).tick(60)
+    b.card.stuck_high = b.input_bit("x_min") | b.input_bit("x_max")
+    return b
+
+
+def no_answer() -> Bench:
+    return ready().queue("KMD_CZEKAJ_WE x_max 1 20; KMD_CZEKAJ 9")
+
+
+def unequal_line() -> Bench:
+    machine = shipped("pcb-drill")
+    x, y, z = machine.axes
+    b = Bench(replace(machine, axes=(x, replace(y, columns_per_step=2), z)))
+    return b.queue("KMD_LINIAd x=10 y=10; KMD_CZEKAJ 9")
+
+
+def no_such_command() -> Bench:
+    b = ready()
+    strange = np.zeros(1, dtype=RECORD)
+    strange["opcode"], strange["epoch"] = 99, b.m.epoch
+    b.ticker.queue.put(strange)
+    return b.queue("KMD_CZEKAJ 9")
+
+
+def emergency_stop() -> Bench:
+    return ready().queue(LONG_MOVE).tick(60).ask(Request.ESTOP)
+
+
+PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
+    Fault.LIMIT: limit,
+    Fault.RANGE: wrong_count,
+    Fault.SOFT_LIMIT: beyond_the_range,
+    Fault.HOMING_REQUIRED: not_homed,
+    Fault.HOMING_NOT_FOUND: sensor_never_lets_go,
+    Fault.DRILL_NOT_DOWN: blunt_drill,
+    Fault.HEAD_NOT_UP: head_stays_down,
+    Fault.DRILLING_TIME: slow_drill,
+    Fault.SENSOR_CONTRADICTION: both_ends,
+    Fault.INPUT_TIMEOUT: no_answer,
+    Fault.LINE_MISMATCH: unequal_line,
+    Fault.BAD_COMMAND: no_such_command,
+    Fault.EMERGENCY_STOP: emergency_stop,
+}
+every_fault = pytest.mark.parametrize("fault", PROVOKED, ids=lambda fault: fault.name)
+
+
+def test_every_fault_of_the_table_is_provoked_here() -> None:
+    assert set(PROVOKED) == set(FAULTS) == set(Fault) - {Fault.NONE}
+
+
+@every_fault
+def test_the_fault_is_latched_and_ends_the_job(fault: Fault) -> None:
+    b = PROVOKED[fault]()
+    epoch = b.m.epoch
+    b.finish()
+    assert (b.m.fault, b.m.condition, b.m.job) == (fault, Condition.LATCHED, False)
+    assert b.m.epoch > epoch
+    made = [axis.made for axis in b.m.axes]
+    b.tick(200)
+    assert [axis.made for axis in b.m.axes] == made, "something moved while latched"
+
+
+@every_fault
+def test_the_position_is_kept_or_lost_as_the_table_says(fault: Fault) -> None:
+    b = PROVOKED[fault]()
+    known = b.m.position_known
+    b.until(lambda: b.m.fault != Fault.NONE)
+    kept = known and FAULTS[fault].position_kept
+    assert b.m.fault_kept == kept
+    assert b.m.position_known == kept or b.m.condition == Condition.RETURNING
+    b.finish()
+    assert b.m.fault_kept == kept
+
+
+@every_fault
+def test_the_machine_reacts_as_the_table_says(fault: Fault) -> None:
+    b = PROVOKED[fault]()
+    known = b.m.position_known
+    b.until(lambda: b.m.fault != Fault.NONE)
+    reaction = FAULTS[fault].reaction
+    if reaction in (Reaction.DROP, Reaction.MACHINE):
+        assert (b.images[-1], b.latched()) == (0, True)
+    elif any(b.images):
+        assert b.images[-1] & ~b.forcing("x"), "the current is gone, although the machine was to brake"
+    returned = b.m.condition == Condition.RETURNING
+    while not b.ticker.over():
+        b.tick()
+        returned = returned or b.m.condition == Condition.RETURNING
+    assert returned == (known and reaction == Reaction.STOP_AND_RETURN)
+    if returned:
+        assert (b.m.position_known, b.positions()[:2]) == (True, [0, 0])
+        assert b.card.plant.inputs & b.input_bit("z_top")
+
+
+@every_fault
+def test_after_the_acknowledgement_the_machine_works_again(fault: Fault) -> None:
+    b = PROVOKED[fault]()
+    b.finish()
+    b.card.stuck_high = b.card.stuck_low = 0
+    b.ask(Request.ACK).tick()
+    assert (b.m.condition, b.m.fault) == (Condition.READY, Fault.NONE)
+    b.queue("KMD_INICJALIZACJA; KMD_GOTO_X_Y 20 30")
+    b.finish()
+    assert (b.m.fault, b.positions()[:2]) == (Fault.NONE, [20, 30])
+    assert not any(b.ticker.lost_steps()[:2])
+    places = [b.card.plant.position_steps(axis) for axis in (0, 1)]
+    assert places == pytest.approx([20, 30], abs=REST_COLUMNS)
+
+
+@pytest.mark.parametrize("args", [(40, 1), (0, 1)], ids=["no such bit", "a motor's wire"])
+def test_only_the_machines_own_outputs_can_be_switched(args: tuple[int, int]) -> None:
+    b = Bench(shipped("eight-axis")).queue("KMD_WYJSCIE spindle 1")
+    b.ticker.queue._ring["args"][0, :2] = args
+    b.finish()
+    assert (b.m.fault, b.images[-1]) == (Fault.BAD_COMMAND, 0)
+
+
+@pytest.mark.parametrize(
+    ("stuck", "returning_from"),
+    [("x_min", slow_drill), ("z_top", slow_drill), ("x_min", blunt_drill)],
+)
+def test_a_second_fault_on_the_way_home_only_stops(stuck: str, returning_from: Callable[[], Bench]) -> None:
+    b = returning_from()
+    b.until(lambda: b.m.fault != Fault.NONE)
+    first = b.m.fault
+    b.card.stuck_low |= b.input_bit(stuck)
+    before = b.m.condition
+    returns = int(before == Condition.RETURNING)
+    while not b.ticker.over():
+        b.tick()
+        returns += b.m.condition == Condition.RETURNING != before
+        before = b.m.condition
+    assert (b.m.fault, returns) == (first, 1)
+    assert (b.m.position_known, b.m.fault_kept) == (False, False)
+
+
+@pytest.mark.parametrize(("request_", "image_is_safe"), [(Request.STOP, False), (Request.ESTOP, True)])
+def test_a_request_on_the_way_home_ends_it(request_: Request, image_is_safe: bool) -> None:
+    b = slow_drill()
+    b.until(lambda: b.m.condition == Condition.RETURNING)
+    b.tick(30).ask(request_)
+    b.finish()
+    assert (b.m.fault, b.m.position_known, b.m.fault_kept) == (Fault.DRILLING_TIME, False, False)
+    assert (b.images[-1] == 0) == image_is_safe
+    assert b.latched()
+
+
+def test_a_drop_after_a_fault_takes_back_what_the_fault_had_kept() -> None:
+    b = beyond_the_range()
+    b.finish()
+    assert b.m.fault_kept
+    b.ask(Request.ESTOP).tick()
+    assert (b.m.fault, b.m.fault_kept, b.m.position_known) == (Fault.SOFT_LIMIT, False, False)

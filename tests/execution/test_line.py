@@ -1,0 +1,119 @@
+"""Linked axes: both ends exact, every follower within half a step of the ideal line (docs/SPEC.md, 3)."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+from drillctl.kmd import Fault, Request
+from drillctl.machine import travel_ticks
+from tests.support.bench import Bench, shipped
+
+REACHES = (0, 1, 2, 3, 5, 7, 8, 13, 30, 59)
+SIGNS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
+LINE = "KMD_LINIAd x=60 y=-37 z=11"
+
+
+def line_points(b: Bench, text: str) -> Iterator[list[int]]:
+    """Positions after each step of any axis, from the start on."""
+    b.queue(text)
+    last = b.positions()
+    yield last
+    while True:
+        b.tick()
+        if b.positions() != last:
+            last = b.positions()
+            yield last
+        if b.ticker.over():
+            return
+
+
+def check_points(points: list[list[int]], reach: tuple[int, ...]) -> None:
+    """One point a leader's step, and each follower nowhere more than half a step off."""
+    farthest = max(abs(steps) for steps in reach)
+    start = points[0]
+    assert len(points) == farthest + 1
+    for leader_steps, point in enumerate(points):
+        for axis, steps in enumerate(reach):
+            twice_off = abs(2 * (point[axis] - start[axis]) * farthest - 2 * steps * leader_steps)
+            assert twice_off <= farthest, f"axis {axis} is off the line after {leader_steps} steps"
+
+
+@pytest.mark.parametrize("signs", SIGNS)
+def test_all_slopes_of_a_grid(signs: tuple[int, int]) -> None:
+    b = Bench(shipped("pcb-drill"))
+    for dx in REACHES:
+        for dy in REACHES:
+            reach = (dx * signs[0], dy * signs[1], 0)
+            check_points(list(line_points(b, f"KMD_LINIAd x={reach[0]} y={reach[1]}")), reach)
+            assert b.positions() == list(reach)
+            b.queue(f"KMD_RUCHd x={-reach[0]} y={-reach[1]}")
+            b.finish()
+            assert not any(b.ticker.lost_steps())
+
+
+@pytest.mark.parametrize("reach", [(60, -37, 11), (-11, 60, 60), (1, 2, 3), (9, 9, 9)])
+@pytest.mark.parametrize("name", ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis"])
+def test_three_axes_on_one_line(name: str, reach: tuple[int, int, int]) -> None:
+    machine = shipped(name)
+    third = machine.axis_names[2]
+    b = Bench(machine)
+    points = list(line_points(b, f"KMD_LINIAd x={reach[0]} y={reach[1]} {third}={reach[2]}"))
+    check_points(points, reach)
+    assert not any(b.ticker.lost_steps())
+
+
+@pytest.mark.parametrize("floor", [0, 3, 20])
+def test_a_line_takes_its_leaders_time(floor: int) -> None:
+    b = Bench(shipped("pcb-drill")).queue(f"KMD_PREDKOSC {floor}; KMD_LINIAd x=7 y=40")
+    assert b.done_at(2) == travel_ticks(b.machine.axes[1].ramp, 40, floor)
+
+
+@pytest.mark.parametrize("name", ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis"])
+@pytest.mark.parametrize("held_ticks", [1, 8, 100])
+def test_a_hold_anywhere_on_a_line_stays_on_it(name: str, held_ticks: int) -> None:
+    machine = shipped(name)
+    text = LINE.replace("z", machine.axis_names[2])
+    whole = Bench(machine).queue(text).finish()
+    for start in range(1, whole, max(1, whole // 40)):
+        b = Bench(machine).queue(text).tick(start)
+        b.ask(Request.HOLD).tick(held_ticks).ask(Request.RESUME)
+        b.finish()
+        assert b.positions()[:3] == [60, -37, 11]
+        assert not any(b.ticker.lost_steps())
+
+
+@pytest.mark.parametrize("name", ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis"])
+def test_a_stop_anywhere_on_a_line_leaves_it_on_the_line_and_free(name: str) -> None:
+    machine = shipped(name)
+    text = LINE.replace("z", machine.axis_names[2])
+    whole = Bench(machine).queue(text).finish()
+    for start in range(1, whole, max(1, whole // 60)):
+        b = Bench(machine).queue(text).tick(start).ask(Request.STOP)
+        b.finish()
+        x, y, z = b.positions()[:3]
+        assert abs(2 * (y * 60 + 37 * x)) <= 60
+        assert abs(2 * (z * 60 - 11 * x)) <= 60
+        assert not any(b.ticker.lost_steps())
+        b.queue(f"KMD_RUCHd x=3 y=5 {machine.axis_names[2]}=4")
+        b.finish()
+        assert b.positions()[:3] == [x + 3, y + 5, z + 4]
+
+
+@pytest.mark.parametrize("start", [1, 7, 20, 50, 70])
+def test_an_emergency_stop_on_a_line_ends_the_line(start: int) -> None:
+    b = Bench(shipped("boiler-drum")).ready().queue("KMD_LINIA x=60 y=37").tick(start)
+    b.ask(Request.ESTOP).tick().ask(Request.ACK).tick()
+    assert not any(axis.led or axis.line for axis in b.m.axes)
+    b.queue("KMD_LINIA x=5 y=60; KMD_RUCH x=0 y=0")
+    b.finish()
+    assert (b.m.fault, b.positions()) == (Fault.NONE, [0, 0])
+
+
+def test_lines_of_unequal_columns_a_step_are_refused_before_anything_moves() -> None:
+    machine = shipped("pcb-drill")
+    x, y, z = machine.axes
+    b = Bench(replace(machine, axes=(x, replace(y, columns_per_step=2), z))).queue("KMD_LINIAd z=1 x=10 y=10")
+    b.finish()
+    assert (b.m.fault, b.positions()) == (Fault.LINE_MISMATCH, [0, 0, 0])
+    assert [axis.target for axis in b.m.axes] == [0, 0, 0]

@@ -1,0 +1,87 @@
+"""Views as text: each is a function of a record, so no terminal is needed."""
+
+import io
+
+import numpy as np
+import pytest
+
+from drillctl.panel import FAULT_WORDS, Outcome, Progress, fault_report
+from drillctl.kmd import FAULTS, Fault
+from drillctl.ui.board import board_rows
+from drillctl.ui.progress import ProgressView, clock
+from drillctl.ui.summary import summary_lines
+
+
+def outcome(**changes: object) -> Outcome:
+    told: dict[str, object] = {
+        "machine": "m", "holes_done": 3, "holes_total": 4, "ticks": 1000, "tick_hz": 500,
+        "steps": {"x": 7, "y": 8}, "position": {"x": -1, "y": 2}, "position_known": True,
+        "lost_steps": {"x": 0, "y": 0}, "starved": 0, "fault": None,
+    }  # fmt: skip
+    return Outcome(**{**told, **changes})  # type: ignore[arg-type]
+
+
+def test_summary_of_a_good_run() -> None:
+    lines = summary_lines(outcome())
+    assert lines[0] == "m: 3 of 4 holes drilled, 1000 ticks at 500 Hz = 0:02 of machine time"
+    assert "WARNING" not in "\n".join(lines) and "FAULT" not in "\n".join(lines)
+
+
+def test_summary_warns_of_lost_steps() -> None:
+    assert summary_lines(outcome(lost_steps={"x": 0, "y": 4}))[-1] == "WARNING: lost steps: x 0 y 4"
+
+
+@pytest.mark.parametrize("fault", [fault for fault in Fault if fault])
+def test_every_fault_is_told_with_cause_remedy_and_position(fault: Fault) -> None:
+    text = "\n".join(summary_lines(outcome(fault=fault_report(fault, kept=False))))
+    assert fault.name in text and FAULT_WORDS[fault].cause in text and FAULT_WORDS[fault].remedy in text
+    assert "position lost" in text
+
+
+def test_words_and_codes_are_the_same_set() -> None:
+    assert set(FAULT_WORDS) == set(FAULTS) == {fault for fault in Fault if fault}
+
+
+@pytest.mark.parametrize(("seconds", "text"), [(0, "0:00"), (59.6, "1:00"), (3599, "59:59"), (3661, "1:01:01")])
+def test_clock(seconds: float, text: str) -> None:
+    assert clock(seconds) == text
+
+
+def test_in_a_pipe_progress_is_plain_and_seldom() -> None:
+    stream = io.StringIO()
+    with ProgressView(stream) as view:
+        for done in range(50):
+            view.show(Progress(done, 50, 1, done * 100, done * 0.2, 9.8))
+    assert stream.getvalue() == "" and "\r" not in stream.getvalue()
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_on_a_terminal_progress_is_a_bar_with_the_time_left() -> None:
+    stream = Terminal()
+    with ProgressView(stream) as view:
+        view.show(Progress(0, 50, 2, 0, 0.0, 125.0))
+        view.show(Progress(25, 50, 2, 5000, 10.0, 62.0))
+    assert "2:05 left" in stream.getvalue() and "tool 2" in stream.getvalue()
+
+
+def test_a_board_is_drawn_to_scale_with_y_upwards() -> None:
+    rows = board_rows(np.array([[0.0, 0.0], [30.0, 0.0], [0.0, 10.0]]), 20, 10)
+    assert all(len(row) == 20 for row in rows) and len(rows) <= 4
+    assert rows[-1][0] != "\u2800" and rows[-1][-1] != "\u2800", "lowest row: both lower holes"
+    assert rows[0][0] != "\u2800" and rows[0][-1] == "\u2800", "highest row: the upper left hole alone"
+
+
+def test_every_hole_far_enough_apart_has_its_dot() -> None:
+    grid = np.array([(x, y) for x in range(10) for y in range(5)], float)
+    dots = sum(bin(ord(cell) - 0x2800).count("1") for row in board_rows(grid, 40, 20) for cell in row)
+    assert dots == 50
+
+
+@pytest.mark.parametrize("points", [np.empty((0, 2)), np.array([[5.0, 5.0]]), np.array([[1.0, 2.0], [1.0, 9.0]])])
+def test_boards_without_extent_are_no_trouble(points: np.ndarray) -> None:
+    rows = board_rows(points, 20, 5)
+    assert len(rows) <= 5 and (len(rows) > 0) == (len(points) > 0)
