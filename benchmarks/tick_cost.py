@@ -1,8 +1,8 @@
 """What one tick costs: CPU time with three axes moving, and memory kept over 20,000 ticks.
 
 Run as ``python -m benchmarks.tick_cost``. Targets: under 10 us a tick, so that 500 Hz is under 1 % of a core, and
-nothing kept by any tick or command. The median of 7 runs stands beside the machine's load and beside the cost of calling an empty Python
-function in the same loop, since a figure in microseconds alone says little about another computer.
+nothing kept by any tick or command. The median of 7 runs stands beside the machine's load and beside the cost of
+calling an empty Python function in the same loop, since microseconds alone say little about another computer.
 """
 
 import gc

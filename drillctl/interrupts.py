@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-CAUGHT = (signal.SIGINT, signal.SIGTERM)
+CAUGHT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 Handler = Callable[[int, FrameType | None], None]
 
 
@@ -30,5 +30,5 @@ def leave(number: int, frame: FrameType | None) -> None:
 
 
 def exit_code(number: int = signal.SIGINT) -> int:
-    """130 for Ctrl-C, 143 for SIGTERM, as shells have it."""
+    """130 for Ctrl-C, 143 for SIGTERM, 129 for a closed terminal, as shells have it."""
     return 128 + number

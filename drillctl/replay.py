@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import names_of
-from drillctl.kmd import KmdError, parse_program
+from drillctl.kmd import KmdError, Request, parse_program
 from drillctl.machine import Library, Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.outputs import Output
@@ -100,15 +100,19 @@ def record_again(file: Path, library: Library) -> None:
 def _run(ticker: Ticker, recorded: Trace, program: NDArray[np.void], file: Path) -> Trace:
     """The program and the recorded requests, to the recorded end; where the job outlasts it, to the job's end."""
     feeder = Feeder(program, ticker.queue)
-    requests = _requests(recorded, file)
+    asked = _requests(recorded, file)
     while (now := ticker.controller.tick) < recorded.end:
         feeder.feed()
-        ticker.requests.pending |= requests.pop(now, 0)
-        upcoming = min((*requests, recorded.end))
+        for request in Request:
+            if asked.get(now, 0) >> request & 1:
+                ticker.requests.post(request)
+        asked.pop(now, None)
+        upcoming = min((*asked, recorded.end))
         if not ticker.run(min(max(1, len(ticker.queue)), upcoming - now)):
             break
-    assert ticker.sampler is not None
-    return ticker.sampler.recorder.finish(ticker.controller.tick, recorded.header)
+    trace = ticker.finished_trace(recorded.header)
+    assert trace is not None
+    return trace
 
 
 def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list[int]]:

@@ -4,6 +4,8 @@ Rule: tick() knows no trace; this module alone knows which number becomes which 
 Called by ticker after each tick, and by replay.
 """
 
+from typing import Protocol
+
 from drillctl.execution import Controller
 from drillctl.kmd import Fault, Op, Request
 from drillctl.kmd.commands import BY_OP
@@ -21,15 +23,25 @@ _FAULT_WORDS = tuple(Fault(code).name if code else "-" for code in range(len(Fau
 _COMMAND_WORDS = tuple(BY_OP[Op(op)].name if op else "-" for op in range(len(Op)))
 
 
+class Keeper(Protocol):
+    """What a sampler writes to: a Recorder, or a ring that another process empties."""
+
+    def set(self, index: int, tick: int, value: int) -> None:
+        """Signal ``index`` has ``value`` in ``tick``; kept if that is news."""
+
+
 class Sampler:
     """Fills a Recorder from one controller; with ``derived`` also columns, positions, states and rotors."""
 
-    def __init__(self, controller: Controller, plant: IdealPlant | None, derived: bool):
+    def __init__(
+        self, controller: Controller, plant: IdealPlant | None, derived: bool, recorder: Keeper | None = None
+    ):
         self._m = controller
         self._cards = range(controller.machine.cards)
         self._plant = plant
         self._derived = derived
-        self.recorder = Recorder(signals(controller.machine, plant is not None, derived))
+        self.signals = signals(controller.machine, plant is not None, derived)
+        self.recorder = recorder or Recorder(self.signals)
 
     def sample(self) -> None:
         """After a tick: its index is one below the controller's count."""
@@ -42,6 +54,7 @@ class Sampler:
             index += 2
         put(index, tick, pack_command(m.running, m.command.opcode) if m.running else 0)
         put(index + 1, tick, m.served >> 1)
+        put(index + 2, tick, m.late)
         put(index + 3, tick, m.fault)
         if self._derived:
             self._sample_axes(index + 4, tick)

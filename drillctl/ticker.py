@@ -4,18 +4,19 @@ Rule: no decision about motion is taken here; between ticks it samples, counts h
 Created by desk for a job and by the tests.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from drillctl.execution import Controller, report, tick
-from drillctl.kmd import STATUS, Condition, Queue, Requests
+from drillctl.kmd import STATUS, CommandQueue, Condition, Mailbox, Queue, Requests
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver
-from drillctl.sampler import Sampler
+from drillctl.sampler import Keeper, Sampler
+from drillctl.trace import Recorder, Trace
 
 
 @dataclass
@@ -28,8 +29,9 @@ class Ticker:
     plant: IdealPlant | None = None
     traced: bool = False
     derived: bool = False
-    queue: Queue = field(default_factory=Queue)
-    requests: Requests = field(default_factory=Requests)
+    queue: CommandQueue = field(default_factory=Queue)
+    requests: Mailbox = field(default_factory=Requests)
+    keeper: Keeper | None = None
 
     def __post_init__(self) -> None:
         self.controller = Controller(self.machine, self.queue, self.requests, self.port)
@@ -37,7 +39,7 @@ class Ticker:
         self.touched: list[tuple[int, int, tuple[float, ...]]] = []
         self._touches = 0
         self._tags: set[int] = set()
-        self.sampler = Sampler(self.controller, self.plant, self.derived) if self.traced else None
+        self.sampler = Sampler(self.controller, self.plant, self.derived, self.keeper) if self.traced else None
 
     @classmethod
     def simulated(cls, machine: Machine, traced: bool = False, derived: bool = False) -> "Ticker":
@@ -69,9 +71,22 @@ class Ticker:
         return m.condition == Condition.READY and not m.job and not m.moving
 
     def report(self) -> np.void:
-        """The status record, written anew."""
+        """The status record, written anew; what the plant has lost is told while everything rests."""
         report(self.controller, self.status)
+        if self.plant is not None and not self.controller.moving:
+            lost = self.lost_steps()
+            self.status["lost"][: len(lost)] = np.rint(lost)
         return self.status
+
+    def late(self, count: int, worst_ns: int) -> None:
+        """How punctual the ticks were so far, for the status record."""
+        self.status["late"], self.status["late_worst_ns"] = count, worst_ns
+
+    def finished_trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
+        """The record of the run so far, where it is kept in this process."""
+        if self.sampler is None or not isinstance(self.sampler.recorder, Recorder):
+            return None
+        return self.sampler.recorder.finish(self.controller.tick, header)
 
     def _touch(self) -> None:
         """The bit meets the board; a hole that is come to again (a peck after a peck) is counted once."""

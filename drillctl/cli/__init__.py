@@ -1,10 +1,12 @@
 """Verbs and options. Rule: nothing heavy is imported before a verb is called; whatever the operator got wrong is
 one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
 
-    run.py      drill a file or a queue          estimate.py  what it will take
+    run.py      drill a file or a queue          resume.py    go on with what was cut off
+    ports.py    what can be driven from here     estimate.py  what a job will take
     inspect.py  what a drill file says           convert.py   a clean file, or a queue, from it
     replay.py   traces again                     tables.py    machines, and checking tables
-    jobs.py     the options of a job             options.py   machine and tables
+    ports.py    what can be driven from here     options.py   machine and tables
+    jobs.py     the options of a job
 """
 
 import argparse
@@ -14,12 +16,12 @@ from collections.abc import Sequence
 from typing import NoReturn, TextIO
 
 from drillctl import __version__
-from drillctl.cli import convert, estimate, inspect, replay, run, tables
+from drillctl.cli import convert, estimate, inspect, ports, replay, resume, run, tables
 from drillctl.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, estimate, inspect, convert, replay, tables)
+VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "
@@ -71,12 +73,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _refuse(error: Exception) -> int:
     """Tells what the operator got wrong; whatever else it is goes on up, as a fault of ours."""
-    if isinstance(error, OSError):
+    if _is_refusal(error):
+        reason = str(error)
+    elif isinstance(error, OSError):
         if error.filename is None:
             _silence(sys.stdout)
         reason = f"{error.filename or 'standard output'}: {error.strerror}"
-    elif _is_refusal(error):
-        reason = str(error)
     else:
         raise error
     for line in reason.splitlines():
@@ -88,12 +90,14 @@ def _is_refusal(error: Exception) -> bool:
     from drillctl.generation.alignment import AlignmentError
     from drillctl.generation.drillfile import DrillFileError
     from drillctl.generation.errors import JobError
+    from drillctl.generation.journal import JournalError
     from drillctl.generation.placing import PlacingError
     from drillctl.machine import TableError
     from drillctl.outputs import OutputError
+    from drillctl.ports import PortError
     from drillctl.trace import TraceError
 
-    refusals = (JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError)
+    refusals = (JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError)
     return isinstance(error, refusals)
 
 

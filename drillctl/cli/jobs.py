@@ -2,8 +2,9 @@
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
@@ -41,6 +42,36 @@ def wishes(arguments: argparse.Namespace) -> "Wishes":
     return Wishes(
         _placing(arguments), arguments.order, arguments.skip_tools, drills, arguments.peck, arguments.spot
     )
+
+
+AS_GIVEN = (
+    "machine", "tables", "tick_hz", "origin", "mirror", "rotate", "offset", "align", "panel", "order", "skip_tools",
+    "drills", "peck", "spot", "format",
+)  # fmt: skip
+PATHS = ("tables", "align", "drills")
+
+
+def as_given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The options that make a job, as plain values for its journal; paths are made absolute."""
+    told = {name: getattr(arguments, name) for name in AS_GIVEN}
+    told["skip_tools"] = sorted(told["skip_tools"])
+    if told["machine"].endswith(".toml"):
+        told["machine"] = str(Path(told["machine"]).resolve())
+    return {name: str(value.resolve()) if isinstance(value, Path) else value for name, value in told.items()}
+
+
+def given_again(told: Mapping[str, Any]) -> argparse.Namespace:
+    """The options of a journal as arguments. Raises JobError for a journal of another version."""
+    from drillctl.generation.errors import JobError
+
+    if set(told) != set(AS_GIVEN):
+        raise JobError(["the journal was written by another version of this program"])
+    arguments = argparse.Namespace(**told)
+    arguments.skip_tools = frozenset(told["skip_tools"])
+    arguments.offset, arguments.panel = tuple(told["offset"]), told["panel"] and tuple(told["panel"])
+    for name in PATHS:
+        setattr(arguments, name, Path(told[name]) if told[name] else None)
+    return arguments
 
 
 def _placing(arguments: argparse.Namespace) -> "Placing":

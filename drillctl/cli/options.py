@@ -1,11 +1,16 @@
 """Options that several verbs share, and what they stand for."""
 
 import argparse
+import json
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from drillctl.desk import Run, Watcher
     from drillctl.machine import Library, Machine
+    from drillctl.outputs import Output
 
 DEFAULT_MACHINE = "pcb-drill"
 
@@ -44,3 +49,56 @@ def _rate(text: str) -> int:
         reason = f"{text[:20]!r} is not a whole number from {SLOWEST_TICK_HZ} to {FASTEST_TICK_HZ}"
         raise argparse.ArgumentTypeError(reason)
     return int(text)
+
+
+def add_running(verb: argparse.ArgumentParser) -> None:
+    """``--port`` and ``--pace``."""
+    verb.add_argument("--port", default="simulated", metavar="NAME[:ADDRESS]", help="default: %(default)s; see drillctl ports")
+    verb.add_argument(
+        "--pace", choices=("free", "real"), help="real: by the clock, in a process of its own; default: as the port wants"
+    )
+
+
+def add_results(verb: argparse.ArgumentParser) -> None:
+    """``--holes`` and ``--json``."""
+    verb.add_argument("--holes", type=Path, metavar="F", help="write the holes as the plant made them (CSV)")
+    verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
+
+
+def shown(run: "Callable[[Watcher], Run]") -> "Run":
+    """Runs with the progress on standard error."""
+    from drillctl.ui.progress import ProgressView
+
+    with ProgressView(sys.stderr) as view:
+        return run(view.show)
+
+
+def write_holes(done: "Run", output: "Output | None") -> None:
+    """The holes CSV (docs/SPEC.md, section 3), where one was asked for."""
+    if output is not None:
+        output.write(lambda file: file.writelines(_holes_csv(done)))
+
+
+def _holes_csv(done: "Run") -> "Iterator[str]":
+    yield "tool,diameter_mm,x_mm,y_mm\n"
+    for hole in done.holes:
+        diameter = "" if hole.diameter_mm is None else f"{hole.diameter_mm:.4f}"
+        yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}\n"
+
+
+def told(done: "Run", as_json: bool) -> int:
+    """Prints how a run ended; returns its exit code."""
+    from drillctl.interrupts import exit_code
+    from drillctl.ui.summary import summary_lines
+
+    for notice in done.notices:
+        print(f"drillctl: {notice}", file=sys.stderr)
+    if as_json:
+        print(json.dumps(done.outcome.as_dict(), indent=2))
+    else:
+        print("\n".join(summary_lines(done.outcome)))
+    if done.trouble:
+        print(f"drillctl: {done.trouble}", file=sys.stderr)
+    if done.signal is not None:
+        return exit_code(done.signal)
+    return 1 if done.outcome.fault or done.trouble else 0

@@ -1,10 +1,9 @@
-"""``drillctl run JOB``: drills a drill file or a ``.kmd`` queue on the simulated machine."""
+"""``drillctl run JOB``: drills a drill file or a ``.kmd`` queue."""
 
 import argparse
-import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs, options
 
@@ -19,40 +18,42 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb = verbs.add_parser("run", help="drill a file or run a queue", description=__doc__)
     verb.add_argument("job", type=Path, metavar="JOB", help="a drill file, or a queue of KMD commands (.kmd)")
     options.add_machine(verb)
+    options.add_running(verb)
+    verb.add_argument("--journal", type=Path, metavar="F", help="keep the job's journal here; default: the user's state folder")
     verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay")
     verb.add_argument("--vcd", type=Path, metavar="F", help="write the run as VCD, for GTKWave or PulseView")
-    verb.add_argument("--holes", type=Path, metavar="F", help="write the holes as the plant made them (CSV)")
-    verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
+    options.add_results(verb)
     jobs.add_job(verb)
     verb.set_defaults(call=call)
 
 
 def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
-    from drillctl import desk
     from drillctl.generation.job import load_job
-    from drillctl.interrupts import exit_code
     from drillctl.machine import machine_hazards
+    from drillctl.machinery import Running, pace_of
     from drillctl.outputs import reserved
-    from drillctl.ui.progress import ProgressView
+    from drillctl.session import Session
 
     machine = options.machine(arguments)
+    running = Running(arguments.port, arguments.pace, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
+    paced = pace_of(running) == "real"
     job = load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
     inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files))
     with reserved(wanted, inputs) as (trace, vcd, holes):
         for warning in (*machine_hazards(machine), *job.warnings):
             print(f"drillctl: warning: {warning}", file=sys.stderr)
-        with ProgressView(sys.stderr) as view:
-            done = desk.run(job, view.show, traced=bool(trace or vcd), derived=bool(vcd))
-        _write(job, done, trace, vcd, holes)
-    _print(done, arguments.json)
-    if done.signal is not None:
-        return exit_code(done.signal)
-    return 1 if done.outcome.fault else 0
+        session = Session(job, running)
+        if job.work and (paced or arguments.journal):
+            session = session.journalled(arguments.job, arguments.journal, jobs.as_given(arguments))
+        done = options.shown(session.run)
+        _write(job, done, trace, vcd)
+        options.write_holes(done, holes)
+    return options.told(done, arguments.json)
 
 
-def _write(job: "Job", done: "Run", trace: "Output | None", vcd: "Output | None", holes: "Output | None") -> None:
+def _write(job: "Job", done: "Run", trace: "Output | None", vcd: "Output | None") -> None:
     from dataclasses import replace
 
     from drillctl.sampler import vcd_layout
@@ -64,22 +65,5 @@ def _write(job: "Job", done: "Run", trace: "Output | None", vcd: "Output | None"
         header = [("machine", named), *kept.header[1:]]
         trace.write(lambda file: write_text(replace(kept, header=tuple(header)), file))
     if vcd is not None and kept is not None:
-        vcd.write(lambda file: write_vcd(kept, file, vcd_layout(job.machine, with_plant=True)))
-    if holes is not None:
-        holes.write(lambda file: _holes_csv(done, file))
-
-
-def _holes_csv(done: "Run", file: TextIO) -> None:
-    print("tool,diameter_mm,x_mm,y_mm", file=file)
-    for hole in done.holes:
-        diameter = "" if hole.diameter_mm is None else f"{hole.diameter_mm:.4f}"
-        print(f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}", file=file)
-
-
-def _print(done: "Run", as_json: bool) -> None:
-    from drillctl.ui.summary import summary_lines
-
-    if as_json:
-        print(json.dumps(done.outcome.as_dict(), indent=2))
-    else:
-        print("\n".join(summary_lines(done.outcome)))
+        with_plant = any(signal.name.startswith("plant.") for signal in kept.signals)
+        vcd.write(lambda file: write_vcd(kept, file, vcd_layout(job.machine, with_plant)))

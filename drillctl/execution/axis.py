@@ -90,6 +90,19 @@ class Axis:
         if self.state == 0 and self.part == 0 and not self.counting and not self.led:
             self.start()
 
+    def start_again(self) -> None:
+        """The rotor stopped while nobody drove it: forcing goes off, and the count starts anew from state 0."""
+        self.state = self.count = 0
+        self.braked = False
+        self.cool()
+        if self.part:
+            self.wait = max(self.interval[0], self.floor)
+            self.awake = self.counting
+        elif self.held or self.cut:
+            self._rest()
+        elif self.counting:
+            self.start()
+
     def give_up(self) -> None:
         """Brake down the ramp; where the axis comes to rest is its target. One that is led stops as its leader."""
         if not self.led:

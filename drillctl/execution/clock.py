@@ -1,31 +1,43 @@
 """The paced clock: sleeps to absolute deadlines, one a tick. A late tick is counted and never made up for.
 
-Rule: time is stretched. A tick that begins more than a period late moves all later deadlines with it, so two steps
-are never closer together than a period. Handed to the ticker, which asks it before each tick.
+Rule: time is stretched. A tick that begins more than half a period late moves all later deadlines with it, so two
+ticks are never closer together than half a period; what is less is jitter, and the next tick is on time again.
+Handed to the ticker's loop, which asks it before each tick.
 """
 
 import time
+from collections.abc import Callable
 
 
 class PacedClock:
-    """``late`` counts ticks that began more than a period after their deadline; times are nanoseconds."""
+    """Of the newest tick: ``begun_ns``, and ``late_ns`` after its deadline. Of all: ``late`` counts those that began
+    more than a period too late, ``worst_ns`` is the greatest lateness. Time can be handed in (``now_ns``, ``sleep_s``).
+    """
 
-    def __init__(self, tick_hz: int):
+    def __init__(
+        self,
+        tick_hz: int,
+        now_ns: Callable[[], int] = time.monotonic_ns,
+        sleep_s: Callable[[float], object] = time.sleep,
+    ):
+        self._now_ns, self._sleep_s = now_ns, sleep_s
         self.period_ns = 1_000_000_000 // tick_hz
-        self.deadline_ns = time.monotonic_ns() + self.period_ns
-        self.late = 0
-        self.worst_ns = 0
+        self.begun_ns = now_ns()
+        self.deadline_ns = self.begun_ns + self.period_ns
+        self.late = self.late_ns = self.worst_ns = 0
 
     def wait(self) -> int:
         """Sleeps to the next deadline; returns how many whole periods the tick begins too late, mostly 0."""
-        left_ns = self.deadline_ns - time.monotonic_ns()
+        left_ns = self.deadline_ns - self._now_ns()
         if left_ns > 0:
-            time.sleep(left_ns / 1e9)
-        late_ns = time.monotonic_ns() - self.deadline_ns
+            self._sleep_s(left_ns / 1e9)
+        self.begun_ns = self._now_ns()
+        self.late_ns = late_ns = self.begun_ns - self.deadline_ns
         self.worst_ns = max(self.worst_ns, late_ns)
         self.deadline_ns += self.period_ns
+        if late_ns * 2 > self.period_ns:
+            self.deadline_ns += late_ns
         if late_ns <= self.period_ns:
             return 0
         self.late += 1
-        self.deadline_ns += late_ns
         return late_ns // self.period_ns

@@ -6,7 +6,7 @@ Created by the wiring with a machine, a queue, a mailbox and a driver.
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.line import Line
-from drillctl.kmd import Command, Condition, Queue, Requests
+from drillctl.kmd import Command, CommandQueue, Condition, Mailbox
 from drillctl.machine import Machine
 from drillctl.ports import SAFE_IMAGE, Driver
 
@@ -20,9 +20,10 @@ class Controller:
     elapsed   ticks of the current command, hold not counted
     running   sequence of the command that was current in this tick, 0 = none
     served    the requests served in this tick, as bits
+    gap       whole periods by which the next tick begins too late, set by whoever paces; late: the same, applied
     """
 
-    def __init__(self, machine: Machine, queue: Queue, requests: Requests, port: Driver):
+    def __init__(self, machine: Machine, queue: CommandQueue, requests: Mailbox, port: Driver):
         self.machine = machine
         self.queue = queue
         self.requests = requests
@@ -43,7 +44,7 @@ class Controller:
         self.elapsed = self.time_limit = 0
         self.homing_row = 0
 
-        self.tick = self.starved = self.moving = self.running = self.served = 0
+        self.tick = self.starved = self.moving = self.running = self.served = self.gap = self.late = 0
         self.inputs = self.sensors = 0
         self.image = SAFE_IMAGE
         self.switched = 0

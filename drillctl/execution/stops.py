@@ -15,7 +15,6 @@ from drillctl.ports import SAFE_IMAGE
 
 def serve(m: Controller) -> None:
     """The requests that wait, emergency stop first."""
-    m.requests.pending &= ~m.served
     for request, served in _SERVED.items():
         if m.served >> request & 1:
             served(m)
@@ -109,7 +108,8 @@ def _stop(m: Controller) -> None:
         _brake(m)
 
 
-def _hold(m: Controller) -> None:
+def hold(m: Controller) -> None:
+    """Brakes all axes down their ramps, keeping their targets; the command stays current."""
     if m.condition == Condition.READY and (m.busy or m.job):
         m.condition = Condition.HOLDING
         for axis in m.axes:
@@ -134,7 +134,7 @@ def _acknowledge(m: Controller) -> None:
 _SERVED: Mapping[int, Callable[[Controller], None]] = {
     Request.ESTOP: _emergency_stop,
     Request.STOP: _stop,
-    Request.HOLD: _hold,
+    Request.HOLD: hold,
     Request.RESUME: _resume,
     Request.ACK: _acknowledge,
 }

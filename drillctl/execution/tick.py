@@ -1,6 +1,6 @@
 """One INT8. Inputs are latched first and outputs flushed last, so no layer ever sees half a tick.
 
-    latch -> requests -> guard -> current command -> every axis one count -> completion -> image -> flush
+    latch -> gap -> requests -> guard -> current command -> every axis one count -> completion -> image -> flush
 
 docs/SPEC.md, section 1, has the order to the letter. No container is built here, nothing grows.
 """
@@ -8,6 +8,7 @@ docs/SPEC.md, section 1, has the order to the letter. No container is built here
 from drillctl.execution.commands import finish, start_next
 from drillctl.execution.controller import Controller
 from drillctl.execution.guard import guard
+from drillctl.execution.late import apply_gap
 from drillctl.execution.stops import carry_on, serve
 from drillctl.kmd import Condition
 
@@ -18,7 +19,10 @@ def tick(m: Controller) -> None:
     """One interrupt. While a job's next command is missing and all rests, it is a wake and not a tick."""
     m.inputs = m.port.latch()
     m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
-    m.served = m.requests.pending
+    m.late = m.gap
+    if m.late:
+        apply_gap(m)
+    m.served = m.requests.take()
     if m.served:
         serve(m)
     if m.condition != LATCHED:

@@ -3,7 +3,7 @@
 Rule: whatever is wrong with the input is found here, before a queue or a port exists. Called by desk and the verbs.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -59,12 +59,30 @@ class Job:
         axis = self.machine.axis_index(name)
         return 0.0 if axis is None else places[axis] / self.machine.axes[axis].steps_per_mm
 
+    def hole_number(self, drilled: int) -> int:
+        """The number in the whole job of the hole that this program drills as its ``drilled``-th, from 1."""
+        assert self.work is not None
+        return int(self.work.number[drilled - 1])
+
+    def file_place(self, number: int) -> tuple[float, float]:
+        """Where a hole, by its number in the whole job, stands in the file (mm)."""
+        assert self.work is not None
+        x_mm, y_mm = self.work.hits.xy_mm[int(np.searchsorted(self.work.number, number))].tolist()
+        return x_mm, y_mm
+
+    def without(self, done: set[int], wishes: Wishes) -> "Job":
+        """What is left of a board when these holes, by number, are drilled: initialised anew, from the same base."""
+        assert self.work is not None
+        work = self.work.without(done)
+        return replace(self, work=work, program=board_program(work, self.machine, wishes))
+
     def _hole(self, tag: int) -> tuple[Group | None, Affine]:
         """The tool group and the board of a hole by its number, as far as a work list knows it."""
-        if self.work is None or not 1 <= tag <= self.holes_total:
+        row = int(np.searchsorted(self.work.number, tag)) if self.work is not None else 0
+        if self.work is None or row >= self.holes_total or self.work.number[row] != tag:
             return None, UNMOVED
-        group = next(group for group in self.work.groups if group.start < tag <= group.stop)
-        return group, self.work.boards[self.work.hits.board[tag - 1]]
+        group = next(group for group in self.work.groups if group.start <= row < group.stop)
+        return group, self.work.boards[self.work.hits.board[row]]
 
 
 def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None) -> Job:
@@ -82,7 +100,7 @@ def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = Non
 
 def file_warnings(path: Path, drill_file: DrillFile) -> list[str]:
     """A line for each thing that was read with a doubt, and for what is not drilled."""
-    told = [f"{path}{f':{w.line}' if w.line else ''}: {w.code}: {w.reason}" for w in drill_file.warnings]
+    told = [f"{path}{f':{w.line}' if w.line else ''}: {w.reason}" for w in drill_file.warnings]
     routs = drill_file.routs
     return [*told, f"{path}: {routs} milled cuts are not drilled"] if routs else told
 

@@ -7,9 +7,12 @@ line (the power went) is left out and said; any other damage refuses the journal
 import hashlib
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from drillctl.generation.job import Job
 
 FORMAT = 1
 LARGEST_JOURNAL_BYTES = 256 * 1024 * 1024
@@ -23,16 +26,17 @@ class JournalError(Exception):
 class Head:
     """The first line: enough to build the same job again, and to see that it is the same.
 
-    options  the words of the command line that made the job, placing and order included
+    file_digest     of the drill file; program_digest: of what was made from it, placing and order included
+    options         of the command line that made the job, by name
     """
 
     job: str
-    job_digest: str
+    file_digest: str
+    program_digest: str
     machine: str
     machine_digest: str
-    tick_hz: int
-    options: tuple[str, ...]
     holes: int
+    options: Mapping[str, Any]
 
 
 @dataclass
@@ -64,7 +68,7 @@ class Journal:
         except OSError as error:
             raise JournalError(f"{file}: can't be written: {error.strerror}") from error
         if head is not None:
-            self._append({"drillctl-journal": FORMAT, **vars(head), "options": list(head.options)})
+            self._append({"drillctl-journal": FORMAT, **vars(head)})
 
     def begun(self, hole: int) -> None:
         """Before the head may come down at a hole."""
@@ -110,12 +114,28 @@ def read_journal(file: Path) -> Account:
     return account
 
 
-def digest_of(file: Path) -> str:
-    """What a job's file is recognised by. Raises JournalError where it can't be read."""
+def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
+    """The first line for a job that was made from a file. Raises JournalError where that can't be read."""
     try:
-        return hashlib.sha256(file.read_bytes()).hexdigest()
+        file_digest = hashlib.sha256(file.read_bytes()).hexdigest()
     except OSError as error:
         raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+    program_digest = hashlib.sha256(job.program.tobytes()).hexdigest()
+    machine = job.machine
+    where = str(file.resolve())
+    return Head(where, file_digest, program_digest, machine.name, machine.digest, job.holes_total, options)
+
+
+def check_same(journal: Path, then: Head, now: Head) -> None:
+    """Raises JournalError unless the job made now is the one that the journal began with."""
+    compared = (
+        ("file_digest", f"{then.job} has changed since the job was begun"),
+        ("machine_digest", f"machine {then.machine} is not the one that the job was begun on"),
+        ("program_digest", "the placing, the order or a table beside the job has changed since it was begun"),
+    )
+    for name, reason in compared:
+        if getattr(then, name) != getattr(now, name):
+            raise JournalError(f"{journal}: {reason}; what is left of it can't be told")
 
 
 def _lines(file: Path) -> tuple[list[dict[str, Any]], bool]:
@@ -141,9 +161,9 @@ def _head(file: Path, line: dict[str, Any] | None) -> Head:
     if line is None or line.pop("drillctl-journal", None) != FORMAT:
         raise JournalError(f"{file}: not a journal of this program")
     try:
-        head = Head(**{**line, "options": tuple(line.get("options", ()))})
+        head = Head(**line)
     except TypeError as error:
-        raise JournalError(f"{file}:1: damaged: {error}") from error
-    if not isinstance(head.holes, int) or not isinstance(head.job, str) or not isinstance(head.tick_hz, int):
-        raise JournalError(f"{file}:1: damaged: job, holes or tick_hz")
+        raise JournalError(f"{file}:1: damaged: its first line is not whole") from error
+    if not (isinstance(head.holes, int) and isinstance(head.job, str) and isinstance(head.options, dict)):
+        raise JournalError(f"{file}:1: damaged: its first line is not whole")
     return head

@@ -41,7 +41,7 @@ def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64
     blocks[:, 0] = _gotos(before, machine)
     blocks[:, 1] = _gotos(steps, machine)
     blocks[:, 2:] = stroke
-    blocks["tag"][:, 2:] = np.arange(group.start + 1, group.stop + 1)[:, None]
+    blocks["tag"][:, 2:] = work.number[group.start : group.stop, None]
     kept = np.ones(blocks.shape, bool)
     kept[:, 0] = (before != steps).any(axis=1)
     return blocks[kept]

@@ -4,7 +4,7 @@ Rule: holes that the machine can't reach are refused here, each by name, before 
 of holes, panels become boards. Called by job.py.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,12 +51,23 @@ class Hits:
 
 @dataclass(frozen=True, eq=False)
 class WorkList:
-    """Holes in drilling order, grouped by tool; ``steps`` (n, 2) are X and Y from the working base."""
+    """Holes in drilling order, grouped by tool; ``steps`` (n, 2) are X and Y from the working base.
+
+    number (n,)  the holes' numbers in the whole job, from 1; what is left of a job keeps them
+    """
 
     groups: tuple[Group, ...]
     hits: Hits
     steps: Integers
     boards: tuple[Affine, ...]
+    number: Integers
+
+    def without(self, done: set[int]) -> "WorkList":
+        """What is left when these holes, by number, are drilled."""
+        left = np.flatnonzero(~np.isin(self.number, list(done)))
+        bounds = [(int(np.searchsorted(left, g.start)), int(np.searchsorted(left, g.stop)), g) for g in self.groups]
+        groups = tuple(replace(group, start=start, stop=stop) for start, stop, group in bounds if stop > start)
+        return WorkList(groups, self.hits.take(left), self.steps[left], self.boards, self.number[left])
 
 
 def build(drill_file: DrillFile, wishes: Wishes, machine: Machine) -> WorkList:
@@ -74,7 +85,7 @@ def build(drill_file: DrillFile, wishes: Wishes, machine: Machine) -> WorkList:
     _check_reach(drill_file, hits, steps, machine, axes)
     groups = _groups(drill_file, hits, wishes)
     order = _order(groups, steps, wishes.order, machine, axes)
-    return WorkList(groups, hits.take(order), steps[order], maps)
+    return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1))
 
 
 def positioning_axes(machine: Machine) -> tuple[int, int]:

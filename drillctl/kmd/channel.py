@@ -25,6 +25,8 @@ CHANNEL = np.dtype(
         ("desk_beat_ns", "<i8"),  # monotonic; written by desk
         ("written", "<u8"),  # records put; desk
         ("asked", "<u4", (len(Request),)),  # how often each request was asked; desk
+        ("leave", "<u4"),  # 1: nothing more will come, the ticker may go; desk
+        ("ticker_pid", "<i8"),  # desk
         ("ticker_beat_ns", "<i8"),  # ticker
         ("taken", "<u8"),  # records taken; ticker
         ("ended", "<u4"),  # 1 when the ticker has left in good order, its outputs safe; ticker

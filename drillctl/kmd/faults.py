@@ -35,6 +35,10 @@ class Fault(IntEnum):
     LINE_MISMATCH = 11
     BAD_COMMAND = 12
     EMERGENCY_STOP = 13
+    LATE_TICK = 14
+    PORT_LOST = 15
+    HEARTBEAT_LOST = 16
+    TICKER_LOST = 17
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +64,10 @@ _ALL = (
     FaultSpec(Fault.LINE_MISMATCH, Reaction.STOP, True),
     FaultSpec(Fault.BAD_COMMAND, Reaction.STOP, True),
     FaultSpec(Fault.EMERGENCY_STOP, Reaction.MACHINE, False),
+    FaultSpec(Fault.LATE_TICK, Reaction.STOP, True),
+    FaultSpec(Fault.PORT_LOST, Reaction.DROP, False),
+    FaultSpec(Fault.HEARTBEAT_LOST, Reaction.DROP, False),
+    FaultSpec(Fault.TICKER_LOST, Reaction.DROP, False),
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

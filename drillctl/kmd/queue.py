@@ -4,6 +4,7 @@ Rule: neither grows nor waits. generation puts, execution alone takes; a full qu
 """
 
 from enum import IntEnum, IntFlag
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,33 @@ from numpy.typing import NDArray
 from drillctl.kmd.commands import RECORD, Command
 
 CAPACITY = 256
+
+
+class CommandQueue(Protocol):
+    """A bounded FIFO of records, in one process or between two: one side puts, the other takes."""
+
+    def __len__(self) -> int:
+        """Records that wait."""
+
+    @property
+    def room(self) -> int:
+        """How many records may be put now."""
+
+    def put(self, records: NDArray[np.void]) -> int:
+        """Takes as many of the records (shape (n,)) as there is room for; returns how many."""
+
+    def take(self, command: Command) -> bool:
+        """Overwrites ``command`` with the oldest record; False where there is none."""
+
+
+class Mailbox(Protocol):
+    """Requests on their way past the queue, in one process or between two."""
+
+    def post(self, request: "Request") -> None:
+        """Asks for something; asked twice before the next tick is asked once."""
+
+    def take(self) -> int:
+        """The requests asked since the last call, as bits."""
 
 
 class Queue:
@@ -70,7 +98,7 @@ class RequestBit(IntFlag):
 
 
 class Requests:
-    """The mailbox: ``post`` from above at any time, ``pending`` read and cleared by the tick."""
+    """The mailbox: ``post`` from above at any time, ``take`` by the tick alone."""
 
     __slots__ = ("pending",)
 
@@ -80,3 +108,8 @@ class Requests:
     def post(self, request: Request) -> None:
         """Asks for something; asked twice before the next tick is asked once."""
         self.pending |= 1 << request
+
+    def take(self) -> int:
+        """The requests asked since the last call, as bits."""
+        pending, self.pending = self.pending, 0
+        return pending

@@ -23,6 +23,8 @@ class Condition(IntEnum):
 STATUS = np.dtype(
     [
         ("tick", "<i8"),  # ticks run
+        ("late", "<u4"),  # ticks that began more than a period late
+        ("late_worst_ns", "<i8"),
         ("starved", "<u4"),  # wakes without a command while a job ran: they are not ticks
         ("epoch", "<u4"),
         ("sequence", "<u4"),  # of the current command, 0 = none
@@ -41,6 +43,7 @@ STATUS = np.dtype(
         ("position", "<i8", (MOST_AXES,)),
         ("target", "<i8", (MOST_AXES,)),
         ("steps", "<i8", (MOST_AXES,)),  # made so far, both directions added
+        ("lost", "<i4", (MOST_AXES,)),  # steps that the plant is behind; 0 where there is no plant to ask
         ("state", "i1", (MOST_AXES,)),
         ("column", "u1", (MOST_AXES,)),  # from 1
         ("sensors", "<u8"),  # by input bit, 1 = reached

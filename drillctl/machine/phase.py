@@ -6,7 +6,6 @@ Read by config.py for a machine's axes, by hazards.py for warnings, by execution
 
 import re
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated
 
 import msgspec
@@ -67,14 +66,8 @@ class PhaseTable:
         return tuple(wire.name for wire in self.wires)
 
 
-def read_phase(file: Path) -> PhaseTable:
-    """Reads and checks a phase table. Raises TableError naming the file, the row and the reason."""
-    source = Source.read(file)
-    return parse_phase(source)
-
-
 def parse_phase(source: Source) -> PhaseTable:
-    """As ``read_phase``, for text that is already at hand (an editor's)."""
+    """Checks a phase table's text. Raises TableError naming the file, the row and the reason."""
     raw = source.records(_File)
     columns = len(raw.wire[0].pattern)
     if not 2 <= columns <= LONGEST_TABLE:

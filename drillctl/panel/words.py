@@ -70,6 +70,22 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "emergency stop; where the outputs were dropped, a raised head may sink",
         "clear the danger, acknowledge, and initialise where the position was lost",
     ),
+    Fault.LATE_TICK: FaultWords(
+        "the ticks stood still for more than a quarter of a second: the computer was busy elsewhere",
+        "grant real-time scheduling or free the computer (drillctl latency), acknowledge; initialise where lost",
+    ),
+    Fault.PORT_LOST: FaultWords(
+        "the port is gone or too slow; what its outputs are now can't be known, nor made safe by software",
+        "cut the motors' supply, check cable and card, then start anew and initialise",
+    ),
+    Fault.HEARTBEAT_LOST: FaultWords(
+        "the program above the queue fell silent while the machine was moving; the outputs were switched off",
+        "see why it died or hung, then resume the job from its journal",
+    ),
+    Fault.TICKER_LOST: FaultWords(
+        "the process that runs the ticks died or stood still; the guard has made the outputs safe",
+        "see why it died, then resume the job from its journal",
+    ),
 }
 
 

@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from drillctl import desk
+from drillctl.desk import Desk, Run
 from drillctl.generation.job import load_job
 from drillctl.generation.wishes import Wishes
+from drillctl.link import LocalLink
 from drillctl.machine import Library, shipped_tables
 from drillctl.panel import Progress
 from drillctl.ports import SAFE_IMAGE
@@ -61,22 +62,24 @@ def test_before_anything_runs(number: int, code: int, started: Started, folder: 
 
 @pytest.fixture
 def tickers(monkeypatch: pytest.MonkeyPatch) -> list[Ticker]:
-    """Every ticker that desk makes, so that its card can be looked at afterwards."""
+    """Every ticker that a link in this process makes, so that its card can be looked at afterwards."""
     made: list[Ticker] = []
-    simulated = Ticker.simulated.__func__  # type: ignore[attr-defined]
+    simulated = LocalLink.simulated.__func__  # type: ignore[attr-defined]
 
-    def spy(cls: type[Ticker], *args: object, **named: object) -> Ticker:
-        made.append(simulated(cls, *args, **named))
-        return made[-1]
+    def spy(cls: type[LocalLink], /, *args: object, **named: object) -> LocalLink:
+        link: LocalLink = simulated(cls, *args, **named)
+        made.append(link.ticker)
+        return link
 
-    monkeypatch.setattr(Ticker, "simulated", classmethod(spy))
+    monkeypatch.setattr(LocalLink, "simulated", classmethod(spy))
     return made
 
 
-def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> desk.Run:
+def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> Run:
     (folder / "q.kmd").write_text(text)
     machine = Library((shipped_tables(),)).machine("pcb-drill")
-    return desk.run(load_job(folder / "q.kmd", machine, Wishes()), watcher)
+    job = load_job(folder / "q.kmd", machine, Wishes())
+    return Desk(job, LocalLink.simulated(machine), watcher).run()
 
 
 def at_tick(ticks: int, act: Callable[[], None]) -> Callable[[Progress], None]:

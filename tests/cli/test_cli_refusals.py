@@ -12,7 +12,7 @@ import pytest
 Drillctl = Callable[..., "subprocess.CompletedProcess[str]"]
 GERBER = "%FSLAX24Y24*%\n%MOIN*%\n%ADD10C,0.01*%\nD10*\nX0Y0D02*\nX100Y100D01*\nM02*\n"
 BIG = "M48\nMETRIC\nT1C0.8\n%\nT1\nX0.0Y0.0\nX2000.0Y10.0\nX20.0Y10.0\nX15.0Y3000.0\nM30\n"
-FILES = {
+FILES: dict[str, str | bytes] = {
     "empty.drl": "",
     "empty.kmd": "",
     "board.gbr": GERBER,
@@ -78,7 +78,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
 
 
-@pytest.mark.parametrize(("arguments", "line"), REFUSED, ids=lambda value: " ".join(value)[:50] if isinstance(value, list) else "")
+@pytest.mark.parametrize(("arguments", "line"), REFUSED, ids=[" ".join(arguments)[:50] for arguments, _ in REFUSED])
 def test_refused(arguments: list[str], line: str, drillctl: Drillctl, hostile: Path) -> None:
     before = contents(hostile)
     done = drillctl(*arguments)

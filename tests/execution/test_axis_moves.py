@@ -1,4 +1,4 @@
-"""The automaton, every distance: exact landing, states one at a time, the paper's intervals (docs/SPEC.md, 1.2, 1.3)."""
+"""The automaton, every distance: exact landing, states one at a time, the paper's intervals (SPEC.md, 1.2, 1.3)."""
 
 from dataclasses import dataclass
 
@@ -7,23 +7,10 @@ import pytest
 from drillctl.execution.axis import Axis
 from drillctl.machine import travel_ticks
 from tests.support.axes import RAMPS, Step, lone_axis, next_step, steps_to_rest
+from tests.support.paper import INTERVALS
 
 LONGEST_STEPS = 5000
 BOTH_WAYS = (1, -1)
-
-# Interrupts between steps, as the readings of the paper's Table 2 give them.
-INTERVALS = {
-    1: [7],
-    2: [7, 4],
-    3: [7, 4, 7],
-    4: [7, 4, 2, 4],
-    5: [7, 4, 2, 4, 7],
-    6: [7, 4, 2, 1, 2, 4],
-    7: [7, 4, 2, 1, 2, 4, 7],
-    8: [7, 4, 2, 1, 2, 2, 4, 7],
-    9: [7, 4, 2, 1, 1, 2, 2, 4, 7],
-    30: [7, 4, 2, *[1] * 23, 2, 2, 4, 7],
-}
 FLOORS = (0, 1, 2, 3, 4, 5, 7, 8, 50)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from drillctl.kmd import Request
 from drillctl.machine import Machine, shipped_tables
-from drillctl.trace import Trace, dense
+from drillctl.trace import Recorder, Trace, dense
 from tests.support.bench import MACHINES, Bench, shipped
 from tests.support.decoder import DecodeError, Decoder, Recount, Watch, Windings, decoders
 
@@ -24,7 +24,9 @@ def run_traced(machine: Machine, text: str = JOB) -> tuple[Bench, Trace]:
     b = Bench(machine, traced=True).queue(text)
     b.finish()
     assert b.ticker.sampler is not None
-    return b, b.ticker.sampler.recorder.finish(b.m.tick)
+    recorder = b.ticker.sampler.recorder
+    assert isinstance(recorder, Recorder)
+    return b, recorder.finish(b.m.tick)
 
 
 def watch(trace: Trace, machine: Machine) -> Watch:

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
-from drillctl.kmd import FAULTS, RECORD, Condition, Fault, Reaction, Request
+from drillctl.execution.stops import raise_fault
+from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
 from tests.support.bench import Bench, shipped
 
 REST_COLUMNS = 3  # the paper's rotor rests every third column
@@ -78,14 +78,31 @@ def unequal_line() -> Bench:
 
 def no_such_command() -> Bench:
     b = ready()
-    strange = np.zeros(1, dtype=RECORD)
-    strange["opcode"], strange["epoch"] = 99, b.m.epoch
-    b.ticker.queue.put(strange)
-    return b.queue("KMD_CZEKAJ 9")
+    strange = b.program("KMD_CZEKAJ 9")
+    strange["opcode"][0] = 99
+    return b.put(strange)
 
 
 def emergency_stop() -> Bench:
     return ready().queue(LONG_MOVE).tick(60).ask(Request.ESTOP)
+
+
+def long_gap() -> Bench:
+    """400 ms, in a wait: from a state above 1 a rotor that stands still has lost its place."""
+    b = ready().queue("KMD_CZEKAJ 99").tick(9)
+    b.m.gap = 200
+    return b
+
+
+def from_the_wiring(fault: Fault) -> Callable[[], Bench]:
+    """Ports and processes are lost between ticks, where the wiring sees it and says so."""
+
+    def provoke() -> Bench:
+        b = ready().queue(LONG_MOVE).tick(60)
+        b.before_tick = lambda: raise_fault(b.m, fault)
+        return b
+
+    return provoke
 
 
 PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
@@ -102,6 +119,10 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.LINE_MISMATCH: unequal_line,
     Fault.BAD_COMMAND: no_such_command,
     Fault.EMERGENCY_STOP: emergency_stop,
+    Fault.LATE_TICK: long_gap,
+    Fault.PORT_LOST: from_the_wiring(Fault.PORT_LOST),
+    Fault.HEARTBEAT_LOST: from_the_wiring(Fault.HEARTBEAT_LOST),
+    Fault.TICKER_LOST: from_the_wiring(Fault.TICKER_LOST),
 }
 every_fault = pytest.mark.parametrize("fault", PROVOKED, ids=lambda fault: fault.name)
 
@@ -171,9 +192,10 @@ def test_after_the_acknowledgement_the_machine_works_again(fault: Fault) -> None
 
 @pytest.mark.parametrize("args", [(40, 1), (0, 1)], ids=["no such bit", "a motor's wire"])
 def test_only_the_machines_own_outputs_can_be_switched(args: tuple[int, int]) -> None:
-    b = Bench(shipped("eight-axis")).queue("KMD_WYJSCIE spindle 1")
-    b.ticker.queue._ring["args"][0, :2] = args
-    b.finish()
+    b = Bench(shipped("eight-axis"))
+    program = b.program("KMD_WYJSCIE spindle 1")
+    program["args"][0, :2] = args
+    b.put(program).finish()
     assert (b.m.fault, b.images[-1]) == (Fault.BAD_COMMAND, 0)
 
 

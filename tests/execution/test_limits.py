@@ -1,4 +1,4 @@
-"""What keeps the machine inside itself: targets, sensors and counts, each without the others (docs/SPEC.md, 1.4, 1.9)."""
+"""What keeps the machine inside itself: targets, sensors, counts, each without the others (docs/SPEC.md, 1.4, 1.9)."""
 
 import pytest
 

@@ -2,26 +2,28 @@
 
 from dataclasses import dataclass
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from drillctl.kmd import Condition, Fault, Request
 from tests.support.bench import Bench, shipped
 
 LONGEST_TICKS = 60_000
+EXAMPLES = 60  # the same ones each time; raised, they are a search
 NAMES = ("pcb-drill", "pcb-drill-ramp-lab", "boiler-drum", "eight-axis")
 ACTIONS = (Request.HOLD, Request.RESUME, Request.STOP, Request.ACK, Request.ESTOP)
 
-steps = st.integers(-40, 40) | st.sampled_from([-400, 400, 2_000])
-moves = st.builds(
-    "{} x={} y={}".format, st.sampled_from(["KMD_RUCH", "KMD_RUCHd", "KMD_LINIA", "KMD_LINIAd"]), steps, steps
-)
-others = st.sampled_from(
-    ["KMD_CZEKAJ 0", "KMD_CZEKAJ 25", "KMD_PREDKOSC 0", "KMD_PREDKOSC 3", "KMD_BAZA", "KMD_WIERTLO_GORA"]
-)
-programs = st.lists(moves | moves | others, min_size=1, max_size=8).map("\n".join)
+places, reaches = st.integers(0, 300), st.integers(-40, 40) | st.sampled_from([-400, 2_000])
+absolute = st.builds("{} x={} y={}".format, st.sampled_from(["KMD_RUCH", "KMD_LINIA"]), places, places)
+relative = st.builds("{} x={} y={}".format, st.sampled_from(["KMD_RUCHd", "KMD_LINIAd"]), reaches, reaches)
+moves = absolute | relative
+others = st.sampled_from(["KMD_CZEKAJ 0", "KMD_CZEKAJ 25", "KMD_PREDKOSC 0", "KMD_PREDKOSC 3", "KMD_BAZA"])
+heads = st.sampled_from(["KMD_WIERTLO_DOL", "KMD_WIERTLO_GORA"])
+counted = st.lists(moves | others, min_size=1, max_size=8).map("\n".join)
+programs = st.lists(moves | others | heads, min_size=1, max_size=8).map("\n".join)
 requests = st.lists(st.tuples(st.integers(1, 300), st.sampled_from(ACTIONS)), max_size=6)
-modestly = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+unhurried = settings(derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+modestly = settings(unhurried, max_examples=EXAMPLES)
 
 
 @dataclass(frozen=True)
@@ -82,16 +84,18 @@ def test_two_runs_put_out_the_same_to_the_bit(name: str, program: str, asked: li
 
 
 @modestly
-@given(st.sampled_from(NAMES), programs, st.lists(st.tuples(st.integers(1, 200), st.integers(1, 80)), max_size=4))
+@given(st.sampled_from(NAMES), counted, st.lists(st.tuples(st.integers(1, 200), st.integers(1, 80)), max_size=4))
 def test_holds_change_nothing_but_time(name: str, program: str, holds: list[tuple[int, int]]) -> None:
+    """Where targets end the moves; how far an axis brakes past a sensor does depend on how fast it came."""
     plain = run(name, program, [], homed=True)
+    assume(plain.fault != Fault.LIMIT)
     asked = [pair for after, held in holds for pair in ((after, Request.HOLD), (held, Request.RESUME))]
     held_up = run(name, program, asked, homed=True)
     assert (held_up.positions, held_up.fault) == (plain.positions, plain.fault)
     assert held_up.bench.m.position_known == plain.bench.m.position_known
 
 
-@settings(max_examples=150, deadline=None)
+@settings(unhurried, max_examples=150)
 @given(
     st.sampled_from(NAMES),
     programs,

@@ -52,7 +52,7 @@ UNO = Kind("uno", "atmega328p", UNO_PINS)
 
 def missing() -> str:
     """What isn't installed, or nothing."""
-    lacking = [tool for tool in ("gcc",) if shutil.which(tool) is None]
+    lacking = [] if shutil.which("gcc") else ["gcc"]
     lacking += [str(file) for file in (HEADER, CACHE / "mega.hex", CACHE / "uno.hex") if not file.exists()]
     return f"run tests/firmware/install.sh; missing: {', '.join(lacking)}" if lacking else ""
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drillctl import desk
+from drillctl.desk import Desk
 from drillctl.estimate import estimate
 from drillctl.generation.drillfile import decode
 from drillctl.generation.job import Job, load_job, names_of
@@ -17,6 +17,7 @@ from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import build
 from drillctl.kmd import parse_program
 from drillctl.lab import forecast
+from drillctl.link import LocalLink
 from drillctl.machine import Library
 
 LIBRARY = Library.standard()
@@ -64,7 +65,7 @@ def test_a_boards_forecast_is_its_run(
 ) -> None:
     tools = data.draw(st.lists(st.sampled_from([1, 2]), min_size=len(holes_mm), max_size=len(holes_mm)))
     job = board_job(holes_mm, tools, wish, machine)
-    outcome = desk.run(job, silent).outcome
+    outcome = Desk(job, LocalLink.simulated(job.machine), silent).run().outcome
     told = estimate(job)
     assert outcome.fault is None and outcome.holes_done == job.holes_total
     assert told.ticks == outcome.ticks
@@ -76,7 +77,7 @@ def test_a_boards_forecast_is_its_run(
 @pytest.mark.parametrize("name", ["short-moves.kmd"])
 def test_a_queues_forecast_is_its_run(machine: str, name: str) -> None:
     job = load_job(EXAMPLES / name, LIBRARY.machine(machine), Wishes())
-    assert estimate(job).ticks == desk.run(job, silent).outcome.ticks
+    assert estimate(job).ticks == Desk(job, LocalLink.simulated(job.machine), silent).run().outcome.ticks
 
 
 def test_each_command_has_its_own_ticks() -> None:

@@ -8,20 +8,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from drillctl.machine import Library, RampTable, intervals, shipped_tables, travel_table, travel_ticks
+from tests.support.paper import INTERVALS
 
-# Interrupts between steps of the paper's automaton, by distance.
-LISTED = {
-    1: [7],
-    2: [7, 4],
-    3: [7, 4, 7],
-    4: [7, 4, 2, 4],
-    5: [7, 4, 2, 4, 7],
-    6: [7, 4, 2, 1, 2, 4],
-    7: [7, 4, 2, 1, 2, 4, 7],
-    8: [7, 4, 2, 1, 2, 2, 4, 7],
-    9: [7, 4, 2, 1, 1, 2, 2, 4, 7],
-    30: [7, 4, 2, *[1] * 23, 2, 2, 4, 7],
-}
 SHIPPED = Library((shipped_tables(),))
 SEVEN = SHIPPED.machine("pcb-drill").axes[0].ramp
 RAMPS = {axis.ramp.name: axis.ramp for name in SHIPPED.machine_names() for axis in SHIPPED.machine(name).axes}
@@ -66,11 +54,11 @@ def ramps(draw: st.DrawFn) -> RampTable:
     return ramp
 
 
-@pytest.mark.parametrize("steps", sorted(LISTED))
+@pytest.mark.parametrize("steps", sorted(INTERVALS))
 @pytest.mark.parametrize("sign", [1, -1])
 def test_listed_intervals(steps: int, sign: int) -> None:
-    assert intervals(SEVEN, sign * steps) == LISTED[steps]
-    assert travel_ticks(SEVEN, sign * steps) == sum(LISTED[steps])
+    assert intervals(SEVEN, sign * steps) == INTERVALS[steps]
+    assert travel_ticks(SEVEN, sign * steps) == sum(INTERVALS[steps])
 
 
 def test_from_eight_steps_on_a_move_takes_21_ticks_more_than_steps() -> None:

@@ -7,6 +7,9 @@ Used by tests/execution.
 from collections.abc import Callable
 from functools import cache
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drillctl.generation.job import names_of
 from drillctl.kmd import Condition, Request, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
@@ -56,12 +59,20 @@ class Bench:
         self.ticker = Ticker(machine, self.card, plant, traced, derived=traced)
         self.m = self.ticker.controller
         self.images = self.card.images
+        self.before_tick: Callable[[], None] | None = None  # done once, before the next run of ticks
 
     def queue(self, text: str, end: bool = True) -> "Bench":
         """Puts commands into the queue, one a line or separated by ``;``; ``end`` adds KMD_KONIEC."""
-        program = parse_program(text.replace(";", "\n"), names_of(self.machine))
+        program = self.program(text)
+        return self.put(program if end else program[:-1])
+
+    def program(self, text: str) -> NDArray[np.void]:
+        """Commands as records, KMD_KONIEC the last."""
+        return parse_program(text.replace(";", "\n"), names_of(self.machine))
+
+    def put(self, program: NDArray[np.void]) -> "Bench":
+        """Puts records into the queue, of this epoch."""
         program["epoch"] = self.m.epoch
-        program = program if end else program[:-1]
         assert self.ticker.queue.put(program) == len(program), "the program does not fit into the queue"
         return self
 
@@ -78,6 +89,9 @@ class Bench:
 
     def until(self, holds: Callable[[], bool]) -> int:
         """Runs until a condition holds after a tick; returns how many ticks that took."""
+        if self.before_tick is not None:
+            self.before_tick()
+            self.before_tick = None
         ticks = self.ticker.run(LONGEST_RUN_WAKES, holds)
         assert holds(), f"not reached within {LONGEST_RUN_WAKES} wakes"
         return ticks

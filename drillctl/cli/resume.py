@@ -1,0 +1,75 @@
+"""``drillctl resume [JOURNAL]``: goes on with a job that was cut off: initialises anew and drills what is left."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drillctl.cli import jobs, options
+
+if TYPE_CHECKING:
+    from drillctl.generation.job import Job
+    from drillctl.generation.journal import Account
+    from drillctl.session import Session
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("resume", help="go on with a job that was cut off", description=__doc__)
+    verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help="default: the newest in the state folder")
+    options.add_running(verb)
+    options.add_results(verb)
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """The job is made again and must be the same; holes cut off in the middle are drilled again, and named."""
+    from drillctl.generation.journal import read_journal
+    from drillctl.outputs import reserved
+
+    file = arguments.journal or _newest()
+    account = read_journal(file)
+    session = _session(file, account, arguments)
+    with reserved((arguments.holes,), (file, Path(account.head.job))) as (holes,):
+        _tell(file, account, session.job)
+        done = options.shown(session.run)
+        options.write_holes(done, holes)
+    return options.told(done, arguments.json)
+
+
+def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
+    from drillctl.generation.errors import JobError
+    from drillctl.generation.job import load_job
+    from drillctl.generation.journal import check_same, head_of
+    from drillctl.machinery import Running
+    from drillctl.session import Session
+
+    given = jobs.given_again(account.head.options)
+    wishes = jobs.wishes(given)
+    job_file = Path(account.head.job)
+    job = load_job(job_file, options.machine(given), wishes, given.format)
+    check_same(file, account.head, head_of(job_file, job, account.head.options))
+    if len(account.done) == job.holes_total:
+        raise JobError([f"{file}: all {job.holes_total} holes of {job_file.name} are drilled; nothing is left"])
+    left = job.without(account.done, wishes)
+    return Session(left, Running(arguments.port, arguments.pace), file, done_before=len(account.done))
+
+
+def _newest() -> Path:
+    from drillctl.generation.errors import JobError
+    from drillctl.session import journals
+
+    found = sorted(journals().glob("*.journal"), key=lambda journal: journal.stat().st_mtime)
+    if not found:
+        raise JobError([f"{journals()}: no journal is kept here; name one"])
+    return found[-1]
+
+
+def _tell(file: Path, account: "Account", left: "Job") -> None:
+    """What the journal says, before anything moves."""
+    print(f"drillctl: {file}: {len(account.done)} of {account.head.holes} holes are drilled", file=sys.stderr)
+    if account.torn:
+        print(f"drillctl: {file}: its last line is torn, and left out", file=sys.stderr)
+    for number in account.open:
+        x_mm, y_mm = left.file_place(number)
+        print(f"drillctl: hole {number} (X{x_mm:.4f} Y{y_mm:.4f} mm) was cut off; it is drilled again", file=sys.stderr)
