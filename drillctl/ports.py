@@ -12,7 +12,7 @@ from typing import Protocol
 CARD_BITS = 32
 CARD_MASK = (1 << CARD_BITS) - 1
 SAFE_IMAGE = 0  # every output low: no phase, no forcing, no spindle
-SLOWEST_SAFE_S = 0.05  # what a driver may wait for while it makes the outputs safe, or puts an image out
+LONGEST_WAIT_S = 0.05  # for the port, while an image is put out or the outputs are made safe
 
 
 def word(image: int, card: int) -> int:
@@ -82,11 +82,11 @@ class Driver(Protocol):
         """The input image as it stands now. Never waits. Called once a tick, before anything else."""
 
     def flush(self, image: int) -> None:
-        """Puts the output image out, within SLOWEST_SAFE_S. Called once a tick, after everything else, changed
+        """Puts the output image out, within LONGEST_WAIT_S. Called once a tick, after everything else, changed
         or not."""
 
     def safe(self) -> None:
-        """Puts the whole safe image out, whatever came before, within SLOWEST_SAFE_S and from any process that
+        """Puts the whole safe image out, whatever came before, within LONGEST_WAIT_S and from any process that
         inherited the driver. Called on every way out, and as often as anybody likes."""
 
     def close(self) -> None:

@@ -23,10 +23,10 @@ class Axis:
         "base", "bits", "braked", "clear_mask", "cold", "column", "columns_per_step", "cooling", "count", "counting",
         "cut", "direction", "drive", "floor", "held", "high", "interval", "led", "length", "limits", "line", "low",
         "made", "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target",
-        "travelled", "wait",
+        "travelled", "up", "wait",
     )  # fmt: skip
 
-    def __init__(self, table: AxisTable, limits: tuple[int, int, int]):
+    def __init__(self, table: AxisTable, limits: tuple[int, int, int], up: int = 0):
         self.ramp = table.ramp
         self.interval = table.ramp.interval
         self.columns_per_step = table.columns_per_step
@@ -34,6 +34,7 @@ class Axis:
         self.sense = -1 if table.invert else 1
         self.low, self.high, self.span = table.low_steps, table.high_steps, table.span_steps
         self.limits = limits  # input bits of the end sensors: index 1 for +, -1 for - (0 unused)
+        self.up = up  # where a head that is fed by a distance waits between holes
         self.shown = _patterns(table, forcing=True)
         self.resting = _patterns(table, forcing=False)
         self.column = self.length - 1  # so that the first step forward puts the first column out
@@ -97,7 +98,6 @@ class Axis:
         self.cool()
         if self.part:
             self.wait = max(self.interval[0], self.floor)
-            self.awake = self.counting
         elif self.held or self.cut:
             self._rest()
         elif self.counting:

@@ -127,14 +127,14 @@ def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
 
 
 def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:
-    """The sensor that ends the way, as an input bit. A head fed by a distance does not look for its lower one."""
-    by_distance = direction == DOWN and m.machine.drill_down_steps is not None
+    """The sensor that ends the way, as an input bit. A head fed by a distance, where that is known, needs none."""
+    by_distance = m.machine.drill_down_steps is not None and (direction == DOWN or m.position_known)
     return 0 if by_distance else axis.limits[direction]
 
 
 def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:
     if not sensor:
-        return (m.machine.drill_down_steps or axis.high) if direction == DOWN else 0
+        return (m.machine.drill_down_steps or axis.high) if direction == DOWN else axis.up
     if not m.position_known:
         return axis.position + direction * axis.span
     return axis.high if direction == DOWN else axis.low

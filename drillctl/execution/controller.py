@@ -28,7 +28,10 @@ class Controller:
         self.queue = queue
         self.requests = requests
         self.port = port
-        self.axes = tuple(Axis(table, _limits(machine, index)) for index, table in enumerate(machine.axes))
+        self.axes = tuple(
+            Axis(table, _limits(machine, index), max(0, machine.reach(index)[0]))
+            for index, table in enumerate(machine.axes)
+        )
         self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
         self.line = Line(self.axes)
         self.polarity = sum(1 << s.bit for s in machine.sensors if s.active_level == 0)

@@ -13,7 +13,7 @@ from typing import TypeVar
 import serial
 
 from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, Decoder, Firmware, Message
-from drillctl.ports import SLOWEST_SAFE_S, PortLost, PortRefused
+from drillctl.ports import LONGEST_WAIT_S, PortLost, PortRefused
 
 OLDEST_FIRMWARE = (2, 3)
 LISTEN_S = 3.0  # opening the line resets a Mega; its boot loader takes a byte sent too early for an upload
@@ -33,7 +33,7 @@ class FirmataLine:
         self._decoder = Decoder()
         self._earlier: list[Message] = []
         try:
-            self._serial = serial.Serial(device, baud, timeout=0, write_timeout=SLOWEST_SAFE_S, exclusive=True)
+            self._serial = serial.Serial(device, baud, timeout=0, write_timeout=LONGEST_WAIT_S, exclusive=True)
         except (OSError, ValueError) as error:
             reason = f"can't be opened ({error}); see that it is there, that nobody else has it, and your rights"
             raise PortRefused(name, reason) from error
@@ -56,7 +56,7 @@ class FirmataLine:
         return firmware
 
     def send(self, data: bytes) -> None:
-        """All of it, within SLOWEST_SAFE_S. Raises PortLost; then part of it may have gone out."""
+        """All of it, within LONGEST_WAIT_S. Raises PortLost; then part of it may have gone out."""
         try:
             self._serial.write(data)
             waiting = self._serial.out_waiting
@@ -107,7 +107,7 @@ class FirmataLine:
                     found = message
                 else:
                     kept.append(message)
-        self._earlier = kept
+        self._earlier += kept
         return found
 
     def _lost(self, error: Exception) -> PortLost:

@@ -2,11 +2,11 @@
 
 import json
 import re
-from argparse import Namespace
 from pathlib import Path
 
 import pytest
 
+from drillctl.cli import main
 from drillctl.cli import ports as verb
 from drillctl.machine import Library, shipped_tables
 from drillctl.portio.firmata import max_tick_hz
@@ -104,7 +104,7 @@ def test_the_wiring_guide_has_the_wires_of_each_motor(name: str) -> None:
 
 
 def test_each_port_says_what_it_needs_and_why_not_here(capsys: pytest.CaptureFixture[str]) -> None:
-    assert verb.call(Namespace(json=True)) == 0
+    assert main(["ports", "--json"]) == 0
     told = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
     assert told.keys() == PORTS.keys()
     for row in told.values():
@@ -114,6 +114,6 @@ def test_each_port_says_what_it_needs_and_why_not_here(capsys: pytest.CaptureFix
 
 
 def test_the_list_for_a_person(capsys: pytest.CaptureFixture[str]) -> None:
-    assert verb.call(Namespace(json=False)) == 0
+    assert main(["ports"]) == 0
     paragraphs = capsys.readouterr().out.split("\n\n")
     assert [paragraph.split(":")[0].split("\n")[0] for paragraph in paragraphs] == list(PORTS)

@@ -1,0 +1,45 @@
+"""``drillctl latency``: how punctual ticks are on this computer, whose fault it is when not, and what that is good for.
+
+Nothing is driven: an idle machine on the simulated card is ticked in a process of its own, as a job would be.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Callable
+
+from drillctl.cli import options
+from drillctl.interrupts import caught, exit_code
+
+LONGEST_S = 3600
+FASTEST_HZ = 20_000
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("latency", help="measure how punctual ticks are here", description=__doc__)
+    verb.add_argument("--hz", type=_whole(FASTEST_HZ), metavar="N", help="interrupt frequency; default: the machine's own")
+    verb.add_argument("--seconds", type=_whole(LONGEST_S), default=10, metavar="S", help="default: %(default)s")
+    verb.add_argument("--json", action="store_true", help="print one JSON object")
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """Ctrl-C ends it early, with what was measured (exit 130)."""
+    from drillctl.lab.latency import LatencyError, a_moment, measure
+    from drillctl.machine import Library
+    from drillctl.ui.latency import latency_lines
+
+    machine = Library.standard().machine(options.DEFAULT_MACHINE)
+    machine = machine.at_rate(arguments.hz or machine.tick_hz)
+    signals: list[int] = []
+    with caught(lambda number, frame: signals.append(number)):
+        try:
+            told = measure(machine, arguments.seconds, lambda: a_moment() or bool(signals))
+        except LatencyError as error:
+            if not signals:
+                print(f"drillctl: latency: {error}", file=sys.stderr)
+                return 2
+    if signals and not told:
+    print(json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(latency_lines(told)))
+    return exit_code(signals[0]) if signals else 0

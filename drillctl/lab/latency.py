@@ -1,0 +1,165 @@
+"""How punctual the ticks of an idle machine are on this computer, and whose fault it is when they are not.
+
+    ticker   a process that ticks the machine as a paced run does, on the simulated card
+    canary   one on each processor used: sleeps to its deadlines and does nothing else, equally privileged
+
+Rule: the canaries wake twice a period, so whatever holds them up together with the ticker for a period is seen by
+them as half a period at the least: such a late tick is the platform's, any other is ours. Every way out ends the
+children. Called by the latency verb and by benchmarks/lateness.py. Linux.
+"""
+
+import multiprocessing
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from multiprocessing.process import BaseProcess
+
+import numpy as np
+
+from drillctl.execution.clock import PacedClock
+from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
+from drillctl.lab.wakes import MOST_TEXT, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
+from drillctl.machine import Machine
+from drillctl.panel.latency import LatencyReport
+from drillctl.realtime import become_punctual
+from drillctl.ticker import Ticker
+
+MOST_PROCESSORS = 4  # the ticker stays on these, so that a canary sees whatever stops it
+CANARY_WAKES = 2  # a period
+WARM_UP_TICKS = 200
+TURN_S = 0.05
+START_S = 10.0
+LEAVE_S = 2.0
+
+
+class LatencyError(Exception):
+    """Nothing could be measured here. The text says why."""
+
+
+def a_moment() -> bool:
+    """What ``measure`` does while it waits, where nothing else is asked for."""
+    time.sleep(TURN_S)
+    return False
+
+
+def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_moment) -> LatencyReport:
+    """Ticks ``machine`` for so long. ``meanwhile`` is called over and over until then; True from it ends it early.
+
+    Raises LatencyError.
+    """
+    if not sys.platform.startswith("linux"):
+        raise LatencyError("latency is measured on Linux only")
+    processors = sorted(os.sched_getaffinity(0))[:MOST_PROCESSORS]
+    log, canaries = WakeLog(), [WakeLog() for _ in processors]
+    interrupted = False
+    with _children() as start:
+        for processor, canary in zip(processors, canaries, strict=True):
+            start(canary, partial(run_canary, canary, machine.tick_hz, seconds, processor))
+        ticker = start(log, partial(run_ticker, log, machine, seconds, processors))
+        while ticker.is_alive() and not interrupted:
+            interrupted = meanwhile()
+    if ticker.exitcode or not log.wakes:
+        raise LatencyError(f"no figures: the ticker's process ended with code {ticker.exitcode} after {log.wakes} ticks")
+    return _report(machine, log, canaries, interrupted)
+
+
+@contextmanager
+def _children() -> Iterator[Callable[[WakeLog, Callable[[], None]], BaseProcess]]:
+    """Gives a function that starts a child and waits until it is ready; ends all of them afterwards."""
+    children: list[tuple[BaseProcess, WakeLog]] = []
+
+    def start(log: WakeLog, body: Callable[[], None]) -> BaseProcess:
+        child = multiprocessing.get_context("fork").Process(target=body, daemon=True)
+        child.start()
+        children.append((child, log))
+        until_s = time.monotonic() + START_S
+        while not log.record["ready"]:
+            if time.monotonic() > until_s or not child.is_alive():
+                raise LatencyError(f"a process did not start within {START_S:.0f} s: is the computer overloaded?")
+            time.sleep(TURN_S / 10)
+        return child
+
+    try:
+        yield start
+    finally:
+        for _, log in children:
+            log.record["leave"] = 1
+        for child, _ in children:
+            child.join(LEAVE_S)
+            child.kill()
+            child.join()
+
+
+def run_ticker(log: WakeLog, machine: Machine, seconds: float, processors: list[int]) -> None:
+    """The body of the ticker's process."""
+    ticker = Ticker.simulated(machine)
+    ticker.run(WARM_UP_TICKS)
+    _prepare(log, processors)
+    pace(log, machine.tick_hz, seconds, lambda: ticker.run(1))
+
+
+def run_canary(log: WakeLog, tick_hz: int, seconds: float, processor: int) -> None:
+    """The body of a canary's process; it lives until it is told to leave."""
+    _prepare(log, [processor])
+    pace(log, tick_hz * CANARY_WAKES, seconds + START_S * MOST_PROCESSORS, lambda: None)
+
+
+def _prepare(log: WakeLog, processors: list[int]) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it tells us to leave
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    os.sched_setaffinity(0, processors)
+    log.record["refused"] = "\n".join(become_punctual()).encode()[:MOST_TEXT]
+
+
+def pace(log: WakeLog, tick_hz: int, seconds: float, body: Callable[[], object]) -> None:
+    """A paced loop, logged, for so long; until it is told to leave, or whoever started it is gone."""
+    record, parent = log.record, os.getppid()
+    spent_ns = time.process_time_ns()
+    clock = PacedClock(tick_hz)
+    until_ns = clock.begun_ns + int(seconds * 1e9)
+    record["from_ns"], record["ready"] = clock.begun_ns, 1
+    while clock.deadline_ns <= until_ns and not record["leave"] and os.getppid() == parent:
+        clock.wait()
+        log.add(clock.begun_ns, clock.late_ns, clock.period_ns)
+        body()
+    record["cpu_ns"] = time.process_time_ns() - spent_ns
+    record["to_ns"] = time.monotonic_ns()
+
+
+def _report(machine: Machine, log: WakeLog, canaries: list[WakeLog], interrupted: bool) -> LatencyReport:
+    record, told = log.record, lateness([log])
+    elapsed_ns, cpu_ns, late = log.elapsed_ns, int(record["cpu_ns"]), int(record["late_wakes"])
+    spans, held = log.late_spans(), np.concatenate([canary.late_spans() for canary in canaries])
+    platform = int(overlapping(spans, held).sum())
+    refused = tuple(bytes(record["refused"]).decode(errors="replace").splitlines())
+    carries_hz = carried_hz(quantile_us(record["counts"], 1 - GOOD_SHARE), cpu_ns / 1000 / told.wakes)
+    finding = Finding(
+        late_share=late / told.wakes,
+        longest_ms=told.max_us / 1000,
+        real_time=not refused,
+        platform_share=platform / max(1, len(spans)),
+        tick_hz=machine.tick_hz,
+        carries_hz=carries_hz,
+    )
+    return LatencyReport(
+        machine=machine.name,
+        tick_hz=machine.tick_hz,
+        seconds=elapsed_ns / 1e9,
+        ticker=told,
+        canary=lateness(canaries),
+        canary_late_share=covered_ns(held, int(record["from_ns"]), int(record["to_ns"])) / elapsed_ns,
+        late=late,
+        platform=platform,
+        ours=len(spans) - platform,
+        unlabelled=late - len(spans),
+        cpu_share=cpu_ns / elapsed_ns,
+        refused=refused,
+        histogram=bars(record["counts"]),
+        carries_hz=carries_hz,
+        grade=grade(finding),
+        interrupted=interrupted,
+    )

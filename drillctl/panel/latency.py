@@ -1,0 +1,71 @@
+"""How punctual a computer is, for a person: made by the lab, drawn by ui, printed as JSON. Microseconds throughout."""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Lateness:
+    """How late the wakes of one process were: percentiles to the microsecond below, and the greatest."""
+
+    wakes: int
+    p50_us: int
+    p99_us: int
+    p999_us: int
+    max_us: int
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """A row of the histogram: so many ticks were from ``from_us`` to less than ``to_us`` late (None: and more)."""
+
+    from_us: int
+    to_us: int | None
+    ticks: int
+
+
+@dataclass(frozen=True, slots=True)
+class Grade:
+    """``A`` to ``E``, what that is good for, and what to do about it."""
+
+    letter: str
+    good_for: str
+    advice: str
+
+
+@dataclass(frozen=True, slots=True)
+class LatencyReport:
+    """What ``drillctl latency`` found.
+
+    A tick is late when it began more than a period after its deadline; ``late`` of them are ``platform`` (a canary
+    process was late at the same moment), ``ours``, and ``unlabelled`` (there were more than were kept).
+    ``canary_late_share`` is the share of time in which a canary was late: so many meet by chance.
+    ``refused`` has a sentence for each real-time measure that was not allowed; none means real-time.
+    ``carries_hz`` is the greatest usual rate that the lateness measured would allow, 0 for none.
+    """
+
+    machine: str
+    tick_hz: int
+    seconds: float
+    ticker: Lateness
+    canary: Lateness
+    canary_late_share: float
+    late: int
+    platform: int
+    ours: int
+    unlabelled: int
+    cpu_share: float
+    refused: tuple[str, ...]
+    histogram: tuple[Bar, ...]
+    carries_hz: int
+    grade: Grade
+    interrupted: bool
+
+    @property
+    def period_us(self) -> float:
+        """Of a tick."""
+        return 1e6 / self.tick_hz
+
+    def as_dict(self) -> dict[str, Any]:
+        """The object that ``latency --json`` prints."""
+        return {**asdict(self), "real_time": not self.refused}
