@@ -16,7 +16,6 @@ from drillctl.generation.job import Job, MadeHole, names_of
 from drillctl.generation.journal import Journal, JournalError
 from drillctl.interrupts import caught
 from drillctl.kmd import Condition, Fault, Request, to_text
-from drillctl.lab import forecast
 from drillctl.link import Link, is_over
 from drillctl.panel import Outcome, Progress, fault_report
 from drillctl.trace import Trace
@@ -38,69 +37,104 @@ class Run:
 
 @dataclass
 class Desk:
-    """One job on one link. ``watcher`` is shown the progress; ``journal`` is kept where there is one."""
+    """One job on one link: ``begin``, ``advance`` until it is over, ``end``; or ``run``, which does all three.
+
+    watcher      is shown the progress; ``journal`` is kept where there is one. Both it and the link stay open.
+    total_ticks  what the job was foreseen to take, None where nobody knows: foreseeing may take longer than a link
+                 bears the desk's silence
+    """
 
     job: Job
     link: Link
     watcher: Watcher
     journal: Journal | None = None
     done_before: int = 0
+    total_ticks: int | None = None
     holes: list[MadeHole] = field(default_factory=list)
     trouble: str | None = None
+    resumes_itself: bool = True  # after a hold for a gap in time; where nobody sits who could say go on
+
+    def __post_init__(self) -> None:
+        self.first = self.status = self.link.status()
+        self.feeder = Feeder(self.job.program, self.link.queue)
+        self.confirmed = 0
 
     def run(self) -> Run:
         """Drills the job to its end. Ctrl-C, SIGTERM and a closed terminal stop it; a second one drops it."""
-        # A queue written by hand can only be foreseen by running it; nobody wants to wait for that twice.
-        total_ticks = forecast(self.job.program, self.job.machine).total_ticks if self.job.work else None
-        try:
-            with _stopping(self.link) as stopped:
-                status = self._carry_through(total_ticks)
-            self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
-            outcome = self._outcome(status, bool(stopped))
-            self._close_journal(outcome)
-            trace = self.link.trace(trace_header(self.job))
-            notices = tuple(self.link.notices())
-            return Run(outcome, self.holes, trace, stopped[0] if stopped else None, self.trouble, notices)
-        finally:
-            self.link.close()
+        with _stopping(self.link) as stopped:
+            self.begin()
+            while not self.advance():
+                pass
+        return self.end(stopped[0] if stopped else None)
 
-    def _carry_through(self, total_ticks: int | None) -> np.void:
-        feeder = Feeder(self.job.program, self.link.queue)
+    def begin(self) -> None:
+        """The program is numbered on from what the ticker has done, so that nothing old counts as ours."""
+        self.first = self.link.status()
+        program = self.job.program.copy()
+        program["sequence"] += self.first["done"]
+        program["epoch"] = self.first["epoch"]
+        self.feeder = Feeder(program, self.link.queue)
         if self.journal is not None:
-            feeder.hold_back()
-        first_epoch = int(self.link.status()["epoch"])
-        confirmed = 0
-        while True:
-            self._feed(feeder, confirmed)
-            self.link.turn()
-            status = self.link.status()
-            confirmed = self._confirm(confirmed, status)
-            self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
-            self.watcher(self._progress(status, total_ticks))
-            if self.link.lost() or is_over(status, len(self.job.program), first_epoch):
-                return status
-            if status["condition"] == Condition.HOLDING and not status["moving"] and not self.trouble:
-                self.link.post(Request.RESUME)  # held by a gap in time, not by a person
+            self.feeder.hold_back()
+        self.status = self.first
 
-    def _feed(self, feeder: Feeder, confirmed: int) -> None:
+    def advance(self) -> bool:
+        """Feeds the queue, lets the machine go on for a moment, and looks at what came of it. True: it is over."""
+        self._feed()
+        self.link.turn()
+        self.status = status = self.link.status()
+        self._confirm()
+        self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
+        self.watcher(self.progress())
+        if self.link.lost() or is_over(status, self.last_sequence, int(self.first["epoch"])):
+            return True
+        if self.resumes_itself and status["condition"] == Condition.HOLDING and not status["moving"]:
+            self.link.post(Request.RESUME)
+        return False
+
+    @property
+    def last_sequence(self) -> int:
+        """The number of the program's last command, as it was sent."""
+        return int(self.first["done"]) + len(self.job.program)
+
+    def end(self, stopped_by: int | None = None) -> Run:
+        """How it ended, in the journal too."""
+        self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
+        outcome = self._outcome(self.status, stopped_by is not None)
+        self._end_journal(outcome)
+        trace = self.link.trace(trace_header(self.job))
+        return Run(outcome, self.holes, trace, stopped_by, self.trouble, tuple(self.link.notices()))
+
+    def progress(self) -> Progress:
+        """How far the job is."""
+        hz, ticks = self.job.machine.tick_hz, int(self.status["tick"] - self.first["tick"])
+        left = None if self.total_ticks is None else max(0, self.total_ticks - ticks) / hz
+        done = self.done_before + self.confirmed
+        total = self.done_before + self.job.holes_total
+        return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left)
+
+    def _feed(self) -> None:
         """With a journal: a hole is written down before its commands may go, and only one is ahead."""
-        if self.journal is not None and feeder.released_holes < min(confirmed + 1, feeder.holes) and not self.trouble:
+        wanted = min(self.confirmed + 1, self.feeder.holes)
+        if self.journal is not None and self.feeder.released_holes < wanted and not self.trouble:
             try:
-                self.journal.begun(self.job.hole_number(confirmed + 1))
-                feeder.release(confirmed + 1)
+                self.journal.begun(self.job.hole_number(wanted))
+                self.feeder.release(wanted)
             except JournalError as error:
                 self._stop_for(error)
-        feeder.feed()
+        self.feeder.feed()
 
-    def _confirm(self, confirmed: int, status: np.void) -> int:
-        """Holes that execution has drilled, into the journal; returns how many there are now."""
-        done = int(status["holes_done"])
-        if self.journal is not None and done > confirmed and not self.trouble:
+    def _confirm(self) -> None:
+        """Holes that execution has drilled, into the journal: once the head is up again. A lower sensor that answers
+        too early is caught there at the latest (SENSOR_CONTRADICTION), and its hole drilled again.
+        """
+        done = self.feeder.holes_ended(int(self.status["done"]) - int(self.first["done"]))
+        if self.journal is not None and done > self.confirmed and not self.trouble:
             try:
-                self.journal.done([self.job.hole_number(hole) for hole in range(confirmed + 1, done + 1)])
+                self.journal.done([self.job.hole_number(hole) for hole in range(self.confirmed + 1, done + 1)])
             except JournalError as error:
                 self._stop_for(error)
-        return done
+        self.confirmed = done
 
     def _stop_for(self, error: JournalError) -> None:
         """What can't be written down is not drilled."""
@@ -108,32 +142,28 @@ class Desk:
             self.trouble = str(error)
             self.link.post(Request.STOP)
 
-    def _close_journal(self, outcome: Outcome) -> None:
+    def _end_journal(self, outcome: Outcome) -> None:
         if self.journal is None:
             return
-        how = outcome.fault.name if outcome.fault else "stopped" if outcome.interrupted or self.trouble else "done"
+        how = "stopped" if outcome.interrupted else "done"
         try:
-            self.journal.ended(how)
+            self.journal.ended(outcome.fault.name if outcome.fault else how)
         except JournalError as error:
             self.trouble = self.trouble or str(error)
-        self.journal.close()
-
-    def _progress(self, status: np.void, total_ticks: int | None) -> Progress:
-        hz, ticks = self.job.machine.tick_hz, int(status["tick"])
-        left = None if total_ticks is None else max(0, total_ticks - ticks) / hz
-        done = self.done_before + int(status["holes_done"])
-        return Progress(done, self.done_before + self.job.holes_total, int(status["tool"]), ticks, ticks / hz, left)
 
     def _outcome(self, status: np.void, interrupted: bool) -> Outcome:
         names = self.job.machine.axis_names
         code = self.link.lost() or int(status["fault"])
+        complete = int(status["done"]) == self.last_sequence
+        if not (code or complete or interrupted or self.trouble):
+            self.trouble = "the job was stopped before its end"  # by a signal to a process beside this one
         kept = bool(status["fault_kept"]) and not self.link.lost()
         by_axis = {name: status[name].tolist() for name in ("steps", "position", "lost")}
         return Outcome(
             machine=self.job.machine.name,
-            holes_done=self.done_before + int(status["holes_done"]),
+            holes_done=self.done_before + self.confirmed,
             holes_total=self.done_before + self.job.holes_total,
-            ticks=int(status["tick"]),
+            ticks=int(status["tick"] - self.first["tick"]),
             tick_hz=self.job.machine.tick_hz,
             steps=dict(zip(names, by_axis["steps"], strict=False)),
             position=dict(zip(names, by_axis["position"], strict=False)),
@@ -143,7 +173,7 @@ class Desk:
             fault=fault_report(Fault(code), kept) if code else None,
             late_count=int(status["late"]),
             late_greatest_ms=int(status["late_worst_ns"]) / 1e6,
-            interrupted=interrupted,
+            interrupted=interrupted or not (code or complete),
         )
 
 

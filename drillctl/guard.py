@@ -1,4 +1,4 @@
-"""Wiring: the process that makes the outputs safe when the ticker can't. Started before it, ends after it.
+"""Wiring: the process that makes outputs safe when the ticker can't. Started before it, ends after it.
 
 Rule: it does one thing. When the ticker's process has ended without saying so, or its heartbeat stands still, the
 ticker is killed first and the driver's safe image written then, so that nobody writes after it.
@@ -16,28 +16,34 @@ from drillctl.ports import Driver
 SILENCE_NS = 500_000_000
 LOOK_EVERY_MS = 20
 LONGEST_WAIT_S = 10.0
-IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)
 
 
-def run_guard(channel: Channel, port: Driver) -> None:
-    """Watches until the ticker has ended, one way or the other. The body of the guard's process."""
+def run_guard(channel: Channel, port: Driver, silence_ns: int = SILENCE_NS) -> None:
+    """Watches until the ticker has ended, one way or the other. The body of the guard's process.
+
+    silence_ns  how long the ticker's heartbeat may stand still: a slow tick beats seldom
+    """
     for number in IGNORED:
         signal.signal(number, signal.SIG_IGN)
     ticker = _wait_for_ticker(channel)
     if ticker is None:
-        port.safe()
+        _make_safe(port)
         return
     while not channel["ended"]:
-        if _gone(ticker, LOOK_EVERY_MS) or _silent(channel):
-            if not channel["ended"]:
-                _make_safe(channel, ticker, port)
+        channel["guard_beat_ns"] = time.monotonic_ns()
+        if (_gone(ticker, LOOK_EVERY_MS) or _silent(channel, silence_ns)) and not channel["ended"]:
+            channel["guarded"] = 1
+            _end(ticker)
+            _make_safe(port)
             return
 
 
 def _wait_for_ticker(channel: Channel) -> int | None:
     """A handle on the ticker's process, once the desk has named it; None where it never came."""
-    until_s = time.monotonic() + LONGEST_WAIT_S
-    while time.monotonic() < until_s:
+    until_s, desk = time.monotonic() + LONGEST_WAIT_S, os.getppid()
+    while time.monotonic() < until_s and os.getppid() == desk:
+        channel["guard_beat_ns"] = time.monotonic_ns()
         if channel["ticker_pid"]:
             with suppress(ProcessLookupError):
                 return os.pidfd_open(channel["ticker_pid"])
@@ -53,13 +59,17 @@ def _gone(ticker: int, wait_ms: int) -> bool:
     return bool(poll.poll(wait_ms))
 
 
-def _silent(channel: Channel) -> bool:
-    return bool(channel["ready"]) and time.monotonic_ns() - channel["ticker_beat_ns"] > SILENCE_NS
+def _silent(channel: Channel, silence_ns: int) -> bool:
+    return time.monotonic_ns() - channel["ticker_beat_ns"] > silence_ns
 
 
-def _make_safe(channel: Channel, ticker: int, port: Driver) -> None:
+def _end(ticker: int) -> None:
     with suppress(ProcessLookupError):
         signal.pidfd_send_signal(ticker, signal.SIGKILL)
     _gone(ticker, int(LONGEST_WAIT_S * 1000))
-    port.safe()
-    channel["guarded"] = 1
+
+
+def _make_safe(port: Driver) -> None:
+    """A port that is gone can't be told anything; the desk says so (PORT_LOST, or TICKER_LOST and its cause)."""
+    with suppress(OSError):
+        port.safe()

@@ -30,9 +30,11 @@ class Touch(NamedTuple):
 
 
 class Link(Protocol):
-    """A ticker as the desk sees it. ``measured`` says whether a plant tells of lost steps."""
+    """A ticker as the desk sees it."""
 
-    measured: bool
+    @property
+    def measured(self) -> bool:
+        """Whether a plant tells of lost steps."""
 
     @property
     def queue(self) -> CommandQueue:
@@ -96,8 +98,8 @@ class LocalLink:
         self.ticker.run(max(1, len(self.ticker.queue)), self.ticker.over)
 
     def status(self) -> np.void:
-        """Written now."""
-        return self.ticker.report()
+        """Written now; a copy, so that it stays what it was."""
+        return self.ticker.report().copy()
 
     def touches(self) -> list[Touch]:
         """Handed over once."""
@@ -124,13 +126,13 @@ class LocalLink:
 OpenPort = Callable[[Driver], Driver]
 
 
-def is_over(status: np.void, program_length: int, first_epoch: int) -> bool:
-    """Whether the job has ended and everything rests: all done, stopped, or latched by a fault."""
+def is_over(status: np.void, last_sequence: int, first_epoch: int) -> bool:
+    """Whether a program has ended and everything rests: its last command done, stopped, or latched by a fault."""
     if status["moving"]:
         return False
     if status["condition"] == Condition.LATCHED:
         return True
-    ended = status["done"] == program_length or status["epoch"] != first_epoch
+    ended = status["done"] == last_sequence or status["epoch"] != first_epoch
     return bool(status["condition"] == Condition.READY and not status["job"] and ended)
 
 

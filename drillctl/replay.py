@@ -1,9 +1,10 @@
 """Wiring: a recorded run again, without plant, clock or process; and the plugin's re-recording.
 
-Rule: inputs and requests come from the trace, everything else from the tables at hand; two traces are compared by
-what they put out. Called by the replay verb and by the pytest plugin.
+Rule: inputs, requests and gaps in time come from the trace, everything else from the tables at hand; two traces are
+compared by what they put out. Called by the replay verb and by the pytest plugin.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -57,6 +58,8 @@ def replay(file: Path, library: Library) -> Verdict:
     machine = machine_of(recorded, file, library)
     if recorded.end > MOST_TICKS:
         raise TraceError(str(file), None, f"{recorded.end} ticks; replay takes at most {MOST_TICKS}")
+    if recorded.header_values("overrun"):
+        raise TraceError(str(file), None, "changes are missing (overrun): the recording fell behind; record it again")
     card = PlaybackCard(*_inputs(recorded, machine, file))
     actual = _run(Ticker(machine, card, traced=True), recorded, program_of(recorded, machine, file), file)
     difference = first_difference(recorded, actual)
@@ -98,21 +101,43 @@ def record_again(file: Path, library: Library) -> None:
 
 
 def _run(ticker: Ticker, recorded: Trace, program: NDArray[np.void], file: Path) -> Trace:
-    """The program and the recorded requests, to the recorded end; where the job outlasts it, to the job's end."""
+    """The program, the recorded requests and gaps, to the recorded end; where the job outlasts it, to the job's end."""
     feeder = Feeder(program, ticker.queue)
-    asked = _requests(recorded, file)
+    requests = _Stimulus(*_requests(recorded, file), recorded.end)
+    gaps = _Stimulus(*_changes(recorded, "late"), recorded.end)
     while (now := ticker.controller.tick) < recorded.end:
         feeder.feed()
+        ticker.controller.gap = gaps.at(now)
+        asked = requests.at(now)
         for request in Request:
-            if asked.get(now, 0) >> request & 1:
+            if asked >> request & 1:
                 ticker.requests.post(request)
-        asked.pop(now, None)
-        upcoming = min((*asked, recorded.end))
+        upcoming = min(requests.next_tick, gaps.next_tick)
         if not ticker.run(min(max(1, len(ticker.queue)), upcoming - now)):
             break
     trace = ticker.finished_trace(recorded.header)
     assert trace is not None
     return trace
+
+
+class _Stimulus:
+    """What came from outside, tick by tick; ``at`` is asked with rising ticks.
+
+    next_tick  the tick from which on ``at`` must be asked again: the next one while there is a value
+    """
+
+    def __init__(self, ticks: Sequence[int], values: Sequence[int], end: int):
+        self._changes = [*zip(ticks, values, strict=True), (end, 0)]
+        self._row = self._value = 0
+        self.next_tick = 0
+
+    def at(self, tick: int) -> int:
+        """The value in a tick."""
+        while self._changes[self._row][0] <= tick:
+            self._value = self._changes[self._row][1]
+            self._row += 1
+        self.next_tick = tick + 1 if self._value else self._changes[self._row][0]
+        return self._value
 
 
 def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list[int]]:
@@ -133,20 +158,24 @@ def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list
     return ticks, images
 
 
-def _requests(trace: Trace, file: Path) -> dict[int, int]:
-    """Requests by the tick that served them, as bits of the mailbox."""
-    if not trace.has("request"):
-        return {}
-    signal = trace.signals[trace.index_of("request")]
-    ticks, values = trace.changes_of("request")
-    found = {}
-    for tick, value in zip(ticks.tolist(), values.tolist(), strict=True):
-        word = signal.show(value)
+def _requests(trace: Trace, file: Path) -> tuple[list[int], list[int]]:
+    """Ticks at which the requests served change, and what they are from there on, as bits of the mailbox."""
+    ticks, values = _changes(trace, "request")
+    masks = []
+    for value in values:
+        word = trace.signals[trace.index_of("request")].show(value)
         if word not in REQUEST_WORDS:
             raise TraceError(str(file), None, f"request {word!r} is not known")
-        if mask := REQUEST_WORDS.index(word):
-            found[tick] = mask << 1
-    return found
+        masks.append(REQUEST_WORDS.index(word) << 1)
+    return ticks, masks
+
+
+def _changes(trace: Trace, name: str) -> tuple[list[int], list[int]]:
+    """Ticks and values of a signal; none where it was not recorded."""
+    if not trace.has(name):
+        return [], []
+    ticks, values = trace.changes_of(name)
+    return ticks.tolist(), values.tolist()
 
 
 def _read(file: Path) -> Trace:

@@ -1,43 +1,51 @@
 """Wiring: one run of a job, from opening the port to the last line of the journal. Called by run and resume."""
 
+import hashlib
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from drillctl.desk import Desk, Run, Watcher
 from drillctl.generation.job import Job
-from drillctl.generation.journal import Head, Journal, head_of
+from drillctl.generation.journal import Account, Head, Journal, head_of
+from drillctl.lab import forecast
 from drillctl.machinery import Running, start
 
 
 @dataclass(frozen=True)
 class Session:
-    """A job and how it is run. With a journal file: kept there; ``head`` None goes on with the one that is there."""
+    """A job and how it is run. With a journal file: kept there, begun with a Head, or gone on with from an Account."""
 
     job: Job
     running: Running
     journal: Path | None = None
-    head: Head | None = None
-    done_before: int = 0
+    known: Head | Account | None = None
 
     def journalled(self, file: Path, journal: Path | None, options: Mapping[str, Any]) -> "Session":
         """With a journal for a job made from ``file``; in the user's state folder where no place is given."""
-        return replace(self, journal=journal or default_journal(file), head=head_of(file, self.job, options))
+        return replace(self, journal=journal or default_journal(file), known=head_of(file, self.job, options))
 
     def run(self, watcher: Watcher) -> Run:
         """Raises JournalError or PortError before anything moves."""
-        journal = Journal(self.journal, self.head) if self.journal else None
-        with _status_file(self.journal) as status_file:
-            link = start(self.job.machine, self.running, status_file)
-            return Desk(self.job, link, watcher, journal, self.done_before).run()
+        # A queue written by hand can only be foreseen by running it; nobody wants to wait for that twice.
+        total_ticks = forecast(self.job.program, self.job.machine).total_ticks if self.job.work else None
+        done_before = len(self.known.done) if isinstance(self.known, Account) else 0
+        with ExitStack() as opened:
+            journal = None
+            if self.journal is not None and self.known is not None:
+                journal = opened.enter_context(closing(Journal(self.journal, self.known)))
+            status_file = opened.enter_context(_status_file(self.journal))
+            link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
+            return Desk(self.job, link, watcher, journal, done_before, total_ticks).run()
 
 
 def default_journal(file: Path) -> Path:
-    """Where a job's journal is kept when nobody says where."""
-    return journals() / f"{file.stem}.journal"
+    """Where a job's journal is kept when nobody says where: one for each file, wherever that lies."""
+    place = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:8]
+    return journals() / f"{file.stem}-{place}.journal"
 
 
 def journals() -> Path:

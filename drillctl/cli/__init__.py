@@ -5,7 +5,7 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
     ports.py    what can be driven from here     estimate.py  what a job will take
     inspect.py  what a drill file says           convert.py   a clean file, or a queue, from it
     replay.py   traces again                     tables.py    machines, and checking tables
-    ports.py    what can be driven from here     options.py   machine and tables
+    latency.py  how punctual this computer is    options.py   machine and tables
     jobs.py     the options of a job
 """
 
@@ -16,12 +16,12 @@ from collections.abc import Sequence
 from typing import NoReturn, TextIO
 
 from drillctl import __version__
-from drillctl.cli import convert, estimate, inspect, ports, replay, resume, run, tables
+from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, tables
 from drillctl.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports)
+VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "
@@ -92,12 +92,16 @@ def _is_refusal(error: Exception) -> bool:
     from drillctl.generation.errors import JobError
     from drillctl.generation.journal import JournalError
     from drillctl.generation.placing import PlacingError
+    from drillctl.lab.latency import LatencyError
     from drillctl.machine import TableError
     from drillctl.outputs import OutputError
     from drillctl.ports import PortError
     from drillctl.trace import TraceError
 
-    refusals = (JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError)
+    refusals = (
+        JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError,
+        JournalError, LatencyError,
+    )  # fmt: skip
     return isinstance(error, refusals)
 
 

@@ -5,7 +5,6 @@ Nothing is driven: an idle machine on the simulated card is ticked in a process 
 
 import argparse
 import json
-import sys
 from collections.abc import Callable
 
 from drillctl.cli import options
@@ -18,7 +17,7 @@ FASTEST_HZ = 20_000
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("latency", help="measure how punctual ticks are here", description=__doc__)
-    verb.add_argument("--hz", type=_whole(FASTEST_HZ), metavar="N", help="interrupt frequency; default: the machine's own")
+    verb.add_argument("--hz", type=_whole(FASTEST_HZ), metavar="N", help="default: the machine's own rate")
     verb.add_argument("--seconds", type=_whole(LONGEST_S), default=10, metavar="S", help="default: %(default)s")
     verb.add_argument("--json", action="store_true", help="print one JSON object")
     verb.set_defaults(call=call)
@@ -36,10 +35,20 @@ def call(arguments: argparse.Namespace) -> int:
     with caught(lambda number, frame: signals.append(number)):
         try:
             told = measure(machine, arguments.seconds, lambda: a_moment() or bool(signals))
-        except LatencyError as error:
-            if not signals:
-                print(f"drillctl: latency: {error}", file=sys.stderr)
-                return 2
-    if signals and not told:
+        except LatencyError:
+            if signals:
+                return exit_code(signals[0])
+            raise
     print(json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(latency_lines(told)))
     return exit_code(signals[0]) if signals else 0
+
+
+def _whole(most: int) -> Callable[[str], int]:
+    """An option's type: a whole number from 1."""
+
+    def read(text: str) -> int:
+        if not text.isdecimal() or not 1 <= int(text[:20]) <= most:
+            raise argparse.ArgumentTypeError(f"{text[:20]!r} is not a whole number from 1 to {most}")
+        return int(text)
+
+    return read

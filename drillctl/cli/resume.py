@@ -52,7 +52,7 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     if len(account.done) == job.holes_total:
         raise JobError([f"{file}: all {job.holes_total} holes of {job_file.name} are drilled; nothing is left"])
     left = job.without(account.done, wishes)
-    return Session(left, Running(arguments.port, arguments.pace), file, done_before=len(account.done))
+    return Session(left, Running(arguments.port, arguments.pace), file, account)
 
 
 def _newest() -> Path:

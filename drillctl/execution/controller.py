@@ -19,7 +19,7 @@ class Controller:
     switched  output bits that are no axis's: spindle and the like
     elapsed   ticks of the current command, hold not counted
     running   sequence of the command that was current in this tick, 0 = none
-    served    the requests served in this tick, as bits
+    served    the requests served in this tick, as bits; unseen: the same of a wake that was no tick
     gap       whole periods by which the next tick begins too late, set by whoever paces; late: the same, applied
     """
 
@@ -48,6 +48,7 @@ class Controller:
         self.homing_row = 0
 
         self.tick = self.starved = self.moving = self.running = self.served = self.gap = self.late = 0
+        self.unseen = 0
         self.inputs = self.sensors = 0
         self.image = SAFE_IMAGE
         self.switched = 0

@@ -93,6 +93,7 @@ def _latch_at_once(m: Controller, drop: bool) -> None:
             axis.release()
         else:
             axis.halt()
+    m.moving = 0
     m.switched = SAFE_IMAGE
     m.condition = Condition.LATCHED
 

@@ -22,7 +22,8 @@ def tick(m: Controller) -> None:
     m.late = m.gap
     if m.late:
         apply_gap(m)
-    m.served = m.requests.take()
+    m.served = m.requests.take() | m.unseen
+    m.unseen = 0
     if m.served:
         serve(m)
     if m.condition != LATCHED:
@@ -33,6 +34,7 @@ def tick(m: Controller) -> None:
             axis.cool()
     if starved:
         m.starved += 1
+        m.unseen = m.served  # a resume: the tick to come has it in its record, and is served it once more in vain
         _put_out(m)  # a winding must not keep its 24 V for as long as the next command takes to come
         return
     m.running = m.command.sequence if m.busy else 0

@@ -11,14 +11,14 @@ from drillctl.kmd import CommandQueue, Op
 
 
 class Feeder:
-    """A program on its way down. ``put`` counts the records handed over, ``holes`` those that it drills."""
+    """A program on its way down. ``put`` counts the records handed over."""
 
     def __init__(self, program: NDArray[np.void], queue: CommandQueue):
         self.program = program
         self.queue = queue
         self.put = 0
         self.released_holes = 0
-        self._ends = _hole_ends(program)
+        self._begins, self._ends = _strokes(program)
         self._limit = len(program)
 
     @property
@@ -31,17 +31,28 @@ class Feeder:
         self._limit = self.put
 
     def release(self, holes: int) -> None:
-        """So many holes may be drilled, with all that stands before each; after the last one the rest too."""
+        """So many holes may be drilled, with all that stands before each, and the way to the next; after the last
+        the rest too.
+        """
         self.released_holes = holes
-        self._limit = len(self.program) if holes >= self.holes else int(self._ends[holes - 1])
+        self._limit = int(self._begins[holes]) if holes < self.holes else len(self.program)
+
+    def holes_ended(self, done: int) -> int:
+        """How many holes are drilled, with the head up again, once so many commands of the program are done."""
+        return int(np.searchsorted(self._ends, done, side="right"))
 
     def feed(self) -> None:
         """Hands over as much of what is released as the queue takes."""
         self.put += self.queue.put(self.program[self.put : self._limit][: self.queue.room])
 
 
-def _hole_ends(program: NDArray[np.void]) -> NDArray[np.intp]:
-    """For each stroke down that drills a numbered hole, in order: the index behind the stroke up that follows."""
-    ups = np.flatnonzero(program["opcode"] == Op.WIERTLO_GORA)
-    downs = np.flatnonzero((program["opcode"] == Op.WIERTLO_DOL) & (program["tag"] > 0))
-    return ups[np.searchsorted(ups, downs)] + 1 if len(downs) else np.zeros(0, np.intp)
+def _strokes(program: NDArray[np.void]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """For each stroke that drills a numbered hole, in order: its first record (pecks before it belong to it), and the
+    index behind the stroke up that ends it.
+    """
+    tag, opcode = program["tag"], program["opcode"]
+    downs = np.flatnonzero((opcode == Op.WIERTLO_DOL) & (tag > 0))
+    ups = np.append(np.flatnonzero(opcode == Op.WIERTLO_GORA), len(program) - 1)
+    firsts = np.flatnonzero(np.append(True, tag[1:] != tag[:-1]))
+    begins = firsts[np.searchsorted(firsts, downs, side="right") - 1]
+    return begins, ups[np.searchsorted(ups, downs)] + 1

@@ -4,6 +4,7 @@ Rule: append-only, one JSON object a line, synced before what it announces may h
 line (the power went) is left out and said; any other damage refuses the journal. Called by desk and resume.
 """
 
+import fcntl
 import hashlib
 import json
 import os
@@ -15,6 +16,7 @@ from typing import Any
 from drillctl.generation.job import Job
 
 FORMAT = 1
+MAGIC = b'{"drillctl-journal": '  # how the first line begins
 LARGEST_JOURNAL_BYTES = 256 * 1024 * 1024
 
 
@@ -54,21 +56,37 @@ class Account:
         """Holes that were cut off in the middle."""
         return sorted(self.begun - self.done)
 
+    @property
+    def unfinished(self) -> bool:
+        """Something was begun, and not all is done."""
+        return bool(self.begun) and len(self.done) < self.head.holes
+
 
 class Journal:
-    """An open journal. Every method has the line on the disk when it returns. Raises JournalError."""
+    """An open journal, locked: no second run may write or go on with it. Every method has its line on the disk when
+    it returns. Raises JournalError; a file that holds anything worth keeping is left as it is then.
+    """
 
-    def __init__(self, file: Path, head: Head | None):
-        """``head`` begins a new journal in place of an old one; None goes on with the one that is there."""
+    def __init__(self, file: Path, known: Head | Account):
+        """A Head begins a new journal, where there is none or one that is finished; an Account goes on with the one
+        it was read from.
+        """
         self.file = file
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
-            flags = os.O_WRONLY | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT | os.O_TRUNC if head else 0)
+            flags = os.O_RDWR | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT if isinstance(known, Head) else 0)
             self._handle = os.open(file, flags, 0o644)
         except OSError as error:
             raise JournalError(f"{file}: can't be written: {error.strerror}") from error
-        if head is not None:
-            self._append({"drillctl-journal": FORMAT, **vars(head)})
+        try:
+            self._lock()
+            if isinstance(known, Account):
+                self._go_on(known)
+            else:
+                self._begin(known)
+        except BaseException:
+            self.close()
+            raise
 
     def begun(self, hole: int) -> None:
         """Before the head may come down at a hole."""
@@ -84,18 +102,47 @@ class Journal:
         self._append({"ended": how})
 
     def close(self) -> None:
-        """Nothing more is written."""
+        """Nothing more is written; the lock goes with it."""
         os.close(self._handle)
 
-    def _append(self, line: dict[str, Any]) -> None:
-        data = json.dumps(line).encode() + b"\n"
+    def _begin(self, head: Head) -> None:
+        _check_finished(self.file)
+        self._cut(0)
+        self._append({"drillctl-journal": FORMAT, **vars(head)})
+        _sync_folder(self.file.parent)
+
+    def _go_on(self, account: Account) -> None:
+        """What was read before the lock was had must still hold; a torn line goes."""
+        if read_journal(self.file) != account:
+            raise JournalError(f"{self.file}: another run has gone on with it meanwhile; resume again")
+        self._cut(_whole_bytes(self.file))
+
+    def _lock(self) -> None:
+        """The children of a paced run inherit it: it lasts until the last of them has ended."""
         try:
-            written = os.write(self._handle, data)
+            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            raise JournalError(f"{self.file}: is being written by a run that is still going on") from error
+
+    def _append(self, line: dict[str, Any]) -> None:
+        """A line that does not fit whole is taken back, so that the journal ends as it did."""
+        data = json.dumps(line).encode() + b"\n"
+        size_bytes = os.fstat(self._handle).st_size
+        try:
+            whole = os.write(self._handle, data) == len(data)
             os.fsync(self._handle)
         except OSError as error:
             raise JournalError(f"{self.file}: can't be written: {error.strerror}") from error
-        if written != len(data):
+        if not whole:
+            self._cut(size_bytes)
             raise JournalError(f"{self.file}: can't be written: the disk is full")
+
+    def _cut(self, size_bytes: int) -> None:
+        try:
+            os.ftruncate(self._handle, size_bytes)
+            os.fsync(self._handle)
+        except OSError as error:
+            raise JournalError(f"{self.file}: can't be written: {error.strerror}") from error
 
 
 def read_journal(file: Path) -> Account:
@@ -138,13 +185,45 @@ def check_same(journal: Path, then: Head, now: Head) -> None:
             raise JournalError(f"{journal}: {reason}; what is left of it can't be told")
 
 
-def _lines(file: Path) -> tuple[list[dict[str, Any]], bool]:
+def _check_finished(file: Path) -> None:
+    """Raises JournalError for a file that is not to be overwritten: an unfinished journal, or no journal at all."""
+    if _whole_bytes(file) == 0:
+        return
+    account = read_journal(file)
+    if account.unfinished:
+        raise JournalError(
+            f"{file}: holds a job that is not finished: {len(account.done)} of {account.head.holes} holes of "
+            f"{account.head.job} are drilled; go on with `drillctl resume {file}`, or delete the file to begin anew"
+        )
+
+
+def _whole_bytes(file: Path) -> int:
+    """Up to the end of the last line that is whole. A beginning of ours that was cut off in its first line is none."""
+    data = _bytes(file)
+    whole = data.rfind(b"\n") + 1
+    return whole if whole or data.startswith(MAGIC) else len(data)
+
+
+def _sync_folder(folder: Path) -> None:
+    """A new file's name is on the disk only when its folder is."""
+    handle = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _bytes(file: Path) -> bytes:
     try:
         if file.stat().st_size > LARGEST_JOURNAL_BYTES:
             raise JournalError(f"{file}: larger than {LARGEST_JOURNAL_BYTES >> 20} MiB: not a journal")
-        whole, _, rest = file.read_bytes().rpartition(b"\n")
+        return file.read_bytes()
     except OSError as error:
         raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+
+
+def _lines(file: Path) -> tuple[list[dict[str, Any]], bool]:
+    whole, _, rest = _bytes(file).rpartition(b"\n")
     found = []
     for number, line in enumerate(whole.split(b"\n") if whole else [], start=1):
         try:

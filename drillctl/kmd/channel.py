@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.kmd.commands import RECORD, Command
-from drillctl.kmd.queue import CAPACITY, Request
+from drillctl.kmd.queue import CAPACITY, Request, Requests
 from drillctl.kmd.status import STATUS
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
@@ -29,9 +29,9 @@ CHANNEL = np.dtype(
         ("ticker_pid", "<i8"),  # desk
         ("ticker_beat_ns", "<i8"),  # ticker
         ("taken", "<u8"),  # records taken; ticker
-        ("ended", "<u4"),  # 1 when the ticker has left in good order, its outputs safe; ticker
-        ("ready", "<u4"),  # 1 once the ticker runs; ticker
-        ("guarded", "<u4"),  # 1 when the guard had to make the outputs safe; guard
+        ("ended", "<u4"),  # 1 when the ticker is leaving, its outputs safe; ticker
+        ("guard_beat_ns", "<i8"),  # guard
+        ("guarded", "<u4"),  # 1 when the guard has to make the outputs safe; guard
         ("lock", "<u8"),  # odd while the status is being written; ticker
         ("status", STATUS),  # ticker
         ("ring", RECORD, (CAPACITY,)),  # desk
@@ -40,14 +40,18 @@ CHANNEL = np.dtype(
 
 
 class Channel:
-    """One mapped file of dtype CHANNEL. Raises OSError where it can't be made or is too short."""
+    """One mapped file of dtype CHANNEL. Raises OSError where it can't be made or is no such file."""
 
     def __init__(self, file: Path, create: bool):
-        flags = os.O_RDWR | (os.O_CREAT | os.O_TRUNC if create else 0)
+        if create:
+            file.unlink(missing_ok=True)  # never cut short: whoever still has the old one mapped would be killed for it
+        flags = os.O_RDWR | (os.O_CREAT | os.O_EXCL if create else 0)
         handle = os.open(file, flags | os.O_CLOEXEC, 0o600)
         try:
             if create:
                 os.ftruncate(handle, CHANNEL.itemsize)
+            elif os.fstat(handle).st_size != CHANNEL.itemsize:
+                raise OSError(f"{file}: not a channel of this program")
             self.file = file
             self.memory = mmap.mmap(handle, CHANNEL.itemsize)
         finally:
@@ -115,11 +119,20 @@ class SharedQueue:
 
 
 class SharedRequests:
-    """The mailbox of a channel: desk counts up what it asks, the ticker sees what has risen."""
+    """The mailbox of a channel: desk counts up what it asks, the ticker sees what has risen.
+
+    own  what the ticker asks of itself, beside the desk: a mailbox of the process that takes
+    """
 
     def __init__(self, channel: Channel):
+        self.own = Requests()
         self._asked = channel.fields["asked"][0]
         self._seen = self._asked.copy()
+
+    @property
+    def waiting(self) -> bool:
+        """Whether a request waits to be taken."""
+        return self.own.pending != 0 or bool((self._asked != self._seen).any())
 
     def post(self, request: Request) -> None:
         """Asks for something; called by desk alone."""
@@ -127,9 +140,9 @@ class SharedRequests:
 
     def take(self) -> int:
         """The requests asked since the last call, as bits."""
-        if (self._asked == self._seen).all():
+        if not self.waiting:
             return 0
         asked = self._asked.copy()
         risen = np.flatnonzero(asked != self._seen).tolist()
         self._seen[:] = asked
-        return sum(1 << request for request in risen)
+        return self.own.take() | sum(1 << request for request in risen)

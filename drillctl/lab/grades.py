@@ -56,11 +56,14 @@ ADVICE = (  # the first that fits
     Advice(lambda f: f.late_share == 0 and f.real_time, "nothing to do"),
     Advice(lambda f: not f.real_time, "grant the measures named above: without them any other load makes ticks late"),
     Advice(
+        lambda f: 0 < f.carries_hz < f.tick_hz,
+        "this rate is too high for this computer, as busy as it is: choose a lower one, or end other work on it",
+    ),
+    Advice(
         lambda f: f.platform_share >= 0.5,
         "the computer stood still by itself: end other work on it, switch power saving off, leave a virtual machine "
         "for a real one, or take a PREEMPT_RT kernel",
     ),
-    Advice(lambda f: 0 < f.carries_hz < f.tick_hz, "the tick takes too long for this rate: choose a lower one"),
     Advice(lambda f: True, "measure again, for longer; if it stays, it is a fault of this program"),
 )
 

@@ -8,7 +8,6 @@ them as half a period at the least: such a late tick is the platform's, any othe
 children. Called by the latency verb and by benchmarks/lateness.py. Linux.
 """
 
-import multiprocessing
 import os
 import signal
 import sys
@@ -16,10 +15,10 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from multiprocessing.process import BaseProcess
 
 import numpy as np
 
+from drillctl.children import Child
 from drillctl.execution.clock import PacedClock
 from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
 from drillctl.lab.wakes import MOST_TEXT, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
@@ -60,26 +59,29 @@ def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_
         for processor, canary in zip(processors, canaries, strict=True):
             start(canary, partial(run_canary, canary, machine.tick_hz, seconds, processor))
         ticker = start(log, partial(run_ticker, log, machine, seconds, processors))
-        while ticker.is_alive() and not interrupted:
+        for each in (*canaries, log):
+            each.record["go"] = 1
+        while not ticker.gone and not interrupted:
             interrupted = meanwhile()
-    if ticker.exitcode or not log.wakes:
-        raise LatencyError(f"no figures: the ticker's process ended with code {ticker.exitcode} after {log.wakes} ticks")
+    if not log.wakes or not log.record["to_ns"]:
+        raise LatencyError(f"no figures: the ticker's process was ended, or died, after {log.wakes} ticks")
     return _report(machine, log, canaries, interrupted)
 
 
 @contextmanager
-def _children() -> Iterator[Callable[[WakeLog, Callable[[], None]], BaseProcess]]:
+def _children() -> Iterator[Callable[[WakeLog, Callable[[], None]], Child]]:
     """Gives a function that starts a child and waits until it is ready; ends all of them afterwards."""
-    children: list[tuple[BaseProcess, WakeLog]] = []
+    children: list[tuple[Child, WakeLog]] = []
 
-    def start(log: WakeLog, body: Callable[[], None]) -> BaseProcess:
-        child = multiprocessing.get_context("fork").Process(target=body, daemon=True)
-        child.start()
+    def start(log: WakeLog, body: Callable[[], None]) -> Child:
+        child = Child(body)
         children.append((child, log))
         until_s = time.monotonic() + START_S
         while not log.record["ready"]:
-            if time.monotonic() > until_s or not child.is_alive():
-                raise LatencyError(f"a process did not start within {START_S:.0f} s: is the computer overloaded?")
+            if child.gone:
+                raise LatencyError("no figures: a process was ended, or died, before it began")
+            if time.monotonic() > until_s:
+                raise LatencyError(f"a process did not begin within {START_S:.0f} s: is the computer overloaded?")
             time.sleep(TURN_S / 10)
         return child
 
@@ -89,9 +91,7 @@ def _children() -> Iterator[Callable[[WakeLog, Callable[[], None]], BaseProcess]
         for _, log in children:
             log.record["leave"] = 1
         for child, _ in children:
-            child.join(LEAVE_S)
-            child.kill()
-            child.join()
+            child.end(LEAVE_S)
 
 
 def run_ticker(log: WakeLog, machine: Machine, seconds: float, processors: list[int]) -> None:
@@ -105,24 +105,27 @@ def run_ticker(log: WakeLog, machine: Machine, seconds: float, processors: list[
 def run_canary(log: WakeLog, tick_hz: int, seconds: float, processor: int) -> None:
     """The body of a canary's process; it lives until it is told to leave."""
     _prepare(log, [processor])
-    pace(log, tick_hz * CANARY_WAKES, seconds + START_S * MOST_PROCESSORS, lambda: None)
+    pace(log, tick_hz * CANARY_WAKES, seconds + LEAVE_S, lambda: None)
 
 
 def _prepare(log: WakeLog, processors: list[int]) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's; it tells us to leave
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    """Real-time where it is allowed, on these processors; then waits for the others."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # the parent's handler is not for us
     os.sched_setaffinity(0, processors)
     log.record["refused"] = "\n".join(become_punctual()).encode()[:MOST_TEXT]
+    log.record["ready"] = 1
+    while log.wanted and not log.record["go"]:
+        time.sleep(TURN_S / 10)
 
 
 def pace(log: WakeLog, tick_hz: int, seconds: float, body: Callable[[], object]) -> None:
-    """A paced loop, logged, for so long; until it is told to leave, or whoever started it is gone."""
-    record, parent = log.record, os.getppid()
+    """A paced loop, logged, for so long; or until nobody wants it any more."""
+    record = log.record
     spent_ns = time.process_time_ns()
     clock = PacedClock(tick_hz)
     until_ns = clock.begun_ns + int(seconds * 1e9)
-    record["from_ns"], record["ready"] = clock.begun_ns, 1
-    while clock.deadline_ns <= until_ns and not record["leave"] and os.getppid() == parent:
+    record["from_ns"] = clock.begun_ns
+    while log.wanted and clock.deadline_ns <= until_ns:
         clock.wait()
         log.add(clock.begun_ns, clock.late_ns, clock.period_ns)
         body()

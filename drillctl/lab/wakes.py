@@ -5,6 +5,7 @@ Filled by the loops of latency, read by whoever started them.
 """
 
 import mmap
+import os
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,18 +23,24 @@ LOG = np.dtype(
         ("late_wakes", "<i8"),
         ("worst_ns", "<i8"),
         ("cpu_ns", "<i8"),
-    
+        ("from_ns", "<i8"),
+        ("to_ns", "<i8"),
         ("refused", f"S{MOST_TEXT}"),
         ("ready", "<i8"),
+        ("go", "<i8"),
         ("leave", "<i8"),
     ]
 )
 
 
 class WakeLog:
-    """The log of one process. Times are nanoseconds of the monotonic clock."""
+    """The log of one process, made by its parent. Times are nanoseconds of the monotonic clock.
+
+    ``record`` (LOG) also carries what the two say to each other: ready, go, leave.
+    """
 
     def __init__(self) -> None:
+        self._owner = os.getpid()
         memory = mmap.mmap(-1, LOG.itemsize)
         self.record: np.void = np.frombuffer(memory, LOG, 1)[0]
         self._counts: NDArray[np.int64] = self.record["counts"]
@@ -48,6 +55,11 @@ class WakeLog:
             if kept < MOST_LATE:
                 self._late[kept] = begun_ns - late_ns, begun_ns
             self.record["late_wakes"] = kept + 1
+
+    @property
+    def wanted(self) -> bool:
+        """For the child: go on. False once it is told to leave, or whoever made the log is gone."""
+        return not self.record["leave"] and os.getppid() == self._owner
 
     @property
     def wakes(self) -> int:

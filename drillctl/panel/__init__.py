@@ -2,6 +2,7 @@
 
     records.py   Estimate before a job, Progress while it runs, Outcome when it is over
     words.py     cause and remedy of every fault
+    latency.py   LatencyReport: how punctual ticks are here
 
 Rule: a screen is a function of these records. May import kmd (for its codes) only.
 """

@@ -2,6 +2,7 @@
 
     progress.py  a job on its way: a bar on a terminal, plain lines in a pipe
     summary.py   how a job ended, in words
+    latency.py   how punctual this computer is
 
 May import panel.
 """

@@ -2,9 +2,10 @@
 
 import math
 
-from drillctl.panel.latency import Bar, Lateness, LatencyReport
+from drillctl.panel.latency import Bar, LatencyReport, Lateness
 
 WIDEST = 40
+DOUBTFUL_SHARE = 0.1  # canaries that are late as often as that meet most late ticks by chance
 HEADING = f"{'lateness, us':14}{'p50':>8}{'p99':>8}{'p99.9':>8}{'max':>8}"
 
 
@@ -34,7 +35,8 @@ def _row(name: str, found: Lateness) -> str:
 
 
 def _blame(told: LatencyReport) -> list[str]:
-    chance = f"(a canary is late {told.canary_late_share:.2%} of the time)"
+    doubt = ", so that says little" if told.canary_late_share > DOUBTFUL_SHARE else ""
+    chance = f"(a canary is late {told.canary_late_share:.2%} of the time{doubt})"
     rows = [
         (told.platform, f"PLATFORM: a process that only sleeps was late at that moment too {chance}"),
         (told.ours, "OURS: the ticker alone was late"),

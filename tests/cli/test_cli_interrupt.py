@@ -6,6 +6,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -79,7 +80,8 @@ def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> Run:
     (folder / "q.kmd").write_text(text)
     machine = Library((shipped_tables(),)).machine("pcb-drill")
     job = load_job(folder / "q.kmd", machine, Wishes())
-    return Desk(job, LocalLink.simulated(machine), watcher).run()
+    with closing(LocalLink.simulated(machine)) as link:
+        return Desk(job, link, watcher).run()
 
 
 def at_tick(ticks: int, act: Callable[[], None]) -> Callable[[Progress], None]:

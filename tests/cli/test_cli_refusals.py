@@ -138,7 +138,7 @@ def test_a_broken_table_spoils_its_own_machine_only(drillctl: Drillctl, folder: 
     done = drillctl("machines")
     assert done.returncode == 2 and done.stderr == "drillctl: tables/machines/broken.toml: tick_hz is missing\n"
     assert [line.split()[0] for line in done.stdout.splitlines()] == [
-        "boiler-drum", "eight-axis", "pcb-drill", "pcb-drill-ramp-lab",
+        "boiler-drum", "cnc-shield", "eight-axis", "mega-28byj48", "pcb-drill", "pcb-drill-ramp-lab",
     ]  # fmt: skip
     assert drillctl("run", "hole.kmd").returncode == 0
 

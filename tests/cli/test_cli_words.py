@@ -56,9 +56,11 @@ def test_version(drillctl: Drillctl) -> None:
 
 def test_machines_in_json(drillctl: Drillctl) -> None:
     told = json.loads(drillctl("machines", "--json").stdout)
-    assert [machine["name"] for machine in told] == ["boiler-drum", "eight-axis", "pcb-drill", "pcb-drill-ramp-lab"]
+    assert [machine["name"] for machine in told] == [
+        "boiler-drum", "cnc-shield", "eight-axis", "mega-28byj48", "pcb-drill", "pcb-drill-ramp-lab",
+    ]  # fmt: skip
     assert all(set(machine) == {"name", "axes", "tick_hz", "description", "digest"} for machine in told)
-    assert told[2]["axes"] == ["x", "y", "z"] and told[2]["tick_hz"] == 500
+    assert told[4]["axes"] == ["x", "y", "z"] and told[4]["tick_hz"] == 500
 
 
 def test_tables_check_looks_at_every_file(drillctl: Drillctl, folder: Path) -> None:

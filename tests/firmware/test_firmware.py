@@ -62,11 +62,6 @@ def case(request: pytest.FixtureRequest) -> Case:
 
 
 @pytest.fixture(scope="module")
-def host(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return boards.build(tmp_path_factory.mktemp("host"))
-
-
-@pytest.fixture(scope="module")
 def arduino(host: Path, case: Case, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SimulatedBoard]:
     running = SimulatedBoard(host, case.kind, tmp_path_factory.mktemp(case.kind.name))
     yield running

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
-from drillctl.cli import ports as verb
 from drillctl.machine import Library, shipped_tables
+from drillctl.machinery import wiring_of
 from drillctl.portio.firmata import max_tick_hz
 from drillctl.portio.firmata_pins import MEGA, UNO, Board, Pins
 from drillctl.portio.mapped import MappedCard
@@ -70,7 +70,7 @@ def test_a_rate_that_a_line_cannot_carry_is_refused_with_the_one_it_can(tick_hz:
 @pytest.mark.parametrize("name", LIBRARY.machine_names())
 def test_a_machines_wiring_is_its_bits(name: str) -> None:
     machine = LIBRARY.machine(name)
-    wiring = verb.wiring_of(machine)
+    wiring = wiring_of(machine)
     wires = [bit for axis in machine.axes for bit in axis.wire_bits]
     assert bits_of(wiring.outputs) == sorted([*wires, *(bit for _, bit in machine.outputs)])
     assert bits_of(wiring.inputs) == sorted(sensor.bit for sensor in machine.sensors)
@@ -81,7 +81,7 @@ def test_a_machines_wiring_is_its_bits(name: str) -> None:
     ("board", "name"), [(MEGA, "mega-28byj48"), (MEGA, "pcb-drill"), (UNO, "cnc-shield")]
 )
 def test_a_shipped_machine_fits_its_board_at_its_own_rate(board: Board, name: str) -> None:
-    wiring = verb.wiring_of(LIBRARY.machine(name))
+    wiring = wiring_of(LIBRARY.machine(name))
     Pins(board, wiring, "firmata")
     most_hz = max_tick_hz(board, "", wiring, range(len(wiring.axis_outputs)))
     assert most_hz is not None and wiring.tick_hz <= most_hz

@@ -1,0 +1,110 @@
+"""Wiring: what the ticker's process runs: the tick, paced by the clock, with a beat, a status and an eye on the desk.
+
+Rule: a tick is run where there is something to do; every wake publishes a beat. Whatever this process does to the
+machine of its own accord, it asks for as a request, so that the trace has it. Forked by paced.
+"""
+
+import os
+import signal
+import struct
+import time
+from contextlib import suppress
+
+from drillctl.execution.clock import PacedClock
+from drillctl.execution.stops import raise_fault
+from drillctl.kmd import Condition, Fault, Request
+from drillctl.kmd.channel import Channel, SharedQueue, SharedRequests
+from drillctl.kmd.commands import MOST_AXES
+from drillctl.machine import Machine
+from drillctl.plant import IdealPlant
+from drillctl.ports import Driver
+from drillctl.realtime import become_punctual
+from drillctl.ticker import Ticker
+from drillctl.trace.ring import RingRecorder
+
+DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
+DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
+TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
+IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
+
+
+class PacedTicker:
+    """The body of the ticker's process. Made by the desk, its parent; ``touches`` and ``notices`` are pipes' ends."""
+
+    def __init__(self, machine: Machine, port: Driver, plant: IdealPlant | None, channel: Channel,
+                 ring: RingRecorder | None, derived: bool, touches: int, notices: int):  # fmt: skip
+        self.channel, self.port = channel, port
+        self.touch_end, self.notice_end = touches, notices
+        self.queue, self.requests = SharedQueue(channel), SharedRequests(channel)
+        self.ticker = Ticker(
+            machine, port, plant, ring is not None, derived, queue=self.queue, requests=self.requests, keeper=ring
+        )
+        self.desk = os.getpid()
+        self.orphan_since_ns = 0
+
+    def run(self) -> None:
+        """Until the desk gives leave, dies, or the port is lost. The outputs are safe afterwards."""
+        for number in IGNORED:
+            signal.signal(number, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, lambda number, frame: self.requests.own.post(Request.STOP))
+        try:
+            os.write(self.notice_end, "".join(f"{notice}\n" for notice in become_punctual()).encode())
+            os.close(self.notice_end)
+            self._tick_on()
+        finally:
+            with suppress(OSError):  # then the guard tries too
+                self.port.safe()
+                self.channel["ended"] = 1
+
+    def _tick_on(self) -> None:
+        m = self.ticker.controller
+        clock = PacedClock(m.machine.tick_hz)
+        harmless = min(axis.interval[0] for axis in m.axes)  # a gap so short is no news to any motor
+        while not self.channel["leave"] and not self._desk_is_lost():
+            gap = clock.wait()
+            if self._is_wanted():
+                m.gap = gap if gap > harmless else 0
+                self.ticker.late(clock.late, clock.worst_ns)
+                try:
+                    self.ticker.run(1)
+                except OSError:
+                    self._end_by(Fault.PORT_LOST)
+                    return
+            self._publish()
+
+    def _is_wanted(self) -> bool:
+        """At rest, with nothing to do, the current is held and no tick is counted."""
+        return len(self.queue) > 0 or not self.ticker.over() or self.requests.waiting
+
+    def _publish(self) -> None:
+        self.channel["ticker_beat_ns"] = time.monotonic_ns()
+        self.channel.publish(self.ticker.report())
+        for tool, tag, places in self.ticker.touched:
+            padded = (*places, *[0.0] * (MOST_AXES - len(places)))
+            os.write(self.touch_end, TOUCH.pack(tool, tag, len(places), *padded))
+        self.ticker.touched.clear()
+
+    def _desk_is_lost(self) -> bool:
+        """Holds a moving machine first; True when the outputs must go off."""
+        m = self.ticker.controller
+        silent_ns = self._desk_silence_ns()
+        if silent_ns > DESK_HOLD_NS and m.condition == Condition.READY and m.job:
+            self.requests.own.post(Request.HOLD)
+        if silent_ns <= DESK_SAFE_NS:
+            return False
+        self._end_by(Fault.HEARTBEAT_LOST)
+        return True
+
+    def _desk_silence_ns(self) -> int:
+        """A desk that has died was silent long enough for a hold at once."""
+        now_ns = time.monotonic_ns()
+        silent_ns = now_ns - self.channel["desk_beat_ns"]
+        if os.getppid() == self.desk:
+            return silent_ns
+        self.orphan_since_ns = self.orphan_since_ns or now_ns
+        return max(silent_ns, now_ns - self.orphan_since_ns + DESK_HOLD_NS + 1)
+
+    def _end_by(self, fault: Fault) -> None:
+        """A fault from beside the tick, which then has no further turn; the outputs go off in ``run``."""
+        raise_fault(self.ticker.controller, fault)
+        self._publish()

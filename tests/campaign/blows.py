@@ -1,0 +1,70 @@
+"""What may happen to a run, as a table: who is hit, by what, and what of the card or the disk fails.
+
+To try something else, add a row to BLOWS.
+"""
+
+import signal
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+Z_TOP, Z_BOTTOM, X_MIN, Y_MIN = 4, 5, 0, 2  # input bits of pcb-drill
+HOMED_FLUSHES = 1800  # by then initialisation is over: a sensor that lies before it sets a wrong zero, unseen
+LAST_FLUSH = 7000
+TARGETS = ("desk", "ticker", "guard")
+SIGNALS = (signal.SIGKILL, signal.SIGSTOP, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+
+
+@dataclass(frozen=True)
+class Blow:
+    """One blow. ``target`` gets ``signal`` after a while; ``plan`` is for the card and the disk (faulty.py)."""
+
+    name: str
+    target: str | None = None
+    signal: signal.Signals | None = None
+    plan: Mapping[str, Any] = field(default_factory=dict)
+    trace: str | None = None
+
+    @property
+    def takes_away(self) -> bool:
+        """Whether desk or ticker is gone afterwards, so that the outputs must go off at once."""
+        return self.target in ("desk", "ticker") and self.signal in (signal.SIGKILL, signal.SIGSTOP)
+
+
+def _signalled(target: str, number: signal.Signals) -> Callable[[Random], Blow]:
+    return lambda rng: Blow(f"{number.name} to {target}", target, number)
+
+
+def _sensor(name: str, bit: int, fails: str, level: int = 0) -> Callable[[Random], Blow]:
+    def made(rng: Random) -> Blow:
+        first, flushes = rng.randrange(HOMED_FLUSHES, LAST_FLUSH), rng.choice((1, 3, 40, 100_000))
+        plan = {"fails": fails, "bit": bit, "level": level, "from_flush": first, "flushes": flushes}
+        return Blow(name, plan=plan)
+
+    return made
+
+
+def _pulled(rng: Random) -> Blow:
+    first, flushes = rng.randrange(1, LAST_FLUSH), rng.choice((1, 1_000_000))
+    return Blow("port pulled", plan={"fails": "pulled", "from_flush": first, "flushes": flushes})
+
+
+def _disk(rng: Random) -> Blow:
+    plan = {"fails": "disk", "lines": rng.randrange(14), "room_bytes": rng.choice((0, 1, 8))}
+    return Blow("disk full under the journal", plan=plan)
+
+
+def _trace(rng: Random) -> Blow:
+    return Blow("disk full under the trace", trace="/dev/full")
+
+
+_SENSORS = {"z_top": Z_TOP, "z_bottom": Z_BOTTOM, "x_min": X_MIN, "y_min": Y_MIN}
+BLOWS: tuple[Callable[[Random], Blow], ...] = (
+    *(_signalled(target, number) for target in TARGETS for number in SIGNALS),
+    *(_sensor(f"{name} stuck at {level}", bit, "stuck", level) for name, bit in _SENSORS.items() for level in (0, 1)),
+    *(_sensor(f"{name} bouncing", bit, "bouncing") for name, bit in _SENSORS.items()),
+    _pulled,
+    _disk,
+    _trace,
+)
