@@ -49,6 +49,7 @@ class PacedLink:
         self._changes: list[np.ndarray] = []
         self._port = port
         self._unguarded = False
+        self._refused: list[str] | None = None
         self._silence_ns = SILENCE_NS + 1_000_000_000 // machine.tick_hz
         now_ns = self._beat()
         self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
@@ -112,8 +113,10 @@ class PacedLink:
 
     def notices(self) -> list[str]:
         """What was refused of real-time running, once the ticker has said it."""
-        refused = [f"not real-time: {line}" for line in os.read(self._notices, 4096).decode().split("\n")[:-1]]
-        return [*refused, UNGUARDED] if self._unguarded else refused
+        if self._refused is None:
+            lines = os.read(self._notices, 4096).decode().split("\n")[:-1]
+            self._refused = [f"not real-time: {line}" for line in lines]
+        return [*self._refused, UNGUARDED] if self._unguarded else self._refused
 
     def close(self) -> None:
         """Asks the ticker to leave; ends it where it does not; the guard follows it. The port is given back."""

@@ -46,6 +46,7 @@ STATUS = np.dtype(
         ("lost", "<i4", (MOST_AXES,)),  # steps that the plant is behind; 0 where there is no plant to ask
         ("state", "i1", (MOST_AXES,)),
         ("column", "u1", (MOST_AXES,)),  # from 1
-        ("sensors", "<u8"),  # by input bit, 1 = reached
+        ("sensors", "<u8"),  # by input bit, 1 = reached; of the first two cards
+        ("image", "<u8"),  # outputs as flushed; of the first two cards
     ]
 )

@@ -1,0 +1,153 @@
+"""What a screen may see and ask. The screens know this protocol and these records, and nothing else of the program.
+
+Rule: asking never blocks and never raises for what a person did: it answers with problems, a line each; an empty tuple
+means it was accepted. Millimetres are from the working base, as the operator counts.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.panel.records import Estimate, FaultReport, Progress
+
+Problems = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisView:
+    """One axis: where it is and goes, its ramp state, its phases as they stand on the wires, the whole table."""
+
+    name: str
+    position_steps: int
+    position_mm: float
+    target_steps: int
+    target_mm: float
+    state: int
+    top_state: int
+    column: int  # from 1
+    wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table in x and ., lit now
+
+
+@dataclass(frozen=True, slots=True)
+class MachineView:
+    """The machine at this moment. ``condition``: ready, holding, held, stopping, returning, latched."""
+
+    machine: str
+    port: str
+    tick: int
+    tick_hz: int
+    condition: str
+    moving: bool
+    position_known: bool
+    command: str  # in execution, as text; empty when there is none
+    queued: int
+    tool: int
+    axes: tuple[AxisView, ...]
+    sensors: tuple[tuple[str, bool], ...]
+    outputs: tuple[tuple[str, bool], ...]
+    lost_steps: tuple[int, ...] | None
+    late: int
+    late_worst_ms: float
+    fault: FaultReport | None
+    notices: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ToolView:
+    """A tool of the board: number, diameter, holes."""
+
+    number: int
+    diameter_mm: float | None
+    holes: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BoardView:
+    """The board that is loaded, in drilling order: xy_mm (n, 2) from the working base, tool (n,) index into tools."""
+
+    name: str
+    xy_mm: NDArray[np.float64]
+    tool: NDArray[np.int64]
+    tools: tuple[ToolView, ...]
+    format: str
+    confidence: float
+    reason: str
+    runner_up: str
+    warnings: tuple[str, ...]
+    estimate: Estimate
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """How a board is to be placed and drilled: what the Files menu offers."""
+
+    format: str | None = None
+    origin: str = "base"
+    mirror: str | None = None
+    rotate_deg: float = 0.0
+    offset_mm: tuple[float, float] = (0.0, 0.0)
+    order: str = "file"
+
+
+class Console(Protocol):
+    """The operator's desk, as screens use it. ``turn`` is called some twenty times a second."""
+
+    def turn(self) -> None:
+        """Lets the machine's news in: call it often; it returns at once."""
+
+    def view(self) -> MachineView:
+        """The machine now."""
+
+    def board(self) -> BoardView | None:
+        """The board that is loaded."""
+
+    def progress(self) -> Progress | None:
+        """The job that runs, or ran last."""
+
+    def machines(self) -> Sequence[tuple[str, str]]:
+        """Name and description of every machine that can be chosen."""
+
+    def choose_machine(self, name: str) -> Problems:
+        """Another machine, from its start position. Refused while something moves."""
+
+    def load(self, file: str, asked: Asked) -> Problems:
+        """Reads a drill file and plans it. Refused with its reasons; the board loaded before then stays."""
+
+    def start(self, dry: bool) -> Problems:
+        """Drills the board; ``dry``: goes to every hole with the drill up."""
+
+    def run_queue(self, text: str) -> Problems:
+        """Runs KMD commands."""
+
+    def initialise(self) -> Problems:
+        """Head up, then X=0, Y=0 by the limit sensors."""
+
+    def jog(self, axis: str, steps: int) -> Problems:
+        """So many steps from here, with ramps; one jog at a time."""
+
+    def go_to(self, x_mm: float, y_mm: float) -> Problems:
+        """To a place from the working base, the drill up."""
+
+    def set_base(self) -> Problems:
+        """This place is the working base."""
+
+    def hold(self) -> Problems:
+        """Brakes; the job stays."""
+
+    def resume(self) -> Problems:
+        """Goes on after a hold."""
+
+    def stop(self) -> Problems:
+        """Ends the job; the position is kept."""
+
+    def emergency_stop(self) -> Problems:
+        """At once. Never refused."""
+
+    def acknowledge(self) -> Problems:
+        """The operator has seen the fault."""
+
+    def close(self) -> None:
+        """The outputs are safe, and everything that was started has ended."""

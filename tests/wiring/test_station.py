@@ -1,0 +1,125 @@
+"""The operator's console without a screen: what is asked happens, what can't be is refused with a reason."""
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from drillctl.machine import Library
+from drillctl.machinery import Running
+from drillctl.panel.console import Asked
+from drillctl.station import Station
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+PATIENCE_S = 40.0
+
+
+@pytest.fixture
+def station() -> Iterator[Station]:
+    library = Library.standard()
+    made = Station(library, library.machine("pcb-drill").at_rate(5000), Running(pace="real"))
+    yield made
+    made.close()
+
+
+def settle(station: Station) -> None:
+    """Until the machine rests and nothing runs."""
+    until_s = time.monotonic() + PATIENCE_S
+    while time.monotonic() < until_s:
+        station.turn()
+        if not station.at_work:
+            return
+    raise AssertionError("the machine never came to rest")
+
+
+def test_initialise_jog_base_and_go(station: Station) -> None:
+    assert station.initialise() == ()
+    settle(station)
+    assert station.view().position_known
+    assert station.jog("x", 300) == ()
+    settle(station)
+    assert station.view().axes[0].position_steps == 300
+    assert station.set_base() == ()
+    settle(station)
+    assert station.view().axes[0].position_mm == 0
+    assert station.go_to(2.54, 0.0) == ()
+    settle(station)
+    assert station.view().axes[0].position_steps == 300 + 120
+
+
+def test_a_board_is_loaded_and_drilled_dry(station: Station) -> None:
+    assert station.start(dry=True) == ("no board is loaded: open a drill file first",)
+    assert station.load(str(EXAMPLES / "blinker.drl"), Asked(order="nearest")) == ()
+    board = station.board()
+    assert board is not None and len(board.xy_mm) == 26 and board.estimate.ticks > 0
+    assert station.start(dry=True) == ()
+    settle(station)
+    view = station.view()
+    assert view.fault is None and view.lost_steps == (0, 0, 0)
+    assert (view.axes[0].position_steps, view.axes[1].position_steps) == (0, 0)
+
+
+def test_a_bad_file_leaves_the_board_as_it_was(station: Station, tmp_path: Path) -> None:
+    assert station.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
+    (tmp_path / "bad.drl").write_text("hello\n")
+    problems = station.load(str(tmp_path / "bad.drl"), Asked())
+    assert len(problems) == 1 and "bad.drl" in problems[0]
+    board = station.board()
+    assert board is not None and board.name == "blinker.drl"
+
+
+def test_hold_resume_and_stop(station: Station) -> None:
+    station.initialise()
+    settle(station)
+    assert station.jog("x", 9000) == ()
+    for _ in range(20):
+        station.turn()
+    assert station.hold() == ()
+    while station.view().condition != "held":
+        station.turn()
+    held_at = station.view().axes[0].position_steps
+    assert 0 < held_at < 9000
+    assert station.jog("y", 5)[0].startswith("the machine is at work")
+    assert station.resume() == ()
+    settle(station)
+    assert station.view().axes[0].position_steps == 9000
+    station.jog("x", -9000)
+    for _ in range(20):
+        station.turn()
+    station.stop()
+    settle(station)
+    view = station.view()
+    assert view.position_known and view.condition == "ready" and 0 < view.axes[0].position_steps < 9000
+
+
+def test_an_emergency_stop_latches_until_it_is_acknowledged(station: Station) -> None:
+    station.initialise()
+    settle(station)
+    assert station.emergency_stop() == ()
+    while station.view().condition != "latched":
+        station.turn()
+    view = station.view()
+    assert view.fault is not None and view.fault.name == "EMERGENCY_STOP" and not view.position_known
+    assert station.jog("x", 5) == ("a fault waits to be acknowledged",)
+    assert station.acknowledge() == ()
+    while station.view().condition != "ready":
+        station.turn()
+    assert station.initialise() == ()
+    settle(station)
+    assert station.view().position_known
+
+
+def test_a_fault_in_a_queue_is_told(station: Station) -> None:
+    assert station.run_queue("KMD_GOTO_X_Y 1 1\n") == ()
+    settle(station)
+    fault = station.view().fault
+    assert fault is not None and fault.name == "HOMING_REQUIRED"
+    assert station.run_queue("KMD_NONSENSE\n")[0].startswith("queue:1:1: unknown command")
+
+
+def test_another_machine_starts_anew(station: Station) -> None:
+    assert station.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
+    assert station.choose_machine("boiler-drum") == ()
+    assert station.view().machine == "boiler-drum" and station.board() is None
+    assert "no machine of this name" in station.choose_machine("nonsense")[0]
