@@ -3,21 +3,25 @@
 A person asks for holes; *generation* turns them into ``KMD_*`` commands; *execution* turns commands into one
 port image a tick; *port I/O* carries that image to a card or to a simulated machine, and brings the sensors back.
 
-    cli.py           verbs and options
-    ui/              LAYER 1  what a person sees: a function of a status record
-    panel.py         door     what the screens may ask and see
-    generation/      LAYER 2  drill files and queues -> work list -> programs of KMD commands
-    kmd.py           door     the queue of commands, the requests that overtake it, the status that comes up
+    cli/             verbs and options
+    ui/              LAYER 1  what a person sees: views, each a function of a record
+    panel/           door     what a screen may see and ask
+    generation/      LAYER 2  drill files and queues -> work list -> programs of KMD commands; the job's journal
+    kmd/             door     the queue of commands, the requests that overtake it, the status that comes up
     execution/       LAYER 3  tick.py (one INT8: read this first), axis.py (the automaton), commands, guard
     ports.py         door     the port image, and what a driver must do
     portio/          LAYER 4  one driver a file
     plant/           beyond the ports: motors, sensors, board; sees coil bits only
     machine/         reads and checks tables/; what follows from a table alone
     trace/           one columnar record of a run: text, VCD, first difference
-    desk.py          wiring   layers 1 and 2: feeds the queue
-    ticker.py        wiring   layers 3 and 4: runs the ticks
-    replay.py        wiring   a recorded run again, without plant or clock
-    pytest_plugin.py wiring   ``*.trace`` files as tests
+    lab/             forecasts, and how punctual this computer is
+
+and the wiring, which composes them and decides nothing about motion:
+
+    ticker.py  layers 3 and 4: runs ticks     desk.py     layers 1 and 2: takes a job down the queue
+    link.py    the desk's end of a ticker     paced.py    ... in a process of its own, with guard.py beside it
+    session.py one run of a job               station.py  a machine kept running for the screens
+    replay.py  a recorded run again           pytest_plugin.py  ``*.trace`` files as tests
 
 docs/ARCHITECTURE.md follows one command from its text to a port byte; tests/test_rooms.py holds the walls.
 This package imports nothing.

@@ -40,7 +40,6 @@ class PacedTicker:
             machine, port, plant, ring is not None, derived, queue=self.queue, requests=self.requests, keeper=ring
         )
         self.desk = os.getpid()
-        self.orphan_since_ns = 0
 
     def run(self) -> None:
         """Until the desk gives leave, dies, or the port is lost. The outputs are safe afterwards."""
@@ -85,24 +84,16 @@ class PacedTicker:
         self.ticker.touched.clear()
 
     def _desk_is_lost(self) -> bool:
-        """Holds a moving machine first; True when the outputs must go off."""
+        """Holds a moving machine first; True when the outputs must go off: of a dead desk as soon as nothing moves."""
         m = self.ticker.controller
-        silent_ns = self._desk_silence_ns()
-        if silent_ns > DESK_HOLD_NS and m.condition == Condition.READY and m.job:
+        silent_ns = time.monotonic_ns() - self.channel["desk_beat_ns"]
+        dead = os.getppid() != self.desk
+        if (dead or silent_ns > DESK_HOLD_NS) and m.condition == Condition.READY and m.job:
             self.requests.own.post(Request.HOLD)
-        if silent_ns <= DESK_SAFE_NS:
+        if silent_ns <= DESK_SAFE_NS and not (dead and not m.moving):
             return False
         self._end_by(Fault.HEARTBEAT_LOST)
         return True
-
-    def _desk_silence_ns(self) -> int:
-        """A desk that has died was silent long enough for a hold at once."""
-        now_ns = time.monotonic_ns()
-        silent_ns = now_ns - self.channel["desk_beat_ns"]
-        if os.getppid() == self.desk:
-            return silent_ns
-        self.orphan_since_ns = self.orphan_since_ns or now_ns
-        return max(silent_ns, now_ns - self.orphan_since_ns + DESK_HOLD_NS + 1)
 
     def _end_by(self, fault: Fault) -> None:
         """A fault from beside the tick, which then has no further turn; the outputs go off in ``run``."""

@@ -20,7 +20,7 @@ def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
     spindle = dict(machine.outputs).get("spindle")
     drill = drill_stroke(machine, wishes.peck_mm)
     passes = [drill] if wishes.spot_mm is None else [spot_stroke(machine, wishes.spot_mm), drill]
-    parts = [record(Op.INICJALIZACJA), *_switch(spindle, 1)]
+    parts = [record(Op.INICJALIZACJA), *_switch(spindle, 1), *_spin_up(machine, spindle)]
     here = np.zeros(2, np.int64)
     for group in work.groups:
         parts.append(record(Op.NARZEDZIE, [group.number]))
@@ -62,6 +62,11 @@ def _gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
     records["axes"] = 1 << x | 1 << y
     records["args"][:, x], records["args"][:, y] = steps[:, 0], steps[:, 1]
     return records
+
+
+def _spin_up(machine: Machine, spindle: int | None) -> list[Records]:
+    ticks = round(machine.configuration.spin_up_s * machine.tick_hz)
+    return [] if spindle is None or not ticks else [record(Op.CZEKAJ, [ticks])]
 
 
 def _switch(bit: int | None, level: int) -> list[Records]:

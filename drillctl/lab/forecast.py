@@ -19,7 +19,7 @@ Ticks = NDArray[np.int64]
 LONGEST_COMMAND_TICKS = 100_000_000
 MOVES = (Op.GOTO_X_Y, Op.GOTO_DXDY)
 HEAD = (Op.WIERTLO_DOL, Op.WIERTLO_GORA, Op.RUCH)
-ONE_TICK = (Op.NARZEDZIE, Op.WYJSCIE, Op.WRZECIONO, Op.PREDKOSC, Op.KONIEC)
+STILL = (Op.NARZEDZIE, Op.WYJSCIE, Op.WRZECIONO, Op.PREDKOSC, Op.CZEKAJ, Op.KONIEC)
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,8 @@ class Forecast:
 def forecast(program: NDArray[np.void], machine: Machine) -> Forecast:
     """The ticks of a program, dtype kmd.RECORD, numbered from 1. A board's is quick, any other is run."""
     if _is_board(program, machine):
-        ticks = np.ones(len(program), np.int64)
+        waits = program["opcode"] == Op.CZEKAJ
+        ticks = np.where(waits, np.maximum(program["args"][:, 0], 1), 1).astype(np.int64)
         _fill_moves(program, machine, ticks)
         if _fill_heads(program, machine, ticks):
             return Forecast(ticks, 0)
@@ -50,7 +51,7 @@ def _is_board(program: NDArray[np.void], machine: Machine) -> bool:
     ops = program["opcode"]
     heads = sum(1 << axis for axis in machine.drill_axes)
     head_alone = (program["axes"] & ~np.uint8(heads)) == 0
-    allowed = np.isin(ops, (*MOVES, *ONE_TICK)) | (np.isin(ops, HEAD) & head_alone)
+    allowed = np.isin(ops, (*MOVES, *STILL)) | (np.isin(ops, HEAD) & head_alone)
     linked = program["flags"] & Flag.LINKED
     absolute = (program["flags"] & Flag.ABSOLUTE).astype(bool) == np.isin(ops, (Op.GOTO_X_Y, Op.RUCH))
     begins = len(program) > 0 and ops[0] == Op.INICJALIZACJA

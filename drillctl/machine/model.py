@@ -77,6 +77,7 @@ class Configuration:
     mode: str  # "SIMULATED" or "REAL"
     longest_drilling_s: float
     tool_change: str  # "AUTOMATIC" or "MANUAL"
+    spin_up_s: float  # from spindle on to the first hole
 
 
 @dataclass(frozen=True, slots=True)

@@ -67,6 +67,7 @@ class ConfigurationPart(Strict, frozen=True):
     mode: Literal["SIMULATED", "REAL"] = "SIMULATED"
     longest_drilling_s: Annotated[float, msgspec.Meta(gt=0, le=3600)] = 18
     tool_change: Literal["AUTOMATIC", "MANUAL"] = "MANUAL"
+    spin_up_s: Annotated[float, msgspec.Meta(ge=0, le=600)] = 0
 
 
 class DrillPart(Strict, frozen=True):

@@ -119,7 +119,8 @@ def test_program_initialises_drills_and_comes_back() -> None:
 def test_the_spindle_of_a_machine_that_has_one_is_on_while_drilling() -> None:
     machine = Library.standard().machine("eight-axis")
     found = ops(machine, "T1\nX1Y1", Wishes())
-    assert found[:2] == [Op.INICJALIZACJA, Op.WYJSCIE] and found[-3:] == [Op.WYJSCIE, Op.GOTO_X_Y, Op.KONIEC]
+    assert found[:3] == [Op.INICJALIZACJA, Op.WYJSCIE, Op.CZEKAJ], "on, and time to spin up"
+    assert found[-3:] == [Op.WYJSCIE, Op.GOTO_X_Y, Op.KONIEC], "off, and home"
 
 
 def test_pecks_go_deeper_each_time_and_end_at_the_sensor() -> None:
