@@ -63,7 +63,7 @@ def _report(played: list[Round], seconds: float) -> None:
     by_blow = defaultdict(list)
     for r in played:
         by_blow[r.blow.name].append(r)
-    print(f"{'blow':<30} rounds  resumed  named again  visited again  outputs off after, worst  violations")
+    print(f"{'blow':<30} rounds  in time  resumed  named again  visited again  outputs off after, worst  violations")
     for name, rounds in by_blow.items():
         print(f"{name:<30} {_row(rounds)}")
     print(f"{'all':<30} {_row(played)}")
@@ -73,9 +73,11 @@ def _report(played: list[Round], seconds: float) -> None:
 
 def _row(rounds: list[Round]) -> str:
     worst_s = max(r.safe_after_s for r in rounds)
-    sums = [sum(getattr(r, name) for r in rounds) for name in ("resumes", "named", "again")]
+    sums = [sum(getattr(r, name) for r in rounds) for name in ("met", "resumes", "named", "again")]
     wrong = sum(bool(r.violations) for r in rounds)
-    return f"{len(rounds):6}  {sums[0]:7}  {sums[1]:11}  {sums[2]:13}  {worst_s:22.2f} s  {wrong:10}"
+    return (
+        f"{len(rounds):6}  {sums[0]:7}  {sums[1]:7}  {sums[2]:11}  {sums[3]:13}  {worst_s:22.2f} s  {wrong:10}"
+    )
 
 
 if __name__ == "__main__":

@@ -18,7 +18,14 @@ def estimate(job: Job) -> Estimate:
     changes = np.flatnonzero(job.program["opcode"] == Op.NARZEDZIE).tolist()
     shares = [int(ticks.sum()) for ticks in np.split(told.ticks, changes[1:])]
     tools = [
-        ToolEstimate(group.number, group.diameter_mm, group.stop - group.start, share)
+        ToolEstimate(
+            number=group.number,
+            diameter_mm=group.diameter_mm,
+            holes=group.stop - group.start,
+            ticks=share,
+            drill_mm=group.drill.diameter_mm if group.drill else None,
+            hits_left=group.drill.hits_left if group.drill else None,
+        )
         for group, share in zip(groups, shares, strict=False)
     ]
     return Estimate(

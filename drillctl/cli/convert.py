@@ -40,12 +40,15 @@ def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
 
 def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     """The file's own coordinates, whatever was asked about placing: that is a machine's matter."""
-    from drillctl.generation.drillfile import read
+    from drillctl.generation.drillfile import DrillFileError, read
     from drillctl.generation.drillfile.write import write
     from drillctl.generation.errors import JobError
-    from drillctl.generation.job import file_warnings
+    from drillctl.generation.job import file_warnings, refusal
 
-    drill_file = read(arguments.file, fmt=arguments.format)
+    try:
+        drill_file = read(arguments.file, fmt=arguments.format)
+    except DrillFileError as error:
+        raise refusal(arguments.file, error) from error
     try:
         data = write(drill_file, arguments.style)
     except ValueError as error:

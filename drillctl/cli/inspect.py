@@ -23,13 +23,18 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """Prints the summary; a refused file is an error (exit 2), with --json told as an object too."""
     from drillctl.generation.drillfile import DrillFileError, read, summary
+    from drillctl.generation.job import refusal
     from drillctl.ui.drilling import inspect_lines
 
     try:
         drill_file = read(arguments.file, fmt=arguments.format)
-    except (DrillFileError, OSError) as error:
+    except DrillFileError as error:
         if arguments.json:
-            print(json.dumps(error.as_dict() if isinstance(error, DrillFileError) else _unreadable(error)))
+            print(json.dumps(error.as_dict()))
+        raise refusal(arguments.file, error) from error
+    except OSError as error:
+        if arguments.json:
+            print(json.dumps(_unreadable(error)))
         raise
     told = summary(drill_file)
     if arguments.json:

@@ -90,12 +90,18 @@ def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = Non
     if path.suffix.lower() == ".kmd":
         return _queue_job(path, machine)
     try:
-        drill_file = read(path, fmt=fmt)
+        drill_file = replace(read(path, fmt=fmt), name=str(path))
     except DrillFileError as error:
-        raise JobError([str(error)]) from error
+        raise refusal(path, error) from error
     work = build(drill_file, wishes, machine)
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
     return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
+
+
+def refusal(path: Path, error: DrillFileError) -> JobError:
+    """What is wrong with a drill file, a line a problem, by the path that was given."""
+    places = (f"{path}:{problem.line}" if problem.line else f"{path}" for problem in error.problems)
+    return JobError([f"{place}: {problem.reason}" for place, problem in zip(places, error.problems, strict=True)])
 
 
 def file_warnings(path: Path, drill_file: DrillFile) -> list[str]:

@@ -124,7 +124,8 @@ def _chosen(drill_file: DrillFile, hits: Hits, wishes: Wishes) -> Hits:
     if unknown:
         there = ", ".join(f"T{number}" for number in numbers.tolist())
         raise JobError([f"--skip-tools: {drill_file.name} has no tool T{min(unknown)}; there are {there}"])
-    left = hits.take(~np.isin(numbers[hits.tool], list(wishes.skip_tools)) if len(numbers) else slice(None))
+    skipped = np.isin(hits.tool, np.flatnonzero(np.isin(numbers, list(wishes.skip_tools))))
+    left = hits.take(~skipped)
     if not len(left.xy_mm):
         raise JobError([f"{drill_file.name}: there is no hole to drill"])
     return left

@@ -41,19 +41,31 @@ class Library:
 
     @classmethod
     def standard(cls, extra: Path | None = None) -> "Library":
-        """The usual search: ``extra`` (``--tables``), ``./tables``, the user's, the shipped."""
-        usual = (Path("tables"), user_tables(), shipped_tables())
-        return cls((*([extra] if extra else []), *usual))
+        """The usual search: ``extra`` (``--tables``), ``./tables``, the user's, the shipped.
+
+        In a checkout ``./tables`` is the shipped folder itself; it then has the last word only, not the first.
+        """
+        shipped, project = shipped_tables(), Path("tables")
+        own = [] if project.resolve() == shipped else [project]
+        return cls((*([extra] if extra else []), *own, user_tables(), shipped))
 
     def machine_names(self) -> list[str]:
         """The names of all machines that can be found, sorted."""
-        return sorted({file.stem for folder in self.folders for file in (folder / "machines").glob("*.toml")})
+        return self.names("machines")
+
+    def names(self, kind: str) -> list[str]:
+        """The names of all tables of a kind (phase, ramp, motor, machines) that can be found, sorted."""
+        return sorted({file.stem for folder in self.folders for file in (folder / kind).glob("*.toml")})
+
+    def find(self, kind: str, name: str) -> Path | None:
+        """The file of a table, in the first folder that has it."""
+        return find_table(self.folders, kind, name)
 
     def machine(self, name_or_file: str) -> Machine:
         """A machine by its name, or by its file's path (anything with a slash or ``.toml``). Raises TableError."""
         if "/" in name_or_file or name_or_file.endswith(".toml"):
             return self._machine_of(Source.read(Path(name_or_file)))
-        found = find_table(self.folders, "machines", name_or_file)
+        found = self.find("machines", name_or_file)
         if found is None:
             known = ", ".join(self.machine_names())
             raise TableError(name_or_file, f"no machine of this name; there are {known}")
@@ -61,13 +73,16 @@ class Library:
 
     def check(self, file: Path) -> list[str]:
         """Reads any table; returns its hazards as sentences. Raises TableError where it can't be used."""
-        source = Source.read(file)
+        return self.check_source(Source.read(file))
+
+    def check_source(self, source: Source) -> list[str]:
+        """As ``check``, for a text that need not be in its file yet."""
         written = source.tree()
         for key, hazards in _KINDS.items():
             if key in written:
                 return hazards(self, source)
         kinds = "a phase table has [[wire]], a ramp [[state]], a motor [windings], a machine [[axis]]"
-        raise TableError(file, f"no table of this program: {kinds}")
+        raise TableError(source.file, f"no table of this program: {kinds}")
 
     def _machine_of(self, source: Source) -> Machine:
         """A machine given by its file: the tables beside it come first."""

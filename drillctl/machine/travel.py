@@ -37,3 +37,14 @@ def cruising_state(ramp: RampTable, floor_ticks: int, direction: int = 1) -> int
     """The state (unsigned) that a long move reaches: it stops rising once the floor rules its interval."""
     states = range(ramp.top)
     return next((s for s in states if ramp.interval[s * direction] <= floor_ticks), ramp.top)
+
+
+def stopping(ramp: RampTable, state: int) -> tuple[int, int]:
+    """Steps and ticks from a state to rest when braking begins at once, as a hold does."""
+    direction = 1 if state > 0 else -1
+    steps = ticks = 0
+    while state:
+        ticks += ramp.interval[state]
+        steps += 1
+        state = ramp.after_step(state, direction, 0, may_rise=False)
+    return steps, ticks

@@ -79,12 +79,14 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class ToolEstimate:
-    """One tool's share of a job: its holes, and the ticks from its change to the next."""
+    """One tool's share of a job: its holes, the ticks from its change to the next, the drill that serves it."""
 
     number: int
     diameter_mm: float | None
     holes: int
     ticks: int
+    drill_mm: float | None = None
+    hits_left: int | None = None  # of the drill's life
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +117,8 @@ class Estimate:
                     "holes": tool.holes,
                     "ticks": tool.ticks,
                     "machine_seconds": tool.ticks / self.tick_hz,
+                    "drill_mm": tool.drill_mm,
+                    "hits_left": tool.hits_left,
                 }
                 for tool in self.tools
             ],

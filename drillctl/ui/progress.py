@@ -5,7 +5,7 @@ Rule: writes to one stream, never to standard output. Called by the run verb for
 
 import time
 from types import TracebackType
-from typing import TextIO
+from typing import NoReturn, TextIO
 
 from tqdm import tqdm
 
@@ -22,7 +22,7 @@ class ProgressView:
     def __init__(self, stream: TextIO):
         self._stream = stream
         self._on_terminal = stream.isatty()
-        self._bar: tqdm[None] | None = None
+        self._bar: "tqdm[NoReturn] | None" = None
         self._due_s = 0.0 if self._on_terminal else time.monotonic() + PLAIN_EVERY_S
 
     def __enter__(self) -> "ProgressView":
@@ -46,11 +46,11 @@ class ProgressView:
             print(_line(progress), file=self._stream, flush=True)
 
     def _draw(self, progress: Progress) -> None:
-        if self._bar is None:
-            self._bar = tqdm(file=self._stream, bar_format=BAR, leave=False, total=progress.holes_total, delay=1e9)
-        self._bar.n = progress.holes_done
-        self._bar.set_postfix_str(_left(progress), refresh=False)
-        self._bar.refresh()
+        bar = self._bar or tqdm(file=self._stream, bar_format=BAR, leave=False, total=progress.holes_total, delay=1e9)
+        bar.n = progress.holes_done
+        bar.set_postfix_str(_left(progress), refresh=False)
+        bar.refresh()
+        self._bar = bar
 
 
 def clock(seconds: float) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from drillctl.panel import Estimate, Outcome
+from drillctl.panel import Estimate, Outcome, ToolEstimate
 from drillctl.ui.progress import clock
 
 
@@ -29,10 +29,18 @@ def estimate_lines(told: Estimate) -> list[str]:
     lines = [f"{told.machine}: {holes}{about}{told.ticks} ticks at {told.tick_hz} Hz = {clock(seconds)} of machine time"]
     for tool in told.tools:
         diameter = "?" if tool.diameter_mm is None else f"{tool.diameter_mm:.3f}"
-        lines.append(f"  T{tool.number:<4} {diameter:>7} mm  {tool.holes:>6} holes  {clock(tool.ticks / told.tick_hz):>8}")
+        time = clock(tool.ticks / told.tick_hz)
+        lines.append(f"  T{tool.number:<4} {diameter:>7} mm  {tool.holes:>6} holes  {time:>8}{_drill(tool)}")
     if told.fault:
         lines.append(f"it would end in FAULT {told.fault.name}: {told.fault.cause}")
     return lines
+
+
+def _drill(tool: ToolEstimate) -> str:
+    if tool.drill_mm is None:
+        return ""
+    left = "" if tool.hits_left is None else f", good for {tool.hits_left} more holes"
+    return f"  drill {tool.drill_mm:.3f} mm{left}"
 
 
 def _by_axis(values: Mapping[str, int]) -> str:

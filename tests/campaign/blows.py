@@ -10,8 +10,7 @@ from signal import Signals
 from typing import Any
 
 Z_TOP, Z_BOTTOM, X_MIN, Y_MIN = 4, 5, 0, 2  # input bits of pcb-drill
-HOMED_FLUSHES = 1800  # by then initialisation is over: a sensor that lies before it sets a wrong zero, unseen
-LAST_FLUSH = 7000
+HOMED_FLUSHES = 1400  # by then initialisation is over: a sensor that lies before it sets a wrong zero, unseen
 # A sensor that answers wrongly for just as long as the head takes to brake, and is well again before the head meets
 # the other one, is believed: nothing that software has could tell. So a lie is shorter than that, or stays.
 LIE_FLUSHES = (1, 3, 1_000_000)
@@ -35,35 +34,38 @@ class Blow:
         return self.target in ("desk", "ticker") and self.signal in (Signals.SIGKILL, Signals.SIGSTOP)
 
 
-def _signalled(target: str, number: Signals) -> Callable[[Random], Blow]:
-    return lambda rng: Blow(f"{number.name} to {target}", target, number)
+Make = Callable[[Random, int], Blow]  # given what a run takes, in flushes
 
 
-def _sensor(name: str, bit: int, fails: str, level: int = 0) -> Callable[[Random], Blow]:
-    def made(rng: Random) -> Blow:
-        first, flushes = rng.randrange(HOMED_FLUSHES, LAST_FLUSH), rng.choice(LIE_FLUSHES)
+def _signalled(target: str, number: Signals) -> Make:
+    return lambda rng, last_flush: Blow(f"{number.name} to {target}", target, number)
+
+
+def _sensor(name: str, bit: int, fails: str, level: int = 0) -> Make:
+    def made(rng: Random, last_flush: int) -> Blow:
+        first, flushes = rng.randrange(HOMED_FLUSHES, last_flush), rng.choice(LIE_FLUSHES)
         plan = {"fails": fails, "bit": bit, "level": level, "from_flush": first, "flushes": flushes}
         return Blow(name, plan=plan)
 
     return made
 
 
-def _pulled(rng: Random) -> Blow:
-    first, flushes = rng.randrange(1, LAST_FLUSH), rng.choice((1, 1_000_000))
+def _pulled(rng: Random, last_flush: int) -> Blow:
+    first, flushes = rng.randrange(1, last_flush), rng.choice((1, 1_000_000))
     return Blow("port pulled", plan={"fails": "pulled", "from_flush": first, "flushes": flushes})
 
 
-def _disk(rng: Random) -> Blow:
-    plan = {"fails": "disk", "lines": rng.randrange(14), "room_bytes": rng.choice((0, 1, 8))}
+def _disk(rng: Random, last_flush: int) -> Blow:
+    plan = {"fails": "disk", "lines": rng.randrange(10), "room_bytes": rng.choice((0, 1, 8))}
     return Blow("disk full under the journal", plan=plan)
 
 
-def _trace(rng: Random) -> Blow:
+def _trace(rng: Random, last_flush: int) -> Blow:
     return Blow("disk full under the trace", trace="/dev/full")
 
 
 _SENSORS = {"z_top": Z_TOP, "z_bottom": Z_BOTTOM, "x_min": X_MIN, "y_min": Y_MIN}
-BLOWS: tuple[Callable[[Random], Blow], ...] = (
+BLOWS: tuple[Make, ...] = (
     *(_signalled(target, number) for target in TARGETS for number in SIGNALS),
     *(_sensor(f"{name} stuck at {level}", bit, "stuck", level) for name, bit in _SENSORS.items() for level in (0, 1)),
     *(_sensor(f"{name} bouncing", bit, "bouncing") for name, bit in _SENSORS.items()),

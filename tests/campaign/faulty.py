@@ -35,6 +35,7 @@ class FaultyCard(SimulatedCard):
         super().__init__(plant)
         self._plan, self._witness = plan, witness
         self._flushes = self._touches = 0
+        self._told = False
 
     @property
     def _failing(self) -> str:
@@ -43,14 +44,17 @@ class FaultyCard(SimulatedCard):
 
     def latch(self) -> int:
         image = super().latch()
+        if not self._failing:
+            return image
+        if not self._told:
+            self._told = True
+            self._tell("fails")
         if self._failing == "pulled":
             raise OSError(errno.EIO, "the port was pulled")
         if self._failing == "stuck":
             bit = 1 << self._plan["bit"]
             return image | bit if self._plan["level"] else image & ~bit
-        if self._failing == "bouncing":
-            return image ^ (self._flushes & 1) << self._plan["bit"]
-        return image
+        return image ^ (self._flushes & 1) << self._plan["bit"]
 
     def flush(self, image: int) -> None:
         self._flushes += 1
@@ -72,7 +76,7 @@ class FaultyCard(SimulatedCard):
         os.write(self._witness, f"{what} {places}\n".encode())
 
 
-def full_disk(lines: int, room_bytes: int) -> Callable[[int, bytes], int]:
+def full_disk(lines: int, room_bytes: int, witness: int) -> Callable[[int, bytes], int]:
     """An ``os.write`` that takes so many lines, a piece of the next, and then no more."""
     left = [lines]
 
@@ -80,6 +84,7 @@ def full_disk(lines: int, room_bytes: int) -> Callable[[int, bytes], int]:
         left[0] -= 1
         if left[0] >= 0:
             return os.write(handle, data)
+        os.write(witness, b"fails 0 0 0\n")
         if left[0] == -1 and room_bytes:
             return os.write(handle, data[:room_bytes])
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -93,7 +98,7 @@ def run(witness_file: str, plan: Plan, arguments: list[str]) -> int:
     machinery.SimulatedCard = lambda plant: FaultyCard(plant, plan, witness)  # type: ignore[assignment, misc]
     if plan.get("fails") == "disk":
         real = {name: getattr(os, name) for name in dir(os)}
-        journal.os = SimpleNamespace(**real | {"write": full_disk(plan["lines"], plan["room_bytes"])})  # type: ignore[attr-defined, assignment]
+        journal.os = SimpleNamespace(**real | {"write": full_disk(plan["lines"], plan["room_bytes"], witness)})  # type: ignore[attr-defined, assignment]
     return main(arguments)
 
 

@@ -27,7 +27,7 @@ ROOT = ENTRY.parents[2]
 TICK_HZ = 4000
 SAFE_WITHIN_S = 1.0
 PATIENCE_S = 30.0
-LONGEST_DRILLING_S = 3.0
+HOMING_TICKS, HOLE_TICKS = 1400, 1650  # as they are on these boards, about
 MOST_RESUMES = 3
 NAMED = re.compile(r"hole (\d+) \(.*\) was cut off; it is drilled again")
 EXIT_CODES = {0, 1, 2, 129, 130, 143, -signal.SIGKILL}
@@ -41,8 +41,10 @@ class Round:
     seed: int
     board: Board
     blow: Blow
+    moment_s: float  # after the ticker began, for a signal
     rng: Random
     violations: list[str] = field(default_factory=list)
+    met: bool = False  # the blow came before the run was over
     resumes: int = 0
     named: int = 0  # holes that were said to be visited again
     again: int = 0  # holes that were
@@ -56,8 +58,10 @@ class Round:
 def play(seed: int, folder: Path) -> Round:
     """Plays one round in an empty folder."""
     rng = Random(seed)
-    blow = BLOWS[seed % len(BLOWS)](rng)
-    r = Round(folder, seed, Board.random(rng), blow, rng)
+    board = Board.random(rng)
+    run_ticks = HOMING_TICKS + HOLE_TICKS * len(board.holes)
+    blow = BLOWS[seed % len(BLOWS)](rng, run_ticks)
+    r = Round(folder, seed, board, blow, rng.uniform(0, run_ticks / TICK_HZ), rng, met=blow.trace is not None)
     r.board.write(folder / "job.drl")
     _strike(r)
     for _ in range(MOST_RESUMES):
@@ -85,6 +89,7 @@ def _strike(r: Round) -> None:
     if r.blow.target is not None and r.blow.signal is not None:
         hit = _hit(r, desk)
     _wait_for_end(r, desk, hit)
+    r.met = r.met or any(line.startswith("fails") for line in _witnessed(r))
     _judge_run(r, desk.returncode)
 
 
@@ -92,13 +97,14 @@ def _hit(r: Round, desk: "subprocess.Popen[bytes]") -> list[int]:
     """The signal, at some moment of the job; returns the processes of the run."""
     assert r.blow.target is not None and r.blow.signal is not None
     ticker = _ticker_of(r.folder / "j.status", desk)
-    time.sleep(r.rng.uniform(0, 2.0))
+    time.sleep(r.moment_s)
     family = {"desk": desk.pid, "ticker": ticker}
     family |= {"guard": child for child in _children(desk.pid) if child != ticker}
     struck = family.get(r.blow.target)
     if struck is None or desk.poll() is not None:
         return list(family.values())  # the job was over before
     os.kill(struck, r.blow.signal)
+    r.met = True
     if r.blow.takes_away:
         r.safe_after_s = _until_safe(r.folder / "card")
         r.check(r.safe_after_s <= SAFE_WITHIN_S, f"outputs on for {r.safe_after_s:.2f} s and more")

@@ -166,7 +166,7 @@ def drills(tmp_path: Path, text: str) -> DrillTable:
 
 
 def test_a_hole_is_served_by_the_nearest_drill_within_tolerance(tmp_path: Path) -> None:
-    table = drills(tmp_path, "[[drill]]\ndiameter_mm = 0.75\n[[drill]]\ndiameter_mm = 0.82\n[[drill]]\ndiameter_mm = 1\n")
+    table = drills(tmp_path, "".join(f"[[drill]]\ndiameter_mm = {mm}\n" for mm in (0.75, 0.82, 1)))
     work = build(drill_file(SQUARE), Wishes(drills=table), PCB)
     assert [g.drill.diameter_mm if g.drill else None for g in work.groups] == [0.82, 1]
 
@@ -178,7 +178,8 @@ def test_a_tool_without_a_drill_is_refused_by_name(tmp_path: Path) -> None:
 
 
 def test_a_worn_drill_is_warned_about(tmp_path: Path) -> None:
-    table = drills(tmp_path, "[[drill]]\ndiameter_mm = 0.8\nlife_hits = 12\nused_hits = 10\n[[drill]]\ndiameter_mm = 1\n")
+    worn = "[[drill]]\ndiameter_mm = 0.8\nlife_hits = 12\nused_hits = 10\n"
+    table = drills(tmp_path, worn + "[[drill]]\ndiameter_mm = 1\n")
     (tmp_path / "board.drl").write_text(HEADER + SQUARE.replace("0", "0.0") + "\nM30\n")
     job = load_job(tmp_path / "board.drl", PCB, Wishes(drills=table))
     assert any("T1 makes 3 holes; its drill is good for 2 more" in warning for warning in job.warnings)

@@ -5,8 +5,8 @@ import io
 import numpy as np
 import pytest
 
-from drillctl.panel import FAULT_WORDS, Outcome, Progress, fault_report
 from drillctl.kmd import FAULTS, Fault
+from drillctl.panel import FAULT_WORDS, Outcome, Progress, fault_report
 from drillctl.ui.board import board_rows
 from drillctl.ui.progress import ProgressView, clock
 from drillctl.ui.summary import summary_lines

@@ -1,0 +1,95 @@
+"""Single values of a table changed in its text, comments and layout kept. Pure functions: text in, text out.
+
+Rule: nothing is checked here beyond the place being there; what the result means is the readers' business, and an
+editor asks Library.check_source before it saves. Called by the workbench for the screens' editors.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import Integer
+
+from drillctl.machine.errors import TableError
+
+Place = tuple[str | int, ...]
+Value = str | int | float
+UNSAVED = "table"  # what errors call a text that has no file yet
+
+
+def set_value(text: str, place: Place, value: Value) -> str:
+    """The value at a place such as ``("axis", 0, "range", 1)``. Raises TableError where there is no such place.
+
+    A key that is not written yet is added to its table, and so is a table of the first level.
+    """
+    document = _opened(text)
+    if isinstance(place[0], str) and len(place) > 1 and place[0] not in document:
+        document[place[0]] = tomlkit.table()
+    inner = _inside(document, place[:-1])
+    if isinstance(place[-1], int) and not 0 <= place[-1] < len(inner):
+        raise _missing(place)
+    inner[place[-1]] = _as_written(inner, place[-1], value)
+    return tomlkit.dumps(document)
+
+
+def set_pattern(text: str, wire: str, pattern: str) -> str:
+    """The pattern of a phase table's wire. Raises TableError where there is no such wire."""
+    return set_value(text, ("wire", _row_of(text, "wire", "name", wire), "pattern"), pattern)
+
+
+def set_reverse(text: str, patterns: Mapping[str, str]) -> str:
+    """The patterns of motion backwards, by wire; none take the ``[[reverse]]`` rows away."""
+    document = _opened(text)
+    if list(patterns) == [row["name"] for row in document.get("reverse", ())]:
+        for row in document.get("reverse", ()):
+            row["pattern"] = patterns[row["name"]]
+        return tomlkit.dumps(document)
+    document.pop("reverse", None)
+    if patterns:
+        document["reverse"] = rows = tomlkit.aot()
+        for name, pattern in patterns.items():
+            rows.append(tomlkit.item({"name": name, "pattern": pattern}))
+    return tomlkit.dumps(document)
+
+
+def set_state_row(text: str, state: int, field: str, value: int) -> str:
+    """``accelerate``, ``brake`` or ``interval`` of a ramp's state. Raises TableError where there is no such state."""
+    return set_value(text, ("state", _row_of(text, "state", "state", state), field), value)
+
+
+def _opened(text: str) -> tomlkit.TOMLDocument:
+    try:
+        return tomlkit.parse(text)
+    except TOMLKitError as error:
+        raise TableError(UNSAVED, f"not TOML: {error}", getattr(error, "line", None)) from error
+
+
+def _inside(document: Any, place: Place) -> Any:
+    for part in place:
+        try:
+            document = document[part]
+        except (KeyError, IndexError, TypeError) as error:
+            raise _missing(place) from error
+    if not isinstance(document, dict | list):
+        raise _missing(place)
+    return document
+
+
+def _missing(place: Place) -> TableError:
+    return TableError(UNSAVED, f"there is no {'.'.join(map(str, place))} in it")
+
+
+def _as_written(inner: Any, key: str | int, value: Value) -> Any:
+    """An address that stands in hexadecimal stays so."""
+    old = inner.get(key) if isinstance(inner, dict) else None
+    if isinstance(old, Integer) and old.as_string().lower().startswith("0x") and isinstance(value, int) and value >= 0:
+        return tomlkit.value(f"0x{value:X}")
+    return value
+
+
+def _row_of(text: str, rows: str, key: str, wanted: str | int) -> int:
+    for index, row in enumerate(_opened(text).get(rows, ())):
+        if row.get(key) == wanted:
+            return index
+    raise TableError(UNSAVED, f"no [[{rows}]] has {key} {wanted}")

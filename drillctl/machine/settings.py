@@ -1,0 +1,104 @@
+"""The values of a machine's file that the configuration screen shows (the paper's Fig. 4), with what each may be.
+
+Rule: types and bounds come from shape.py, which holds files to them too; no bound is written twice.
+Called by the workbench, which turns these into what screens draw.
+"""
+
+import math
+from dataclasses import dataclass
+
+import msgspec
+from msgspec.inspect import FloatType, IntType, LiteralType, StructType, TupleType, Type, type_info
+
+from drillctl.machine.edit import Place, Value
+from drillctl.machine.shape import MachineFile
+from drillctl.machine.source import Source
+
+# In the paper's order; those of an axis stand once for each.
+CARD_PLACES: tuple[Place, ...] = (
+    ("configuration", "card"),
+    ("configuration", "card_address"),
+    ("configuration", "mode"),
+)
+AXIS_PLACES: tuple[Place, ...] = (("columns_per_inch",), ("columns_per_step",), ("range", 0), ("range", 1))
+OTHER_PLACES: tuple[Place, ...] = (
+    ("configuration", "longest_drilling_s"),
+    ("configuration", "spin_up_s"),
+    ("configuration", "tool_change"),
+    ("tick_hz",),
+    ("description",),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One value of a machine's file: its place, the axis it belongs to ("" for none), and what it may be."""
+
+    place: Place
+    axis: str
+    value: Value
+    kind: type[Value]
+    choices: tuple[str, ...] = ()
+    least: float | None = None
+    greatest: float | None = None
+    above: float | None = None  # must be greater than this
+
+    def parsed(self, typed: str) -> Value:
+        """What was typed, as the file will hold it. Raises ValueError, in words, where it can't be that."""
+        value = self._converted(typed.strip())
+        if self.choices and value not in self.choices:
+            raise ValueError(f"{typed!r}: it is one of {', '.join(self.choices)}")
+        if isinstance(value, str):
+            return value
+        too_low = (self.least is not None and value < self.least) or (self.above is not None and value <= self.above)
+        if too_low or (self.greatest is not None and value > self.greatest):
+            raise ValueError(f"{typed}: out of range")
+        return value
+
+    def _converted(self, typed: str) -> Value:
+        try:
+            if self.kind is int:
+                return int(typed, 0)
+            if self.kind is float and not math.isfinite(float(typed)):
+                raise ValueError
+            return self.kind(typed)
+        except ValueError:
+            raise ValueError(f"{typed!r}: {'a whole number' if self.kind is int else 'a number'} is wanted") from None
+
+
+def settings(source: Source) -> tuple[Setting, ...]:
+    """All settings of a machine's text, in the order of the screen. Raises TableError for a text of wrong shape."""
+    raw = source.records(MachineFile)
+    axes: list[tuple[Place, str]] = [
+        (("axis", index, *place), row.name) for index, row in enumerate(raw.axis) for place in AXIS_PLACES
+    ]
+    places = [*((place, "") for place in CARD_PLACES), *axes, *((place, "") for place in OTHER_PLACES)]
+    return tuple(_setting(raw, place, axis) for place, axis in places)
+
+
+def _setting(raw: MachineFile, place: Place, axis: str) -> Setting:
+    value: object = raw
+    shape: Type = type_info(MachineFile)
+    for part in place:
+        value = value[part] if isinstance(part, int) else getattr(value, part)  # type: ignore[index]
+        shape = _shape_inside(shape, part)
+    assert isinstance(value, Value)
+    return _bounded(place, axis, value, shape)
+
+
+def _shape_inside(shape: Type, part: str | int) -> Type:
+    if isinstance(shape, StructType):
+        return next(field.type for field in shape.fields if field.name == part)
+    if isinstance(shape, TupleType) and isinstance(part, int):
+        return shape.item_types[part]
+    assert isinstance(shape, msgspec.inspect.ListType)
+    return shape.item_type
+
+
+def _bounded(place: Place, axis: str, value: Value, shape: Type) -> Setting:
+    if isinstance(shape, LiteralType):
+        return Setting(place, axis, value, str, choices=tuple(map(str, shape.values)))
+    if isinstance(shape, IntType | FloatType):
+        kind = int if isinstance(shape, IntType) else float
+        return Setting(place, axis, value, kind, least=shape.ge, greatest=shape.le, above=shape.gt)
+    return Setting(place, axis, value, str)

@@ -1,0 +1,97 @@
+"""Dialogs: tell something, ask yes or no, ask for a line of text. Boxes over what was there before.
+
+Rule: a dialog is closed by every way out of it, before its answer is acted upon. Made by app.py and the screens.
+"""
+
+from collections.abc import Callable, Sequence
+
+import urwid
+
+from drillctl.ui.words import _
+
+WIDEST = 72
+MARGINS = 6  # border, padding and a column of air at both sides
+
+Act = Callable[[], None]
+
+
+class Dialog(urwid.WidgetWrap[urwid.Widget]):
+    """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc only closes."""
+
+    def __init__(self, title: str, body: Sequence[urwid.Widget], buttons: Sequence[tuple[str, Act]], closing: Act):
+        self._closing = closing
+        row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
+        self._list = urwid.ListBox(urwid.SimpleFocusListWalker([*body, urwid.Divider(), row]))
+        self._list.set_focus(_first_selectable(body, len(body) + 1))
+        box = urwid.LineBox(urwid.Padding(self._list, left=1, right=1), title=title, title_attr="title")
+        super().__init__(urwid.AttrMap(box, "body"))
+
+    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+        """Nothing passes a dialog."""
+        if key == "esc":
+            self._closing()
+        else:
+            super().keypress(size, key)
+        return None
+
+    def wanted_rows(self, columns: int) -> int:
+        """Rows for all of it in a box so wide."""
+        inner = (columns - 4,)
+        return sum(widget.rows(inner) for widget in self._list.body) + 2
+
+    def _button(self, label: str, act: Act) -> urwid.Widget:
+        def pressed(_button: urwid.Button) -> None:
+            self._closing()
+            act()
+
+        return urwid.AttrMap(urwid.Button(label, pressed), "key", "focus")
+
+
+def nothing() -> None:
+    """What a button does that only closes."""
+
+
+def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing) -> Dialog:
+    """Tells; ``then`` follows on Enter."""
+    return Dialog(title, [urwid.Text(line) for line in lines], [(_("OK"), then)], closing)
+
+
+def question(text: str, yes: Act, closing: Act) -> Dialog:
+    """No stands first, so that Enter alone does nothing."""
+    return Dialog(_("Question"), [urwid.Text(text)], [(_("No"), nothing), (_("Yes"), yes)], closing)
+
+
+def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], closing: Act) -> Dialog:
+    """Asks for a line of text; Enter in the field or OK hands it over."""
+    field = _Field(("body", f"{prompt} "), text)
+    dialog = Dialog(
+        title,
+        [urwid.AttrMap(field, "field")],
+        [(_("OK"), lambda: accept(field.edit_text)), (_("Cancel"), nothing)],
+        closing,
+    )
+    field.entered = lambda: (closing(), accept(field.edit_text))
+    return dialog
+
+
+class _Field(urwid.Edit):
+    """A line of text with something to do on Enter."""
+
+    entered: Callable[[], object] = staticmethod(nothing)
+
+    def keypress(self, size: tuple[int], key: str) -> str | None:
+        if key != "enter":
+            return super().keypress(size, key)
+        self.entered()
+        return None
+
+
+def _first_selectable(body: Sequence[urwid.Widget], otherwise: int) -> int:
+    return next((i for i, widget in enumerate(body) if widget.selectable()), otherwise)
+
+
+def over(dialog: Dialog, below: urwid.Widget, columns: int, rows: int) -> urwid.Overlay:
+    """The dialog in the middle of a terminal of this size, as high as its text needs and the terminal allows."""
+    width = min(WIDEST, columns - 2)
+    height = min(dialog.wanted_rows(width), rows - 2)
+    return urwid.Overlay(dialog, below, "center", width, "middle", height)

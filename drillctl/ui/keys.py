@@ -1,0 +1,61 @@
+"""The keys: one table for the frame and one for each screen. A key's row names the method that it calls.
+
+Rule: what these tables say is all that there is: the key line, the help and the dispatch are made from them, so a
+key that the help tells of works, and one that works is told of. Screens have their table as ``keys``.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from drillctl.ui.words import N_, _
+
+
+class Key(NamedTuple):
+    """A row: urwid's names of the keys, how they are printed, the method called, what it does, and that in a word.
+
+    A key without a ``short`` word stands in the help only. ``argument`` is handed to the method where it is not None.
+    """
+
+    names: tuple[str, ...]
+    printed: str
+    method: str
+    help: str
+    short: str = ""
+    argument: str | int | None = None
+
+
+# Live everywhere, in dialogs, menus and fields too: looked at before anything else.
+EMERGENCY = Key(("f10", "!"), "F10 !", "emergency_stop", N_("emergency stop, at once; works everywhere"), N_("E-STOP"))
+
+FRAME_KEYS = (
+    EMERGENCY,
+    Key(("f1",), "F1", "help", N_("this help"), N_("Help")),
+    Key(("f9",), "F9", "menu", N_("the menu; or Alt with a letter of it"), N_("Menu")),
+    Key(("esc",), "Esc", "back", N_("closes what is on top")),
+    Key(("f4",), "F4", "leave", N_("ends the program; the outputs are made safe"), N_("Quit")),
+)
+
+
+def called(target: object, keys: Iterable[Key], pressed: str) -> bool:
+    """Calls the method of the key that was pressed, if there is such a row."""
+    for key in keys:
+        if pressed in key.names:
+            method = getattr(target, key.method)
+            method() if key.argument is None else method(key.argument)
+            return True
+    return False
+
+
+def key_line(keys: Sequence[Key]) -> list[str | tuple[str, str]]:
+    """Markup for the bottom line: the keys with a short word."""
+    shown = [key for key in keys if key.short]
+    return [part for key in shown for part in ((_attribute(key), f" {key.printed} "), f"{_(key.short)} ")]
+
+
+def help_lines(keys: Sequence[Key]) -> list[str]:
+    """A line a key."""
+    return [f"{key.printed:<12}{_(key.help)}" for key in keys]
+
+
+def _attribute(key: Key) -> str:
+    return "danger" if key is EMERGENCY else "key"

@@ -1,0 +1,86 @@
+"""The board on the screen: holes to do, made, and current, and the head where it is.
+
+Rule: every state has a sign of its own, so that nothing is told by colour alone. Used by files and drilling.
+"""
+
+from itertools import groupby
+
+import numpy as np
+import urwid
+from numpy.typing import NDArray
+
+from drillctl.panel.console import BoardView
+from drillctl.ui.board import BRAILLE, Sheet
+from drillctl.ui.words import _
+
+Place = tuple[float, float]
+EMPTY = chr(BRAILLE)
+Markup = list[str | tuple[str, str]]
+
+# What a cell shows: its attribute, and its sign with and without UTF-8. Holes to do are braille where there is UTF-8.
+SIGNS = {
+    "to do": ("body", "", "."),
+    "done": ("good", "○", "o"),
+    "current": ("warning", "◎", "@"),
+    "head": ("danger", "+", "+"),
+}
+
+
+class BoardPicture(urwid.Widget):
+    """A box that draws a board; ``plain`` where the terminal has no UTF-8."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+
+    def __init__(self, plain: bool = False):
+        self._plain = plain
+        self._state: tuple[BoardView | None, int, bool, Place | None] = (None, 0, False, None)
+
+    def show(self, board: BoardView | None, done: int = 0, running: bool = False, head_mm: Place | None = None) -> None:
+        """``done`` holes are made; where ``running``, the next is current. Redrawn only if something is new."""
+        state = (board, done, running, head_mm)
+        if state != self._state:
+            self._state = state
+            self._invalidate()
+
+    def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
+        """The picture, clipped to the box."""
+        columns, rows = size
+        canvas = urwid.CompositeCanvas(urwid.Text(self._markup(columns, rows), wrap="clip").render((columns,)))
+        canvas.pad_trim_top_bottom(0, rows - canvas.rows())
+        return canvas
+
+    def _markup(self, columns: int, rows: int) -> Markup:
+        board, done, running, head_mm = self._state
+        if board is None or not len(board.xy_mm):
+            return [("dark", _("No board is loaded."))]
+        sheet = Sheet.fitted(board.xy_mm, columns, rows)
+        signs, states = self._drawn(sheet, board.xy_mm, done, running, head_mm)
+        lines = [_runs(row, named) for row, named in zip(signs, states, strict=True)]
+        return [part for line in lines for part in [*line, "\n"]][:-1]
+
+    def _drawn(
+        self, sheet: Sheet, xy_mm: NDArray[np.float64], done: int, running: bool, head_mm: Place | None
+    ) -> tuple[list[list[str]], list[list[str]]]:
+        """Signs and states of the cells, row by row; what is told later lies over what was told before."""
+        signs = [list(row) for row in sheet.braille(xy_mm)]
+        if self._plain:
+            signs = [["." if sign != EMPTY else " " for sign in row] for row in signs]
+        states = [["to do"] * len(row) for row in signs]
+        cells = sheet.cells(xy_mm).tolist()
+        left = set(map(tuple, cells[done:]))
+        self._mark(signs, states, "done", [cell for cell in cells[:done] if tuple(cell) not in left])
+        self._mark(signs, states, "current", cells[done : done + 1] if running else [])
+        self._mark(signs, states, "head", sheet.cells(np.array([head_mm])).tolist() if head_mm else [])
+        return signs, states
+
+    def _mark(self, signs: list[list[str]], states: list[list[str]], state: str, cells: list[list[int]]) -> None:
+        sign = SIGNS[state][2 if self._plain else 1]
+        for row, column in cells:
+            if 0 <= row < len(signs) and 0 <= column < len(signs[0]):
+                signs[row][column], states[row][column] = sign, state
+
+
+def _runs(signs: list[str], states: list[str]) -> Markup:
+    """One line as urwid's markup."""
+    pairs = groupby(zip(signs, states, strict=True), key=lambda pair: pair[1])
+    return [(SIGNS[state][0], "".join(sign for sign, _state in run)) for state, run in pairs]

@@ -1,0 +1,161 @@
+"""Wiring: tables and queues as the screens' editors see them (panel/tables.py, panel/queues.py).
+
+Rule: a text is checked by the same readers that load it; a file changes whole or not at all, and only the user's own.
+Created by the screen verb.
+"""
+
+import difflib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from drillctl.generation.job import names_of
+from drillctl.kmd import COMMANDS, KmdError, parse_program
+from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
+from drillctl.machine.edit import Place, set_pattern, set_reverse, set_state_row, set_value
+from drillctl.machine.phase import NAME
+from drillctl.machine.ramp import RampRow, parse_ramp, ramp_rows
+from drillctl.machine.settings import Setting, settings
+from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
+from drillctl.machine.travel import stopping
+from drillctl.outputs import Output, OutputError
+from drillctl.panel.console import Problems
+from drillctl.panel.queues import CommandHelp
+from drillctl.panel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
+
+# What makes a text a table of its kind: a key that only this kind has.
+KEY_OF: dict[Kind, tuple[str, ...]] = {
+    "phase": ("wire",),
+    "ramp": ("state",),
+    "motor": ("windings", "pulse"),
+    "machines": ("axis",),
+}
+LARGEST_QUEUE_BYTES = 4 * 1024 * 1024  # more than a person writes by hand
+
+
+class Workbench:
+    """A TableDesk over ``library``; edits go to ``user_folder``, which is one of the library's folders."""
+
+    def __init__(self, library: Library, user_folder: Path):
+        self._library, self._user_folder = library, user_folder
+
+    def tables(self, kind: Kind) -> list[TableEntry]:
+        """By name."""
+        return [TableEntry(name, self._origin(kind, name)) for name in self._library.names(kind)]
+
+    def read(self, kind: Kind, name: str) -> str:
+        """From the first folder that has it."""
+        file = self._library.find(kind, name)
+        try:
+            return Source.read(file).text if file else ""
+        except TableError:
+            return ""
+
+    def check(self, kind: Kind, text: str) -> Checked:
+        """By the readers that load tables."""
+        return self._check(kind, Source(self._own(kind, "unsaved"), text))
+
+    def save(self, kind: Kind, name: str, text: str) -> Problems:
+        """Refused too where a folder named before the user's has a table of this name: that one would still win."""
+        own = self._own(kind, name)
+        if problems := self._check(kind, Source(own, text)).problems:
+            return tuple(map(str, problems))
+        found = self._library.find(kind, name)
+        if found is not None and self._origin(kind, name) == "other":
+            return (f"{found} is looked at before your own copy; change it there, or start without that folder",)
+        return _written(own, text)
+
+    def reset(self, kind: Kind, name: str) -> Problems:
+        """Only where there is a shipped one to go back to."""
+        own = self._own(kind, name)
+        if not own.is_file():
+            return ("there is no copy of your own to take away",)
+        if not self._shipped(kind, name).is_file():
+            return (f"{name} does not come with the program; there is nothing to go back to",)
+        try:
+            own.unlink()
+        except OSError as error:
+            return (f"{own}: can't be taken away: {error.strerror}",)
+        return ()
+
+    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+        """From an empty file for a table that does not come with the program."""
+        shipped = self._shipped(kind, name)
+        before = shipped.read_text("utf-8") if shipped.is_file() else ""
+        names = (f"shipped {name}", f"this {name}")
+        return tuple(difflib.unified_diff(before.splitlines(), text.splitlines(), *names, lineterm=""))
+
+    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+        """The copy is named so inside as well."""
+        if not NAME.fullmatch(new_name) or len(new_name) > 40:
+            return (f"{new_name!r}: a name is at most 40 letters, digits, - and _, no - or _ first",)
+        if self._library.find(kind, new_name) is not None:
+            return (f"there is a table named {new_name} already",)
+        try:
+            return self.save(kind, new_name, set_value(self.read(kind, name), ("name",), new_name))
+        except TableError as error:
+            return (str(error),)
+
+    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
+        """Of any text whose rows can be read, sound or not."""
+        try:
+            return tuple(PhaseRow(*row) for row in phase_file_rows(_source(text)))
+        except TableError:
+            return ()
+
+    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
+        """Comments and layout stay."""
+        for row in rows:
+            text = set_pattern(text, row.name, row.pattern)
+        return set_reverse(text, {row.name: row.reverse for row in rows if row.reverse is not None})
+
+    def ramp(self, text: str) -> RampDrawing:
+        """Its rows as long as they can be read; the drawing only of a ramp that lands exactly."""
+        source = _source(text)
+        try:
+            rows = sorted(ramp_rows(source), key=lambda row: row.state)
+        except TableError:
+            return RampDrawing(())
+        try:
+            ramp = parse_ramp(source)
+        except TableError:
+            return RampDrawing(tuple(StateRow(*_numbers(row)) for row in rows))
+        states = (StateRow(*_numbers(row), *stopping(ramp, row.state)) for row in rows)
+        return RampDrawing(tuple(states), tuple(intervals(ramp, ramp.straight_from())))
+
+    def with_state(self, text: str, state: int, field: str, value: int) -> str:
+        """Comments and layout stay."""
+        return set_state_row(text, state, field, value)
+
+    def fields(self, text: str) -> tuple[FieldView, ...]:
+        """In the order of the paper's screen."""
+        try:
+            return tuple(map(_field_view, settings(_source(text))))
+        except TableError:
+            return ()
+
+    def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
+        """Comments and layout stay, and an address in hexadecimal stays so."""
+        try:
+            setting = next(setting for setting in settings(_source(text)) if setting.place == place)
+            return set_value(text, place, setting.parsed(typed)), ()
+        except (TableError, ValueError) as error:
+            return text, (str(error),)
+
+    def _check(self, kind: Kind, source: Source) -> Checked:
+        try:
+            if not set(KEY_OF[kind]) & source.tree().keys():
+                return Checked((Finding(None, f"[{KEY_OF[kind][0]}] is missing: not a table of this kind"),))
+            return Checked((), tuple(Finding(None, hazard) for hazard in self._library.check_source(source)))
+        except TableError as error:
+            return Checked((Finding(error.line, error.reason),))
+
+    def _origin(self, kind: Kind, name: str) -> str:
+        places = {self._own(kind, name): "yours", self._shipped(kind, name): "shipped"}
+        found = self._library.find(kind, name)
+        return places.get(found, "other") if found else "other"
+
+    def _own(self, kind: Kind, name: str) -> Path:
+        return self._user_folder / kind / f"{name}.toml"
+
+    def _shipped(self, kind: Kind, name: str) -> Path:
+        return shipped_tables() / kind / f"{name}.toml"
