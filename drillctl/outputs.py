@@ -74,6 +74,21 @@ def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Ite
                 output.drop()
 
 
+def write_text(path: Path, text: str) -> tuple[str, ...]:
+    """A text at a path, whole or not at all, its folder made where need be; the reason where it can't be written."""
+    output = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        output = Output(path)
+        output.write(lambda file: print(text, end="", file=file))
+    except (OSError, ValueError, OutputError) as error:  # ValueError: a null character in the path
+        return (str(error),)
+    finally:
+        if output is not None:
+            output.drop()
+    return ()
+
+
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)

@@ -5,21 +5,18 @@ Created by the screen verb.
 """
 
 import difflib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from drillctl.generation.job import names_of
-from drillctl.kmd import COMMANDS, KmdError, parse_program
-from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
-from drillctl.machine.edit import Place, set_pattern, set_reverse, set_state_row, set_value
-from drillctl.machine.phase import NAME
-from drillctl.machine.ramp import RampRow, parse_ramp, ramp_rows
+from drillctl.machine import Library, TableError, intervals, shipped_tables
+from drillctl.machine.edit import UNSAVED, Place, set_pattern, set_reverse, set_state_row, set_value
+from drillctl.machine.phase import NAME, phase_rows
+from drillctl.machine.ramp import parse_ramp, ramp_rows
 from drillctl.machine.settings import Setting, settings
-from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
+from drillctl.machine.source import Source
 from drillctl.machine.travel import stopping
-from drillctl.outputs import Output, OutputError
+from drillctl.outputs import write_text
 from drillctl.panel.console import Problems
-from drillctl.panel.queues import CommandHelp
 from drillctl.panel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
 
 # What makes a text a table of its kind: a key that only this kind has.
@@ -29,7 +26,7 @@ KEY_OF: dict[Kind, tuple[str, ...]] = {
     "motor": ("windings", "pulse"),
     "machines": ("axis",),
 }
-LARGEST_QUEUE_BYTES = 4 * 1024 * 1024  # more than a person writes by hand
+LONGEST_NAME = 40
 
 
 class Workbench:
@@ -62,7 +59,7 @@ class Workbench:
         found = self._library.find(kind, name)
         if found is not None and self._origin(kind, name) == "other":
             return (f"{found} is looked at before your own copy; change it there, or start without that folder",)
-        return _written(own, text)
+        return write_text(own, text)
 
     def reset(self, kind: Kind, name: str) -> Problems:
         """Only where there is a shipped one to go back to."""
@@ -86,8 +83,8 @@ class Workbench:
 
     def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
         """The copy is named so inside as well."""
-        if not NAME.fullmatch(new_name) or len(new_name) > 40:
-            return (f"{new_name!r}: a name is at most 40 letters, digits, - and _, no - or _ first",)
+        if not NAME.fullmatch(new_name) or len(new_name) > LONGEST_NAME:
+            return (f"{new_name!r}: a name is at most {LONGEST_NAME} letters, digits, - and _, no - or _ first",)
         if self._library.find(kind, new_name) is not None:
             return (f"there is a table named {new_name} already",)
         try:
@@ -98,7 +95,7 @@ class Workbench:
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
         """Of any text whose rows can be read, sound or not."""
         try:
-            return tuple(PhaseRow(*row) for row in phase_file_rows(_source(text)))
+            return tuple(PhaseRow(*row) for row in phase_rows(_source(text)))
         except TableError:
             return ()
 
@@ -112,15 +109,15 @@ class Workbench:
         """Its rows as long as they can be read; the drawing only of a ramp that lands exactly."""
         source = _source(text)
         try:
-            rows = sorted(ramp_rows(source), key=lambda row: row.state)
+            rows = ramp_rows(source)
         except TableError:
             return RampDrawing(())
         try:
             ramp = parse_ramp(source)
         except TableError:
-            return RampDrawing(tuple(StateRow(*_numbers(row)) for row in rows))
-        states = (StateRow(*_numbers(row), *stopping(ramp, row.state)) for row in rows)
-        return RampDrawing(tuple(states), tuple(intervals(ramp, ramp.straight_from())))
+            return RampDrawing(tuple(StateRow(*row) for row in rows))
+        states = tuple(StateRow(*row, *stopping(ramp, row[0])) for row in rows)
+        return RampDrawing(states, tuple(intervals(ramp, ramp.straight_from())))
 
     def with_state(self, text: str, state: int, field: str, value: int) -> str:
         """Comments and layout stay."""
@@ -147,7 +144,8 @@ class Workbench:
                 return Checked((Finding(None, f"[{KEY_OF[kind][0]}] is missing: not a table of this kind"),))
             return Checked((), tuple(Finding(None, hazard) for hazard in self._library.check_source(source)))
         except TableError as error:
-            return Checked((Finding(error.line, error.reason),))
+            ours = error.file == str(source.file)
+            return Checked((Finding(error.line, error.reason) if ours else Finding(None, str(error)),))
 
     def _origin(self, kind: Kind, name: str) -> str:
         places = {self._own(kind, name): "yours", self._shipped(kind, name): "shipped"}
@@ -159,3 +157,20 @@ class Workbench:
 
     def _shipped(self, kind: Kind, name: str) -> Path:
         return shipped_tables() / kind / f"{name}.toml"
+
+
+def _source(text: str) -> Source:
+    return Source(Path(UNSAVED), text)
+
+
+def _field_view(setting: Setting) -> FieldView:
+    value = setting.value
+    shown = f"0x{value:X}" if setting.place[-1] == "card_address" else f"{value}"
+    return FieldView(setting.place, setting.axis, shown, setting.choices, _bounds(setting))
+
+
+def _bounds(setting: Setting) -> str:
+    if setting.kind is str:
+        return ""
+    low = f"above {setting.above:g}" if setting.above is not None else f"{setting.least:.0f}"
+    return f"{low}..{setting.greatest:.0f}"

@@ -53,7 +53,8 @@ def _rate(text: str) -> int:
 
 def add_running(verb: argparse.ArgumentParser) -> None:
     """``--port`` and ``--pace``."""
-    verb.add_argument("--port", default="simulated", metavar="NAME[:ADDRESS]", help="default: %(default)s; see drillctl ports")
+    where = "default: %(default)s; see drillctl ports"
+    verb.add_argument("--port", default="simulated", metavar="NAME[:ADDRESS]", help=where)
     verb.add_argument(
         "--pace", choices=("free", "real"), help="real: by the clock, in a process of its own; default: as the port wants"
     )

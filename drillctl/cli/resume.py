@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("resume", help="go on with a job that was cut off", description=__doc__)
-    verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help="default: the newest in the state folder")
+    newest = "default: the newest in the user's state folder"
+    verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help=newest)
     options.add_running(verb)
     options.add_results(verb)
     verb.set_defaults(call=call)

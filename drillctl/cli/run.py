@@ -19,7 +19,8 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("job", type=Path, metavar="JOB", help="a drill file, or a queue of KMD commands (.kmd)")
     options.add_machine(verb)
     options.add_running(verb)
-    verb.add_argument("--journal", type=Path, metavar="F", help="keep the job's journal here; default: the user's state folder")
+    where = "keep the job's journal here; default for paced runs: the user's state folder"
+    verb.add_argument("--journal", type=Path, metavar="F", help=where)
     verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay")
     verb.add_argument("--vcd", type=Path, metavar="F", help="write the run as VCD, for GTKWave or PulseView")
     options.add_results(verb)

@@ -151,7 +151,7 @@ def read_journal(file: Path) -> Account:
     account = Account(_head(file, lines[0] if lines else None), torn=torn)
     for number, line in enumerate(lines[1:], start=2):
         for key, value in line.items():
-            if key in ("begun", "done") and isinstance(value, int) and 1 <= value <= account.head.holes:
+            if key in ("begun", "done") and type(value) is int and 1 <= value <= account.head.holes:
                 getattr(account, key).add(value)
                 account.ended = None
             elif key == "ended" and isinstance(value, str):

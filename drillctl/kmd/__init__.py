@@ -17,6 +17,6 @@ from drillctl.kmd.status import STATUS, Condition
 from drillctl.kmd.text import KmdError, parse_program, to_text
 
 __all__ = [
-    "CAPACITY", "COMMANDS", "FAULTS", "RECORD", "STATUS", "Command", "CommandQueue", "Condition", "Fault",
-    "FaultSpec", "KmdError", "Mailbox", "Names", "Op", "Queue", "Reaction", "Request", "Requests", "parse_program", "to_text",
+    "CAPACITY", "COMMANDS", "FAULTS", "RECORD", "STATUS", "Command", "CommandQueue", "Condition", "Fault", "FaultSpec",
+    "KmdError", "Mailbox", "Names", "Op", "Queue", "Reaction", "Request", "Requests", "parse_program", "to_text",
 ]  # fmt: skip

@@ -55,7 +55,8 @@ def _is_board(program: NDArray[np.void], machine: Machine) -> bool:
     linked = program["flags"] & Flag.LINKED
     absolute = (program["flags"] & Flag.ABSOLUTE).astype(bool) == np.isin(ops, (Op.GOTO_X_Y, Op.RUCH))
     begins = len(program) > 0 and ops[0] == Op.INICJALIZACJA
-    return bool(begins and allowed[1:].all() and not linked.any() and absolute.all() and not program["floor_ticks"].any())
+    plain = not linked.any() and not program["floor_ticks"].any() and absolute.all()
+    return bool(begins and plain and allowed[1:].all())
 
 
 def _fill_moves(program: NDArray[np.void], machine: Machine, ticks: Ticks) -> None:

@@ -86,6 +86,13 @@ def parse_phase(source: Source) -> PhaseTable:
     return PhaseTable(raw.name, tuple(wires), columns)
 
 
+def phase_rows(source: Source) -> list[tuple[str, float, str, str | None]]:
+    """Name, volts, pattern and own reverse pattern of each wire as written, right or wrong. Raises TableError."""
+    raw = source.records(_File)
+    reverse = {row.name: row.pattern for row in raw.reverse}
+    return [(row.name, row.volts, row.pattern, reverse.get(row.name)) for row in raw.wire]
+
+
 def _reverse_rows(source: Source, raw: _File, columns: int) -> dict[str, tuple[bool, ...]]:
     names = {row.name for row in raw.wire}
     rows: dict[str, tuple[bool, ...]] = {}

@@ -140,6 +140,12 @@ def parse_ramp(source: Source) -> RampTable:
     return ramp
 
 
+def ramp_rows(source: Source) -> list[tuple[int, int, int, int]]:
+    """State, accelerate, brake and interval of each row as written, by state, right or wrong. Raises TableError."""
+    rows = source.records(_File).state
+    return sorted((row.state, row.accelerate, row.brake, row.interval) for row in rows)
+
+
 def _rows_by_state(source: Source, raw: _File) -> dict[int, int]:
     """The index of each state's row; every state from -n to n must have just one."""
     rows: dict[int, int] = {}

@@ -22,7 +22,7 @@ class ProgressView:
     def __init__(self, stream: TextIO):
         self._stream = stream
         self._on_terminal = stream.isatty()
-        self._bar: "tqdm[NoReturn] | None" = None
+        self._bar: tqdm[NoReturn] | None = None
         self._due_s = 0.0 if self._on_terminal else time.monotonic() + PLAIN_EVERY_S
 
     def __enter__(self) -> "ProgressView":
@@ -32,6 +32,7 @@ class ProgressView:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if self._bar is not None:
+            self._bar.clear()
             self._bar.close()
 
     def show(self, progress: Progress) -> None:

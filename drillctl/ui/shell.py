@@ -5,9 +5,11 @@ Implemented by app.py; the tests have a shell of their own.
 """
 
 from collections.abc import Callable, Sequence
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import urwid
+
+from drillctl.panel.console import MachineView
 
 
 class Shell(Protocol):
@@ -24,3 +26,14 @@ class Shell(Protocol):
 
     def back(self) -> None:
         """Closes the screen on top; the first one stays."""
+
+    def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
+        """A dialog with a line to type in, ``text`` to begin with; ``accept`` is called with what was typed."""
+
+
+@runtime_checkable
+class Live(Protocol):
+    """A screen that shows the machine: it is handed the newest view some twenty times a second."""
+
+    def refresh(self, view: MachineView) -> None:
+        """Redraws what changed."""

@@ -26,7 +26,8 @@ def estimate_lines(told: Estimate) -> list[str]:
     about = "" if told.exact else "about "
     holes = f"{told.holes_total} holes, " if told.holes_total else ""
     seconds = told.ticks / told.tick_hz
-    lines = [f"{told.machine}: {holes}{about}{told.ticks} ticks at {told.tick_hz} Hz = {clock(seconds)} of machine time"]
+    ticks = f"{about}{told.ticks} ticks at {told.tick_hz} Hz"
+    lines = [f"{told.machine}: {holes}{ticks} = {clock(seconds)} of machine time"]
     for tool in told.tools:
         diameter = "?" if tool.diameter_mm is None else f"{tool.diameter_mm:.3f}"
         time = clock(tool.ticks / told.tick_hz)

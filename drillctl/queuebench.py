@@ -1,0 +1,70 @@
+"""Wiring: queues of commands as the queue editor sees them (panel/queues.py).
+
+Rule: a queue is checked by the parser that runs it. Created by the screen verb.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from drillctl.generation.job import names_of
+from drillctl.kmd import COMMANDS, KmdError, Names, parse_program
+from drillctl.machine import Machine
+from drillctl.outputs import write_text
+from drillctl.panel.console import Problems
+from drillctl.panel.queues import CommandHelp
+from drillctl.panel.tables import Finding
+
+LARGEST_QUEUE_BYTES = 4 * 1024 * 1024  # far more than a person writes by hand
+
+
+class QueueBench:
+    """A QueueDesk for the machine that ``machine`` gives: the one in use when it is asked."""
+
+    def __init__(self, machine: Callable[[], Machine]):
+        self._machine = machine
+
+    def commands(self) -> list[CommandHelp]:
+        """From the one definition of the commands."""
+        return [CommandHelp(spec.name, spec.usage, spec.meaning) for spec in COMMANDS.values()]
+
+    def words(self) -> list[str]:
+        """Axes, outputs, sensors."""
+        names = self._names()
+        return [*names.axes, *names.outputs, *names.inputs]
+
+    def check_queue(self, text: str) -> tuple[Finding, ...]:
+        """Each line alone first, so that all wrong lines are told; then the whole, for what lies between lines."""
+        return tuple(_wrong_lines(text, self._names())) or tuple(_wrong(text, self._names(), 0))
+
+    def open_queue(self, file: str) -> tuple[str, Problems]:
+        """UTF-8."""
+        try:
+            with Path(file).open("rb") as stream:
+                data = stream.read(LARGEST_QUEUE_BYTES + 1)
+            if len(data) > LARGEST_QUEUE_BYTES:
+                return "", (f"{file}: larger than {LARGEST_QUEUE_BYTES // 2**20} MiB: run it without editing it",)
+            return data.decode("utf-8-sig"), ()
+        except UnicodeDecodeError:
+            return "", (f"{file}: not UTF-8 text, so not a queue",)
+        except (OSError, ValueError) as error:  # ValueError: a null character in the name
+            return "", (f"{file}: can't be read: {getattr(error, 'strerror', error)}",)
+
+    def save_queue(self, file: str, text: str) -> Problems:
+        """Sound or not: a queue may be kept unfinished."""
+        return write_text(Path(file), text)
+
+    def _names(self) -> Names:
+        return names_of(self._machine())
+
+
+def _wrong_lines(text: str, names: Names) -> Iterator[Finding]:
+    for before, line in enumerate(text.split("\n")):
+        if line.partition("#")[0].strip():
+            yield from _wrong(line, names, before)
+
+
+def _wrong(text: str, names: Names, lines_before: int) -> Iterator[Finding]:
+    try:
+        parse_program(text, names)
+    except KmdError as error:
+        yield Finding(lines_before + error.line, error.reason, error.column)

@@ -1,0 +1,151 @@
+"""The menus as a table, and the boxes that drop from the bar.
+
+Rule: a row says which screen comes to the front and which of its methods is called; the frame does the rest, so a new
+entry is a new row. ``&`` stands before the hot letter, in every language. Used by app.py.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import urwid
+
+from drillctl.ui.words import N_, _
+
+
+class Item(NamedTuple):
+    """An entry: an empty ``screen`` means the frame itself; with ``items`` it opens a further box."""
+
+    label: str
+    screen: str = ""
+    method: str = ""
+    argument: str | None = None
+    items: tuple["Item", ...] = ()
+
+
+FORMAT_ITEMS = (
+    Item(N_("&Recognised"), "files", "set_format", ""),
+    Item(N_("EXCELLON &decimal, inch"), "files", "set_format", "inch,decimal"),
+    Item(N_("EXCELLON &adding zeros, inch"), "files", "set_format", "inch,2:4,trailing"),
+    Item(N_("EXCELLON &leading zeros left out, inch"), "files", "set_format", "inch,2:4,leading"),
+    Item(N_("EXCELLON &metric, decimal"), "files", "set_format", "mm,decimal"),
+    Item(N_("EXCELLON metric, adding &zeros"), "files", "set_format", "mm,3:3,trailing"),
+)
+PLACING_ITEMS = (
+    Item(N_("&Mirror"), "files", "cycle", "mirror"),
+    Item(N_("&Turn"), "files", "cycle", "rotate_deg"),
+    Item(N_("&Origin"), "files", "cycle", "origin"),
+    Item(N_("O&ffset..."), "files", "offset"),
+)
+BASING_ITEMS = (
+    Item(N_("Type &X and Y..."), "drilling", "type_place"),
+    Item(N_("Go to a &hole..."), "drilling", "go_to_hole"),
+    Item(N_("Set the &base here"), "drilling", "set_base"),
+)
+MENUS = (
+    Item(N_("&Files"), items=(
+        Item(N_("&Open..."), "files"),
+        Item(N_("&Format"), items=FORMAT_ITEMS),
+        Item(N_("&Placing"), items=PLACING_ITEMS),
+        Item(N_("O&rder of the holes"), "files", "cycle", "order"),
+        Item(N_("&Quit"), "", "leave"),
+    )),
+    Item(N_("&Drilling"), items=(
+        Item(N_("&Start"), "drilling", "start"),
+        Item(N_("&Dry run, drill up"), "drilling", "dry_run"),
+        Item(N_("&Hold or go on"), "drilling", "hold_or_resume"),
+        Item(N_("S&top"), "drilling", "stop"),
+        Item(N_("&Basing"), items=BASING_ITEMS),
+        Item(N_("&Initialisation"), "drilling", "initialise"),
+        Item(N_("&Acknowledge a fault"), "drilling", "acknowledge"),
+    )),
+    Item(N_("&Tests"), items=(
+        Item(N_("&Phase tables"), "phase_editor"),
+        Item(N_("&Ramp tables"), "ramp_editor"),
+        Item(N_("&Queue of commands"), "queue_editor"),
+    )),
+    Item(N_("&Configuration"), items=(
+        Item(N_("&Parameters"), "configuration"),
+        Item(N_("&Machine..."), "", "choose_machine"),
+        Item(N_("&Colours"), items=(
+            Item(N_("&Colour"), "", "set_theme", "colour"),
+            Item(N_("&Light"), "", "set_theme", "light"),
+            Item(N_("&Monochrome"), "", "set_theme", "mono"),
+        )),
+    )),
+    Item(N_("&Help"), items=(
+        Item(N_("&Keys"), "", "help"),
+        Item(N_("&About"), "", "about"),
+    )),
+)  # fmt: skip
+
+
+def plain_label(item: Item) -> str:
+    """Without the mark."""
+    return _(item.label).replace("&", "")
+
+
+def hot_letter(item: Item) -> str:
+    """In lower case; empty where there is none."""
+    _before, _mark, rest = _(item.label).partition("&")
+    return rest[:1].lower()
+
+
+def label_markup(item: Item, attribute: str | None = None) -> list[str | tuple[str, str]]:
+    """With the hot letter marked."""
+    before, _mark, rest = _(item.label).partition("&")
+    return [before, ("menu_hot", rest[:1]), rest[1:]] if rest else [before]
+
+
+class Row(urwid.Text):
+    """An entry in a box; a click or Enter chooses it."""
+
+    _selectable = True
+
+    def __init__(self, item: Item, chosen: Callable[[Item], None]):
+        self.item, self._chosen = item, chosen
+        super().__init__([*label_markup(item), " >" if item.items else ""], wrap="clip")
+
+    def keypress(self, size: tuple[int], key: str) -> str | None:
+        """Enter, and to the right where there is a further box."""
+        if key == "enter" or (key == "right" and self.item.items):
+            self._chosen(self.item)
+            return None
+        return key
+
+    def mouse_event(self, size: tuple[int], event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """The first button chooses."""
+        if event == "mouse press" and button == 1:
+            self._chosen(self.item)
+            return True
+        return False
+
+
+class PullDown(urwid.WidgetWrap[urwid.Widget]):
+    """A box of entries. ``sideways`` is called with -1 or 1 for a key that leads beyond it, ``closing`` for Esc."""
+
+    def __init__(
+        self, items: Sequence[Item], chosen: Callable[[Item], None], sideways: Callable[[int], None],
+        closing: Callable[[], None],
+    ):  # fmt: skip
+        self._items, self._chosen, self._sideways, self._closing = items, chosen, sideways, closing
+        rows = [urwid.AttrMap(Row(item, chosen), "menu", {"menu_hot": "focus", None: "focus"}) for item in items]
+        super().__init__(urwid.AttrMap(urwid.LineBox(urwid.ListBox(urwid.SimpleFocusListWalker(rows))), "menu"))
+        self.columns = max(len(plain_label(item)) for item in items) + 4
+        self.rows_wanted = len(items) + 2
+
+    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+        """Nothing passes an open menu."""
+        left = super().keypress(size, key)
+        if left == "esc":
+            self._closing()
+        elif left in ("left", "right"):
+            self._sideways(-1 if left == "left" else 1)
+        elif left is not None:
+            self._letter(left)
+        return None
+
+    def _letter(self, key: str) -> None:
+        for item in self._items:
+            if key.lower() == hot_letter(item):
+                self._chosen(item)
+                return
