@@ -1,0 +1,192 @@
+"""The Drilling screen: the board in the middle, the paper's window at the right, and the machine at the keys.
+
+Rule: every motion is one key of the table below or one entry of the menu, and a refused one says why in the bottom
+line. Drilling itself asks first. Opened by the frame; it is the screen that stays.
+"""
+
+from collections.abc import Callable
+
+import urwid
+
+from drillctl.panel.console import Console, MachineView, Problems
+from drillctl.ui.keys import Key
+from drillctl.ui.screens.board_view import BoardPicture
+from drillctl.ui.screens.side_window import side_lines
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import N_, _
+
+STEP_SIZES = (1, 3, 12, 120, 1200)  # of a jog: a column, a rest, a cycle of pcb-drill's table, a tenth and an inch
+WIDE = 100  # columns from which the window is wide
+NARROW_WINDOW, WIDE_WINDOW = 36, 48
+LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
+
+
+class Drilling(urwid.WidgetWrap[urwid.Widget]):
+    """The machine at work. ``refresh`` is called with the newest view."""
+
+    title = N_("Drilling")
+    keys = (
+        Key(("s",), "S", "start", N_("drills the board; asks first"), N_("Start")),
+        Key(("d",), "D", "dry_run", N_("goes to every hole with the drill up"), N_("Dry")),
+        Key((" ",), "Space", "hold_or_resume", N_("holds the job, or goes on with it"), N_("Hold")),
+        Key(("x",), "X", "stop", N_("ends the job; the position is kept"), N_("Stop")),
+        Key(("i",), "I", "initialise", N_("head up, then X=0, Y=0 by the limit sensors"), N_("Init")),
+        Key(("f",), "F", "files", N_("opens the files"), N_("Files")),
+        Key(("left",), "Left", "jog_back", N_("first axis back by a step size"), argument=0),
+        Key(("right",), "Right", "jog_on", N_("first axis on by a step size"), argument=0),
+        Key(("down",), "Down", "jog_back", N_("second axis back by a step size"), argument=1),
+        Key(("up",), "Up", "jog_on", N_("second axis on by a step size"), argument=1),
+        Key(("page up",), "PgUp", "jog_back", N_("third axis back: the head up"), argument=2),
+        Key(("page down",), "PgDn", "jog_on", N_("third axis on: the head down"), argument=2),
+        Key(("+", "="), "+", "step_size", N_("the next step size of a jog"), argument=1),
+        Key(("-",), "-", "step_size", N_("the step size before"), argument=-1),
+        Key(("h",), "H", "go_to_hole", N_("goes over a hole, by its number")),
+        Key(("t",), "T", "type_place", N_("goes to X and Y in mm, typed")),
+        Key(("b",), "B", "set_base", N_("takes this place as the working base")),
+        Key(("a",), "A", "acknowledge", N_("the fault has been seen")),
+    )
+
+    def __init__(self, console: Console, shell: Shell, plain: bool = False, files: Callable[[], None] | None = None):
+        self._console, self._shell, self._open_files = console, shell, files
+        self._size_index = 2
+        self._told: tuple[str, str] = ("body", "")
+        self._picture = BoardPicture(plain)
+        self._window = _Window()
+        self._note = urwid.Text("", wrap="clip")
+        self._columns = urwid.Columns([self._picture, self._window], dividechars=1)
+        super().__init__(urwid.Frame(self._columns, footer=self._note))
+        self.refresh(console.view())
+
+    def selectable(self) -> bool:
+        """It takes keys although nothing in it does."""
+        return True
+
+    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+        """The table's; everything else is the frame's."""
+        from drillctl.ui.keys import called
+
+        return None if called(self, self.keys, key) else key
+
+    def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
+        """Columns by what there is room for."""
+        window = WIDE_WINDOW if size[0] >= WIDE else NARROW_WINDOW
+        both = [(self._picture, self._columns.options()), (self._window, self._columns.options("given", window))]
+        alone = [(self._window, self._columns.options())]
+        self._columns.contents = both if size[0] >= window + LEAST_BOARD else alone
+        return super().render(size, focus)
+
+    def refresh(self, view: MachineView) -> None:
+        """Draws what changed."""
+        board, progress = self._console.board(), self._console.progress()
+        self._window.show(view, progress, board)
+        of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
+        head = (view.axes[0].position_mm, view.axes[1].position_mm) if len(view.axes) > 1 else None
+        running = bool(of_board and view.command)
+        self._picture.show(board, of_board.holes_done if of_board else 0, running, head)
+        step = _("jog step {steps}").format(steps=STEP_SIZES[self._size_index])
+        self._note.set_text([("field", f" {step} "), " ", self._told])
+
+    def start(self) -> None:
+        """After a question: this one bores."""
+        board = self._console.board()
+        if board is None:
+            self._answer(self._console.start(dry=False))
+            return
+        asked = _("Drill {holes} holes of {name}?").format(holes=len(board.xy_mm), name=board.name)
+        self._shell.ask(asked, lambda: self._answer(self._console.start(dry=False), _("drilling")))
+
+    def dry_run(self) -> None:
+        """The same way with the drill up."""
+        self._answer(self._console.start(dry=True), _("dry run"))
+
+    def hold_or_resume(self) -> None:
+        """One key for both."""
+        if self._console.view().condition in ("holding", "held"):
+            self._answer(self._console.resume(), _("going on"))
+        else:
+            self._answer(self._console.hold(), _("hold"))
+
+    def stop(self) -> None:
+        """Ends the job."""
+        self._answer(self._console.stop(), _("stop; the position is kept"))
+
+    def initialise(self) -> None:
+        """By the limit sensors."""
+        self._answer(self._console.initialise(), _("initialisation"))
+
+    def set_base(self) -> None:
+        """Here."""
+        self._answer(self._console.set_base(), _("this place is the working base"))
+
+    def acknowledge(self) -> None:
+        """Of a fault."""
+        self._answer(self._console.acknowledge(), _("acknowledged"))
+
+    def files(self) -> None:
+        """The other screen."""
+        if self._open_files is not None:
+            self._open_files()
+
+    def jog_on(self, axis: int) -> None:
+        """By the step size."""
+        self._jog(axis, 1)
+
+    def jog_back(self, axis: int) -> None:
+        """By the step size."""
+        self._jog(axis, -1)
+
+    def step_size(self, change: int) -> None:
+        """The next or the one before; the ends stay."""
+        self._size_index = min(max(self._size_index + change, 0), len(STEP_SIZES) - 1)
+        self.refresh(self._console.view())
+
+    def go_to_hole(self) -> None:
+        """By its number in drilling order."""
+        board = self._console.board()
+        if board is None:
+            self._say("warning", _("no board is loaded: open a drill file first"))
+            return
+        prompt = _("Number, 1 to {last}:").format(last=len(board.xy_mm))
+        self._shell.ask_text(_("Go to a hole"), prompt, "1", self._go_to_numbered)
+
+    def type_place(self) -> None:
+        """X and Y in mm from the working base."""
+        self._shell.ask_text(_("Go to X and Y"), _("X and Y in mm from the base:"), "0 0", self._go_to_typed)
+
+    def _go_to_numbered(self, text: str) -> None:
+        board = self._console.board()
+        if board is None or not text.strip().isdecimal() or not 1 <= int(text) <= len(board.xy_mm):
+            self._say("warning", _("there is no hole {text!r}").format(text=text))
+            return
+        x_mm, y_mm = board.xy_mm[int(text) - 1].tolist()
+        self._go_to(x_mm, y_mm)
+
+    def _go_to_typed(self, text: str) -> None:
+        place = pair_mm(text)
+        if place is None:
+            self._say("warning", _("two numbers are wanted, such as 12.7 25.4, not {text!r}").format(text=text))
+        else:
+            self._go_to(*place)
+
+    def _go_to(self, x_mm: float, y_mm: float) -> None:
+        told = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
+        self._answer(self._console.go_to(x_mm, y_mm), told)
+
+    def _jog(self, index: int, sign: int) -> None:
+        axes = self._console.view().axes
+        if index >= len(axes):
+            self._say("warning", _("this machine has no such axis"))
+            return
+        steps = sign * STEP_SIZES[self._size_index]
+        name = axes[index].name
+        self._answer(self._console.jog(name, steps), f"{name.upper()} {steps:+d}")
+
+    def _answer(self, problems: Problems, done: str = "") -> None:
+        if problems:
+            self._say("warning", _("refused: {why}").format(why="; ".join(map(_, problems))))
+        else:
+            self._say("body", done)
+
+    def _say(self, attribute: str, text: str) -> None:
+        self._told = (attribute, text)
+        self.refresh(self._console.view())
