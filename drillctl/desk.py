@@ -21,6 +21,7 @@ from drillctl.panel import Outcome, Progress, fault_report
 from drillctl.trace import Trace
 
 Watcher = Callable[[Progress], None]
+ToolChange = Callable[[int, float | None], bool]  # tool and diameter; asked again and again until it is True
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,7 @@ class Desk:
     total_ticks: int | None = None
     holes: list[MadeHole] = field(default_factory=list)
     trouble: str | None = None
+    tool_change: ToolChange | None = None  # None: taken as made
     resumes_itself: bool = True  # after a hold for a gap in time; where nobody sits who could say go on
 
     def __post_init__(self) -> None:
@@ -76,6 +78,8 @@ class Desk:
         self.feeder = Feeder(program, self.link.queue)
         if self.journal is not None:
             self.feeder.hold_back()
+        if self.tool_change is not None:
+            self.feeder.gate_tools()
         self.status = self.first
 
     def advance(self) -> bool:
@@ -84,6 +88,7 @@ class Desk:
         self.link.turn()
         self.status = status = self.link.status()
         self._confirm()
+        self._change_tool()
         self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
         self.watcher(self.progress())
         if self.link.lost() or is_over(status, self.last_sequence, int(self.first["epoch"])):
@@ -123,6 +128,17 @@ class Desk:
             except JournalError as error:
                 self._stop_for(error)
         self.feeder.feed()
+
+    def _change_tool(self) -> None:
+        """At a gate, with everything before it done and at rest, the operator is asked."""
+        tool = self.feeder.awaited_tool()
+        done = int(self.status["done"]) - int(self.first["done"])
+        if tool is None or self.tool_change is None or done < self.feeder.put or self.status["moving"]:
+            return
+        groups = self.job.work.groups if self.job.work else ()
+        diameter_mm = next((group.diameter_mm for group in groups if group.number == tool), None)
+        if self.tool_change(tool, diameter_mm):
+            self.feeder.open_gate()
 
     def _confirm(self) -> None:
         """Holes that execution has drilled, into the journal: once the head is up again. A lower sensor that answers

@@ -14,7 +14,7 @@ from drillctl.panel.console import Problems
 from drillctl.panel.queues import CommandHelp
 from drillctl.panel.tables import Finding
 
-LARGEST_QUEUE_BYTES = 4 * 1024 * 1024  # far more than a person writes by hand
+LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it is checked at every key
 
 
 class QueueBench:
@@ -42,7 +42,7 @@ class QueueBench:
             with Path(file).open("rb") as stream:
                 data = stream.read(LARGEST_QUEUE_BYTES + 1)
             if len(data) > LARGEST_QUEUE_BYTES:
-                return "", (f"{file}: larger than {LARGEST_QUEUE_BYTES // 2**20} MiB: run it without editing it",)
+                return "", (f"{file}: larger than {LARGEST_QUEUE_BYTES // 1024} KiB: run it without editing it",)
             return data.decode("utf-8-sig"), ()
         except UnicodeDecodeError:
             return "", (f"{file}: not UTF-8 text, so not a queue",)

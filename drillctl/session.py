@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from drillctl.desk import Desk, Run, Watcher
+from drillctl.desk import Desk, Run, ToolChange, Watcher
 from drillctl.generation.job import Job
 from drillctl.generation.journal import Account, Head, Journal, head_of
 from drillctl.lab import forecast
@@ -23,6 +23,7 @@ class Session:
     running: Running
     journal: Path | None = None
     known: Head | Account | None = None
+    tool_change: ToolChange | None = None
 
     def journalled(self, file: Path, journal: Path | None, options: Mapping[str, Any]) -> "Session":
         """With a journal for a job made from ``file``; in the user's state folder where no place is given."""
@@ -39,7 +40,8 @@ class Session:
                 journal = opened.enter_context(closing(Journal(self.journal, self.known)))
             status_file = opened.enter_context(_status_file(self.journal))
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
-            return Desk(self.job, link, watcher, journal, done_before, total_ticks).run()
+            desk = Desk(self.job, link, watcher, journal, done_before, total_ticks, tool_change=self.tool_change)
+            return desk.run()
 
 
 def default_journal(file: Path) -> Path:
@@ -57,9 +59,11 @@ def journals() -> Path:
 
 @contextmanager
 def _status_file(journal: Path | None) -> Iterator[Path]:
-    """The mapped file of a paced run: beside the journal, where it tells of a crash; else for the moment."""
+    """The mapped file of a paced run: beside the journal, where it stays after a crash; else for the moment."""
     if journal is not None:
-        yield journal.with_name(f"{journal.name}.status")
+        file = journal.with_name(f"{journal.name}.status")
+        yield file
+        file.unlink(missing_ok=True)
         return
     with tempfile.TemporaryDirectory(prefix="drillctl-") as folder:
         yield Path(folder) / "status"

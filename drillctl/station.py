@@ -50,7 +50,7 @@ class Station:
             self._link.turn()
             self._link.touches()
         elif self._desk.advance():
-            self._last = self._desk.progress()
+            self._last = self.progress()
             self._desk = None
 
     @property
@@ -72,7 +72,11 @@ class Station:
 
     def progress(self) -> Progress | None:
         """Of the job that runs, or ran last."""
-        return self._desk.progress() if self._desk else self._last
+        if self._desk is None:
+            return self._last
+        told = self._desk.progress()
+        done = int(self._desk.status["done"] - self._desk.first["done"])
+        return replace(told, holes_done=max(told.holes_done, _visited(self._desk.job, done)))
 
     def machines(self) -> Sequence[tuple[str, str]]:
         """Those that can be loaded."""
@@ -112,9 +116,9 @@ class Station:
 
     def start(self, dry: bool) -> Problems:
         """The job's own program begins with an initialisation."""
-        if self._job is None:
+        if self._job is None or self._board is None:
             return ("no board is loaded: open a drill file first",)
-        return self._begin(_dry(self._job) if dry else self._job)
+        return self._begin(_dry(self._job)) if dry else self._begin(self._job, self._board.estimate.ticks)
 
     def run_queue(self, text: str) -> Problems:
         """A queue written by hand."""
@@ -179,10 +183,10 @@ class Station:
     def _started(self, machine: Machine) -> Link:
         return start(machine, self._running, Path(self._folder.name) / "status")
 
-    def _begin(self, job: Job) -> Problems:
+    def _begin(self, job: Job, total_ticks: int | None = None) -> Problems:
         if problems := self._busy():
             return problems
-        self._desk = Desk(job, self._link, _nobody, resumes_itself=False)
+        self._desk = Desk(job, self._link, _nobody, total_ticks=total_ticks, resumes_itself=False)
         self._desk.begin()
         return ()
 
@@ -211,6 +215,12 @@ def _dry(job: Job) -> Job:
     up = np.concatenate([kept[:1], record(Op.WIERTLO_GORA), kept[1:]])
     up["sequence"] = np.arange(1, len(up) + 1)
     return replace(job, program=up)
+
+
+def _visited(job: Job, done: int) -> int:
+    """Numbered holes that the head has been over, once so many commands are done; in a dry run none is drilled."""
+    tags = job.program["tag"][:done]
+    return len(np.unique(tags[tags > 0])) if job.work else 0
 
 
 def _nobody(progress: Progress) -> None:

@@ -165,7 +165,7 @@ def _source(text: str) -> Source:
 
 def _field_view(setting: Setting) -> FieldView:
     value = setting.value
-    shown = f"0x{value:X}" if setting.place[-1] == "card_address" else f"{value}"
+    shown = f"0x{value:X}" if setting.place[-1] == "card_address" else f"{value:g}" if setting.kind is float else f"{value}"
     return FieldView(setting.place, setting.axis, shown, setting.choices, _bounds(setting))
 
 

@@ -6,7 +6,7 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
     inspect.py  what a drill file says           convert.py   a clean file, or a queue, from it
     replay.py   traces again                     tables.py    machines, and checking tables
     latency.py  how punctual this computer is    options.py   machine and tables
-    jobs.py     the options of a job
+    jobs.py     the options of a job         screen.py    work at the machine; what no verb means
 """
 
 import argparse
@@ -16,12 +16,12 @@ from collections.abc import Sequence
 from typing import NoReturn, TextIO
 
 from drillctl import __version__
-from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, tables
+from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, screen, tables
 from drillctl.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency)
+VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "
@@ -56,7 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sys.platform not in ("linux", "darwin"):
         print("drillctl: runs on Linux; on macOS and WSL for simulation. Not here.", file=sys.stderr)
         return REFUSED
-    arguments = parser().parse_args(argv)
+    arguments = parser().parse_args(_with_verb(sys.argv[1:] if argv is None else argv))
     try:
         with caught(leave):
             code = int(arguments.call(arguments))
@@ -69,6 +69,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         return NOBODY_READS
     except Exception as error:
         return _refuse(error)
+
+
+def _with_verb(argv: Sequence[str]) -> Sequence[str]:
+    """Without a verb the screen is meant; options alone are the screen's, but for those that only tell something."""
+    alone = not argv or (argv[0].startswith("-") and argv[0] not in ("-h", "--help", "--version"))
+    return ["screen", *argv] if alone else argv
 
 
 def _refuse(error: Exception) -> int:
@@ -100,7 +106,7 @@ def _is_refusal(error: Exception) -> bool:
 
     refusals = (
         JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError,
-        JournalError, LatencyError,
+        JournalError, LatencyError, screen.ScreenError,
     )  # fmt: skip
     return isinstance(error, refusals)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from drillctl.desk import Run, Watcher
+    from drillctl.desk import Run, ToolChange, Watcher
     from drillctl.machine import Library, Machine
     from drillctl.outputs import Output
 
@@ -55,9 +55,31 @@ def add_running(verb: argparse.ArgumentParser) -> None:
     """``--port`` and ``--pace``."""
     where = "default: %(default)s; see drillctl ports"
     verb.add_argument("--port", default="simulated", metavar="NAME[:ADDRESS]", help=where)
+    pace = "real: by the clock, in a process of its own; default: as the port wants"
+    verb.add_argument("--pace", choices=("free", "real"), help=pace)
+
+
+def add_tools(verb: argparse.ArgumentParser) -> None:
+    """``--tools``."""
     verb.add_argument(
-        "--pace", choices=("free", "real"), help="real: by the clock, in a process of its own; default: as the port wants"
-    )
+        "--tools", choices=("ask", "assume"),
+        help="at a tool change: ask on the terminal, or take it as made; default: ask on a real port",
+    )  # fmt: skip
+
+
+def tool_change(arguments: argparse.Namespace) -> "ToolChange | None":
+    """What desk asks at a tool change. Raises JobError where it should ask and nobody sits at a terminal."""
+    from drillctl.generation.errors import JobError
+    from drillctl.portio.registry import select
+    from drillctl.ui.tools import on_terminal
+
+    port, _ = select(arguments.port)
+    if (arguments.tools or ("ask" if port.real else "assume")) == "assume":
+        return None
+    prompt = on_terminal()
+    if prompt is None:
+        raise JobError(["--tools ask: there is no terminal to ask at; say --tools assume if the right tool is in"])
+    return prompt
 
 
 def add_results(verb: argparse.ArgumentParser) -> None:

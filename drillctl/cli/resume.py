@@ -19,6 +19,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     newest = "default: the newest in the user's state folder"
     verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help=newest)
     options.add_running(verb)
+    options.add_tools(verb)
     options.add_results(verb)
     verb.set_defaults(call=call)
 
@@ -53,7 +54,8 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     if len(account.done) == job.holes_total:
         raise JobError([f"{file}: all {job.holes_total} holes of {job_file.name} are drilled; nothing is left"])
     left = job.without(account.done, wishes)
-    return Session(left, Running(arguments.port, arguments.pace), file, account)
+    running = Running(arguments.port, arguments.pace)
+    return Session(left, running, file, account, options.tool_change(arguments))
 
 
 def _newest() -> Path:
@@ -71,6 +73,11 @@ def _tell(file: Path, account: "Account", left: "Job") -> None:
     print(f"drillctl: {file}: {len(account.done)} of {account.head.holes} holes are drilled", file=sys.stderr)
     if account.torn:
         print(f"drillctl: {file}: its last line is torn, and left out", file=sys.stderr)
+    for warning in left.warnings:
+        print(f"drillctl: warning: {warning}", file=sys.stderr)
+    if account.head.options["spot"] is not None and account.begun:
+        print("drillctl: holes of the tool in hand may bear their spot already; they are marked again, in the same place",
+              file=sys.stderr)  # fmt: skip
     for number in account.open:
         x_mm, y_mm = left.file_place(number)
         print(f"drillctl: hole {number} (X{x_mm:.4f} Y{y_mm:.4f} mm) was cut off; it is drilled again", file=sys.stderr)

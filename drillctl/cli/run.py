@@ -19,6 +19,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("job", type=Path, metavar="JOB", help="a drill file, or a queue of KMD commands (.kmd)")
     options.add_machine(verb)
     options.add_running(verb)
+    options.add_tools(verb)
     where = "keep the job's journal here; default for paced runs: the user's state folder"
     verb.add_argument("--journal", type=Path, metavar="F", help=where)
     verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay")
@@ -45,7 +46,7 @@ def call(arguments: argparse.Namespace) -> int:
     with reserved(wanted, inputs) as (trace, vcd, holes):
         for warning in (*machine_hazards(machine), *job.warnings):
             print(f"drillctl: warning: {warning}", file=sys.stderr)
-        session = Session(job, running)
+        session = Session(job, running, tool_change=options.tool_change(arguments))
         if job.work and (paced or arguments.journal):
             session = session.journalled(arguments.job, arguments.journal, jobs.as_given(arguments))
         done = options.shown(session.run)

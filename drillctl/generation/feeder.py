@@ -1,7 +1,7 @@
 """Puts a program into the queue as room is made, as far as it has been released.
 
 Rule: never waits, never loses a record. Without a journal everything is released at once; with one, hole by hole.
-Called by desk and replay.
+Where the operator changes the tools, each change is a gate that opens when it has been made. Called by desk and replay.
 """
 
 import numpy as np
@@ -20,6 +20,7 @@ class Feeder:
         self.released_holes = 0
         self._begins, self._ends = _strokes(program)
         self._limit = len(program)
+        self._gates: list[int] = []
 
     @property
     def holes(self) -> int:
@@ -41,9 +42,24 @@ class Feeder:
         """How many holes are drilled, with the head up again, once so many commands of the program are done."""
         return int(np.searchsorted(self._ends, done, side="right"))
 
+    def gate_tools(self) -> None:
+        """Nothing passes a tool change before it is opened."""
+        self._gates = np.flatnonzero(self.program["opcode"] == Op.NARZEDZIE).tolist()
+
+    def awaited_tool(self) -> int | None:
+        """The tool at whose closed gate the program stands, or None."""
+        if not self._gates or self.put < self._gates[0]:
+            return None
+        return int(self.program["args"][self._gates[0], 0])
+
+    def open_gate(self) -> None:
+        """The tool has been changed."""
+        self._gates.pop(0)
+
     def feed(self) -> None:
-        """Hands over as much of what is released as the queue takes."""
-        self.put += self.queue.put(self.program[self.put : self._limit][: self.queue.room])
+        """Hands over as much of what is released, and not behind a gate, as the queue takes."""
+        limit = min([self._limit, *self._gates[:1]])
+        self.put += self.queue.put(self.program[self.put : limit][: self.queue.room])
 
 
 def _strokes(program: NDArray[np.void]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -215,6 +215,9 @@ def _sync_folder(folder: Path) -> None:
 
 def _bytes(file: Path) -> bytes:
     try:
+        if not file.is_file():
+            file.open("rb").close()  # a missing file or a folder raises
+            raise JournalError(f"{file}: a device or a pipe: not a journal")
         if file.stat().st_size > LARGEST_JOURNAL_BYTES:
             raise JournalError(f"{file}: larger than {LARGEST_JOURNAL_BYTES >> 20} MiB: not a journal")
         return file.read_bytes()

@@ -50,6 +50,7 @@ def set_reverse(text: str, patterns: Mapping[str, str]) -> str:
         document["reverse"] = rows = tomlkit.aot()
         for name, pattern in patterns.items():
             rows.append(tomlkit.item({"name": name, "pattern": pattern}))
+        rows[0].trivia.indent = "\n"  # an empty line above, as between the rows
     return tomlkit.dumps(document)
 
 

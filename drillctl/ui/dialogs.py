@@ -3,6 +3,7 @@
 Rule: a dialog is closed by every way out of it, before its answer is acted upon. Made by app.py and the screens.
 """
 
+import math
 from collections.abc import Callable, Sequence
 
 import urwid
@@ -10,7 +11,6 @@ import urwid
 from drillctl.ui.words import _
 
 WIDEST = 72
-MARGINS = 6  # border, padding and a column of air at both sides
 
 Act = Callable[[], None]
 
@@ -20,19 +20,26 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(self, title: str, body: Sequence[urwid.Widget], buttons: Sequence[tuple[str, Act]], closing: Act):
         self._closing = closing
+        self._first = self._closed_by(buttons[0][1])
         row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
         self._list = urwid.ListBox(urwid.SimpleFocusListWalker([*body, urwid.Divider(), row]))
         self._list.set_focus(_first_selectable(body, len(body) + 1))
-        box = urwid.LineBox(urwid.Padding(self._list, left=1, right=1), title=title, title_attr="title")
-        super().__init__(urwid.AttrMap(box, "body"))
+        self._title = title
+        self._frame = urwid.LineBox(urwid.Padding(self._list, left=1, right=1), title=title, title_attr="title")
+        super().__init__(urwid.AttrMap(self._frame, "body"))
 
     def keypress(self, size: tuple[int, int], key: str) -> str | None:
         """Nothing passes a dialog."""
         if key == "esc":
             self._closing()
-        else:
-            super().keypress(size, key)
+        elif super().keypress(size, key) == "enter":
+            self._first()
         return None
+
+    def from_the_top(self) -> None:
+        """Shows its first line: for text longer than the terminal. Enter is the first button wherever one reads."""
+        self._list.set_focus(0)
+        self._frame.set_title(_("{title} (PgDn: more)").format(title=self._title))
 
     def wanted_rows(self, columns: int) -> int:
         """Rows for all of it in a box so wide."""
@@ -40,11 +47,15 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         return sum(widget.rows(inner) for widget in self._list.body) + 2
 
     def _button(self, label: str, act: Act) -> urwid.Widget:
-        def pressed(_button: urwid.Button) -> None:
+        pressed = self._closed_by(act)
+        return urwid.AttrMap(urwid.Button(label, lambda _button: pressed()), "key", "focus")
+
+    def _closed_by(self, act: Act) -> Act:
+        def both() -> None:
             self._closing()
             act()
 
-        return urwid.AttrMap(urwid.Button(label, pressed), "key", "focus")
+        return both
 
 
 def nothing() -> None:
@@ -90,8 +101,20 @@ def _first_selectable(body: Sequence[urwid.Widget], otherwise: int) -> int:
     return next((i for i, widget in enumerate(body) if widget.selectable()), otherwise)
 
 
+def pair_mm(text: str) -> tuple[float, float] | None:
+    """Two finite numbers apart by a space or a semicolon, with point or comma; None for anything else."""
+    try:
+        first, second = (float(part.replace(",", ".")) for part in text.replace(";", " ").split())
+    except ValueError:
+        return None
+    return (first, second) if math.isfinite(first) and math.isfinite(second) else None
+
+
 def over(dialog: Dialog, below: urwid.Widget, columns: int, rows: int) -> urwid.Overlay:
     """The dialog in the middle of a terminal of this size, as high as its text needs and the terminal allows."""
     width = min(WIDEST, columns - 2)
-    height = min(dialog.wanted_rows(width), rows - 2)
+    wanted = dialog.wanted_rows(width)
+    height = min(wanted, rows - 2)
+    if height < wanted:
+        dialog.from_the_top()
     return urwid.Overlay(dialog, below, "center", width, "middle", height)

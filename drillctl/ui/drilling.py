@@ -13,7 +13,7 @@ def inspect_lines(name: str, told: Mapping[str, Any]) -> list[str]:
     zeros = f", {told['zeros']} zeros suppressed" if told["zeros"] else ""
     lines.append(f"  {told['units']} {told['format']}{zeros} (confidence {told['confidence']:.0%}): {told['reason']}")
     lines += [_tool_line(tool) for tool in told["tools"]]
-    lines += [f"  warning: {_place(name, warning)}{warning['text']}" for warning in told["warnings"]]
+    lines += [f"  warning: {_place(name, warning)}{warning['reason']}" for warning in told["warnings"]]
     return lines
 
 

@@ -46,10 +46,9 @@ def called(target: object, keys: Iterable[Key], pressed: str) -> bool:
     return False
 
 
-def key_line(keys: Sequence[Key]) -> list[str | tuple[str, str]]:
-    """Markup for the bottom line: the keys with a short word."""
-    shown = [key for key in keys if key.short]
-    return [part for key in shown for part in ((_attribute(key), f" {key.printed} "), f"{_(key.short)} ")]
+def key_parts(keys: Sequence[Key]) -> list[list[str | tuple[str, str]]]:
+    """Marked text of each key with a short word, for the bottom lines."""
+    return [[(_attribute(key), key.printed), f" {_(key.short)}  "] for key in keys if key.short]
 
 
 def help_lines(keys: Sequence[Key]) -> list[str]:

@@ -58,7 +58,7 @@ COLOURS: Mapping[str, Mapping[str, tuple[str, str]]] = {
         "focus": ("white", "dark blue"),
         "field": ("black", "light gray"),
     },
-    "mono": {name: ("default", "default") for name in ATTRIBUTES},
+    "mono": dict.fromkeys(ATTRIBUTES, ("default", "default")),
 }
 THEMES = tuple(COLOURS)
 

@@ -8,6 +8,7 @@ import ast
 import gettext
 import os
 import re
+import unicodedata
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -15,9 +16,6 @@ LOCALE = Path(__file__).resolve().parent.parent / "locale"
 LANGUAGES = ("en", "pl")
 ENTRY = re.compile(r'^msgid ((?:".*"\s*)+)^msgstr ((?:".*"\s*)+)', re.MULTILINE)
 QUOTED = re.compile(r'".*"')
-
-_chosen = gettext.NullTranslations()
-
 
 class Catalogue(gettext.NullTranslations):
     """A language's words by English source; what is missing stays English."""
@@ -31,17 +29,31 @@ class Catalogue(gettext.NullTranslations):
         return self.words.get(message) or message
 
 
+_spoken = Catalogue({})
+
+
 def catalogue(text: str) -> dict[str, str]:
     """A ``.po`` file's entries by source string, without its header. Plural forms are not used here."""
     found = {_joined(source): _joined(word) for source, word in ENTRY.findall(text)}
     return {source: word for source, word in found.items() if source}
 
 
-def use(language: str) -> None:
-    """From now on ``_`` speaks this language, one of LANGUAGES."""
-    global _chosen
-    file = LOCALE / language / "LC_MESSAGES" / "drillctl.po"
-    _chosen = Catalogue(catalogue(file.read_text("utf-8"))) if language != "en" else gettext.NullTranslations()
+def use(language: str, plain: bool = False) -> None:
+    """From now on ``_`` speaks this language, one of LANGUAGES; ``plain``: without accents, for a poor terminal."""
+    words = {} if language == "en" else catalogue(_file(language).read_text("utf-8"))
+    if plain:
+        words = {source: _without_accents(word) for source, word in words.items()}
+    _spoken.words = words
+
+
+def _file(language: str) -> Path:
+    return LOCALE / language / "LC_MESSAGES" / "drillctl.po"
+
+
+def _without_accents(text: str) -> str:
+    """The letters that are left when accents fall off; the Polish l has none that could."""
+    letters = unicodedata.normalize("NFKD", text.replace("ł", "l").replace("Ł", "L"))
+    return letters.encode("ascii", "ignore").decode("ascii")
 
 
 def language_of(environment: Mapping[str, str] = os.environ) -> str:
@@ -54,7 +66,7 @@ def language_of(environment: Mapping[str, str] = os.environ) -> str:
 
 def _(message: str) -> str:
     """The message in the operator's language."""
-    return _chosen.gettext(message) if message else ""
+    return _spoken.gettext(message) if message else ""
 
 
 def N_(message: str) -> str:

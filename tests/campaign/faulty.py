@@ -37,29 +37,18 @@ class FaultyCard(SimulatedCard):
         self._flushes = self._touches = 0
         self._told = False
 
-    @property
-    def _failing(self) -> str:
-        first, count = self._plan.get("from_flush", 0), self._plan.get("flushes", 0)
-        return self._plan["fails"] if first <= self._flushes < first + count else ""
-
     def latch(self) -> int:
         image = super().latch()
-        if not self._failing:
+        if not self._fails():
             return image
-        if not self._told:
-            self._told = True
-            self._tell("fails")
-        if self._failing == "pulled":
-            raise OSError(errno.EIO, "the port was pulled")
-        if self._failing == "stuck":
+        if self._plan["fails"] == "stuck":
             bit = 1 << self._plan["bit"]
             return image | bit if self._plan["level"] else image & ~bit
         return image ^ (self._flushes & 1) << self._plan["bit"]
 
     def flush(self, image: int) -> None:
         self._flushes += 1
-        if self._failing == "pulled":
-            raise OSError(errno.EIO, "the port was pulled")
+        self._fails()
         super().flush(image)
         if self.plant.touches != self._touches:
             self._touches = self.plant.touches
@@ -68,8 +57,18 @@ class FaultyCard(SimulatedCard):
     def safe(self) -> None:
         if self._flushes:  # in the process that ticked: the others' plants stand where they stood at the fork
             self._tell("safe")
-        if self._failing != "pulled":
-            super().safe()
+        super().safe()
+
+    def _fails(self) -> bool:
+        """Whether it is time to fail; tells of the first time. Raises OSError where the port is pulled."""
+        first, count = self._plan.get("from_flush", 0), self._plan.get("flushes", 0)
+        failing = first <= self._flushes < first + count
+        if failing and not self._told:
+            self._told = True
+            self._tell("fails")
+        if failing and self._plan["fails"] == "pulled":
+            raise OSError(errno.EIO, "the port was pulled")
+        return failing
 
     def _tell(self, what: str) -> None:
         places = " ".join(f"{self.plant.position_steps(axis):.1f}" for axis in range(len(self.plant.rotors)))

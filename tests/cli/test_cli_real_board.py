@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+Drillctl = Callable[..., "subprocess.CompletedProcess[str]"]
 REAL = Path(__file__).resolve().parents[3] / "shared" / "drill-files" / "real"
 HALF_STEP_MM = 25.4 / 1200 / 2
 PRINTED_MM = 0.0001  # the CSV has four decimals
@@ -31,7 +32,7 @@ def holes_by_tool(file: Path) -> dict[int, list[tuple[float, float]]]:
 
 
 @pytest.mark.parametrize("name", ["gerbonara-driver-npth", "bldc-hardware-bldc-4.drl", "gerbonara-flashpads-npth.drl"])
-def test_every_hole_is_where_the_file_says(name: str, drillctl: Callable[..., subprocess.CompletedProcess[str]], folder: Path) -> None:
+def test_every_hole_is_where_the_file_says(name: str, drillctl: Drillctl, folder: Path) -> None:
     if not REAL.is_dir():
         pytest.skip("../shared/drill-files is not here: no real drill files to read")
     expected = holes_by_tool(REAL / name)

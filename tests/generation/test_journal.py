@@ -181,15 +181,23 @@ def test_another_machine_is_refused(folder: Path, capsys: pytest.CaptureFixture[
     assert "machine pcb-drill is not the one that the job was begun on" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("hits", "code"), [(900, 0), (1, 0)])
-def test_a_drill_table_may_wear_meanwhile(hits: int, code: int, folder: Path) -> None:
-    """It serves the same holes; that its drills are older changes no place."""
-    (folder / "d").write_text("0.8 0.05 1000\n1.0 0.05 1000\n")
-    if run("--drills", "d") == 2:
-        pytest.fail("the drill table was refused")
+@pytest.mark.parametrize(
+    ("used_hits", "diameter_mm", "code", "reason"),
+    [(10, 1.0, 0, "is good for 0 more"), (0, 3.0, 2, "drill")],
+    ids=["its drills are worn", "a drill is gone"],
+)
+def test_a_drill_table_that_has_changed_is_looked_at_again(
+    used_hits: int, diameter_mm: float, code: int, reason: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What is left needs the drills at hand now; that they are older changes no place."""
+    table = "[[drill]]\ndiameter_mm = 0.8\nlife_hits = 10\nused_hits = {}\n[[drill]]\ndiameter_mm = {}\n"
+    (folder / "d").write_text(table.format(0, 1.0))
+    assert run("--drills", "d") == 0
     keep_lines(folder, 4)
-    (folder / "d").write_text(f"0.8 0.05 {hits}\n1.0 0.05 {hits}\n")
+    (folder / "d").write_text(table.format(used_hits, diameter_mm))
+    capsys.readouterr()
     assert resume() == code
+    assert reason in capsys.readouterr().err
 
 
 def test_another_alignment_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -259,9 +267,20 @@ def test_a_full_disk_stops_the_job_and_leaves_a_whole_journal(room_bytes: int, f
     assert read_journal(folder / "j").done == {1, 2, 3, 4}
 
 
-def test_a_disk_that_is_full_from_the_start_refuses_the_run(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "job.drl", "--journal", "/dev/full"]) == 2
-    assert "/dev/full" in capsys.readouterr().err
+@pytest.mark.parametrize("place", ["/dev/full", "/dev/zero", ".", "job.drl/x"])
+def test_a_place_that_can_hold_no_journal_is_refused(place: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "job.drl", "--journal", place]) == 2
+    assert f"drillctl: {place}: " in capsys.readouterr().err
+
+
+def test_a_disk_without_room_for_the_first_line_refuses_the_run(folder: Path) -> None:
+    call = [sys.executable, "-m", "drillctl", "run", "job.drl", "--journal", "j"]
+    done = subprocess.run(
+        call, capture_output=True, text=True, timeout=60, check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)),
+    )  # fmt: skip
+    assert done.returncode == 2 and "drillctl: j: can't be written" in done.stderr
+    assert run() == 0
 
 
 def test_a_journal_of_ones_own_is_found_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

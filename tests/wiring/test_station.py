@@ -55,8 +55,9 @@ def test_a_board_is_loaded_and_drilled_dry(station: Station) -> None:
     assert board is not None and len(board.xy_mm) == 26 and board.estimate.ticks > 0
     assert station.start(dry=True) == ()
     settle(station)
-    view = station.view()
+    view, progress = station.view(), station.progress()
     assert view.fault is None and view.lost_steps == (0, 0, 0)
+    assert progress is not None and (progress.holes_done, progress.holes_total) == (26, 26)
     assert (view.axes[0].position_steps, view.axes[1].position_steps) == (0, 0)
 
 

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from drillctl.panel.console import BoardView
 from drillctl.ui.board import BRAILLE, Sheet
+from drillctl.ui.lines import Line, boxed
 from drillctl.ui.words import _
 
 Place = tuple[float, float]
 EMPTY = chr(BRAILLE)
-Markup = list[str | tuple[str, str]]
 
 # What a cell shows: its attribute, and its sign with and without UTF-8. Holes to do are braille where there is UTF-8.
 SIGNS = {
@@ -45,26 +45,21 @@ class BoardPicture(urwid.Widget):
     def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
         """The picture, clipped to the box."""
         columns, rows = size
-        canvas = urwid.CompositeCanvas(urwid.Text(self._markup(columns, rows), wrap="clip").render((columns,)))
-        canvas.pad_trim_top_bottom(0, rows - canvas.rows())
-        return canvas
+        return boxed(self._lines(columns, rows), columns, rows)
 
-    def _markup(self, columns: int, rows: int) -> Markup:
+    def _lines(self, columns: int, rows: int) -> list[Line]:
         board, done, running, head_mm = self._state
         if board is None or not len(board.xy_mm):
-            return [("dark", _("No board is loaded."))]
+            return [[("dark", _("No board is loaded."))]]
         sheet = Sheet.fitted(board.xy_mm, columns, rows)
         signs, states = self._drawn(sheet, board.xy_mm, done, running, head_mm)
-        lines = [_runs(row, named) for row, named in zip(signs, states, strict=True)]
-        return [part for line in lines for part in [*line, "\n"]][:-1]
+        return [_runs(row, named) for row, named in zip(signs, states, strict=True)]
 
     def _drawn(
         self, sheet: Sheet, xy_mm: NDArray[np.float64], done: int, running: bool, head_mm: Place | None
     ) -> tuple[list[list[str]], list[list[str]]]:
         """Signs and states of the cells, row by row; what is told later lies over what was told before."""
-        signs = [list(row) for row in sheet.braille(xy_mm)]
-        if self._plain:
-            signs = [["." if sign != EMPTY else " " for sign in row] for row in signs]
+        signs = [[self._sign(sign) for sign in row] for row in sheet.braille(xy_mm)]
         states = [["to do"] * len(row) for row in signs]
         cells = sheet.cells(xy_mm).tolist()
         left = set(map(tuple, cells[done:]))
@@ -73,6 +68,12 @@ class BoardPicture(urwid.Widget):
         self._mark(signs, states, "head", sheet.cells(np.array([head_mm])).tolist() if head_mm else [])
         return signs, states
 
+    def _sign(self, braille: str) -> str:
+        """Of a cell with holes to do, or none."""
+        if braille == EMPTY:
+            return " "
+        return SIGNS["to do"][2] if self._plain else braille
+
     def _mark(self, signs: list[list[str]], states: list[list[str]], state: str, cells: list[list[int]]) -> None:
         sign = SIGNS[state][2 if self._plain else 1]
         for row, column in cells:
@@ -80,7 +81,7 @@ class BoardPicture(urwid.Widget):
                 signs[row][column], states[row][column] = sign, state
 
 
-def _runs(signs: list[str], states: list[str]) -> Markup:
-    """One line as urwid's markup."""
+def _runs(signs: list[str], states: list[str]) -> Line:
+    """One line as marked text."""
     pairs = groupby(zip(signs, states, strict=True), key=lambda pair: pair[1])
     return [(SIGNS[state][0], "".join(sign for sign, _state in run)) for state, run in pairs]

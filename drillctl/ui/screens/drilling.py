@@ -9,9 +9,10 @@ from collections.abc import Callable
 import urwid
 
 from drillctl.panel.console import Console, MachineView, Problems
-from drillctl.ui.keys import Key
+from drillctl.ui.dialogs import pair_mm
+from drillctl.ui.keys import Key, called
 from drillctl.ui.screens.board_view import BoardPicture
-from drillctl.ui.screens.side_window import side_lines
+from drillctl.ui.screens.side_window import SideWindow
 from drillctl.ui.shell import Shell
 from drillctl.ui.words import N_, _
 
@@ -51,7 +52,7 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         self._size_index = 2
         self._told: tuple[str, str] = ("body", "")
         self._picture = BoardPicture(plain)
-        self._window = _Window()
+        self._window = SideWindow()
         self._note = urwid.Text("", wrap="clip")
         self._columns = urwid.Columns([self._picture, self._window], dividechars=1)
         super().__init__(urwid.Frame(self._columns, footer=self._note))
@@ -63,8 +64,6 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
 
     def keypress(self, size: tuple[int, int], key: str) -> str | None:
         """The table's; everything else is the frame's."""
-        from drillctl.ui.keys import called
-
         return None if called(self, self.keys, key) else key
 
     def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:

@@ -6,13 +6,36 @@ by colour alone. Where there is room, each motor's whole phase table is drawn, w
 
 from collections.abc import Iterable
 
+import urwid
+
 from drillctl.panel.console import AxisView, BoardView, MachineView
 from drillctl.panel.records import Progress
+from drillctl.ui.lines import Line, boxed
 from drillctl.ui.progress import clock
 from drillctl.ui.words import _
 
-Line = list[str | tuple[str, str]]
 LABEL_WIDTH = 9
+
+
+class SideWindow(urwid.Widget):
+    """A box of these lines."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+
+    def __init__(self) -> None:
+        self._shown: tuple[MachineView, Progress | None, BoardView | None] | None = None
+
+    def show(self, view: MachineView, progress: Progress | None, board: BoardView | None) -> None:
+        """Redrawn only if something is new."""
+        if (view, progress, board) != self._shown:
+            self._shown = (view, progress, board)
+            self._invalidate()
+
+    def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
+        """The lines, clipped to the box."""
+        columns, rows = size
+        lines = side_lines(*self._shown, columns, rows) if self._shown else []
+        return boxed(lines, columns, rows)
 
 
 def side_lines(

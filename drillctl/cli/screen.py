@@ -1,0 +1,41 @@
+"""``drillctl screen``, or ``drillctl`` alone: the machine on the screen, with menus, the board and the keys."""
+
+import argparse
+import sys
+
+from drillctl.cli import options
+
+
+class ScreenError(Exception):
+    """There is no terminal to draw on."""
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("screen", help="work at the machine, on the screen; no verb means this", description=__doc__)
+    options.add_machine(verb)
+    options.add_running(verb)
+    verb.add_argument("--lang", choices=("en", "pl"), help="default: as LANG says")
+    verb.add_argument("--theme", choices=("colour", "light", "mono"), default="colour", help="default: %(default)s")
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """Every way out closes the console: the outputs are safe, and what was started has ended."""
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        raise ScreenError("the screen needs a terminal; for a pipe or a script there are verbs: drillctl --help")
+    from drillctl.machinery import Running
+    from drillctl.station import Station
+    from drillctl.ui import words
+    from drillctl.ui.app import App
+
+    plain = (sys.stdout.encoding or "").lower() != "utf-8"
+    words.use(arguments.lang or words.language_of(), plain)
+    pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
+    library = options.library(arguments)
+    station = Station(library, options.machine(arguments), Running(arguments.port, pace))
+    try:
+        App(station, arguments.theme, plain).run()
+    finally:
+        station.close()
+    return 0

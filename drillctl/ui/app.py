@@ -1,0 +1,264 @@
+"""The program on the screen: one loop that lets the machine's news in, shows them, and hands keys to whom they concern.
+
+Rule: the emergency stop is looked for before any widget sees a key, so it works in dialogs, menus and fields. Nothing
+here blocks. Made and run by the screen verb, which closes the console on every way out.
+"""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import urwid
+
+from drillctl.panel.console import Console, MachineView
+from drillctl.ui import dialogs
+from drillctl.ui.frame import MainFrame, screen_keys
+from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, called, help_lines
+from drillctl.ui.menus import MENUS, Item, PullDown
+from drillctl.ui.screens.drilling import Drilling
+from drillctl.ui.screens.files import Files
+from drillctl.ui.shell import Live, Shell
+from drillctl.ui.themes import palette
+from drillctl.ui.words import _
+
+BEAT_S = 0.05
+# Of each beat, the console is given so long: a machine that runs free gets on in it, a paced one has its queue filled.
+TURNING_S = 0.01
+
+Maker = Callable[[Console, Shell], urwid.Widget]
+Pressed = str | tuple[str, int, int, int]
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A box over the frame, and how it is laid over what is below in a terminal of so many columns and rows."""
+
+    box: urwid.Widget
+    over: Callable[[urwid.Widget, int, int], urwid.Overlay]
+
+
+class App:
+    """The shell of the screens. ``makers`` gives the further screens, by the names that the menus use."""
+
+    def __init__(
+        self, console: Console, theme: str = "colour", plain: bool = False, makers: Mapping[str, Maker] | None = None,
+        terminal: urwid.display.common.BaseScreen | None = None,
+    ):  # fmt: skip
+        self._console = console
+        self._makers: dict[str, Maker] = {
+            "files": lambda console, shell: Files(console, shell, plain),
+            "drilling": lambda console, shell: Drilling(console, shell, plain, lambda: self.show("files")),
+            **(makers or {}),
+        }
+        self._made: dict[str, urwid.Widget] = {}
+        self._layers: list[Layer] = []
+        self._fault_told = 0
+        self._screens = [self._screen("drilling")]
+        self.frame = MainFrame(self._screens[0])
+        self._root = urwid.WidgetPlaceholder(urwid.AttrMap(self.frame, "body"))
+        self.loop = urwid.MainLoop(
+            self._root, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
+        )
+        self._refresh_top()
+
+    def run(self) -> None:
+        """Until the operator leaves."""
+        self.loop.set_alarm_in(0, self._beat)
+        self.loop.run()
+
+    def turn(self) -> None:
+        """The machine's news in, and what changed on the screen."""
+        until_s = time.monotonic() + TURNING_S
+        while time.monotonic() < until_s:
+            self._console.turn()
+        view = self._console.view()
+        self.frame.show_machine(view)
+        if isinstance(self._screens[-1], Live):
+            self._screens[-1].refresh(view)
+        self._tell_fault(view)
+
+    def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
+        """Before any widget: the emergency stop, and a new size of the terminal."""
+        if any(key in EMERGENCY.names for key in keys):
+            self.emergency_stop()
+        if "window resize" in keys:
+            self._restack()
+        return [key for key in keys if key not in EMERGENCY.names]
+
+    def unhandled(self, pressed: Pressed) -> bool:
+        """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""
+        if not isinstance(pressed, str):
+            return self._clicked(*pressed)
+        if pressed.startswith("meta "):
+            return self._drop(self.frame.bar.lettered(pressed.removeprefix("meta ")))
+        return called(self, FRAME_KEYS, pressed)
+
+    def message(self, title: str, lines: Sequence[str]) -> None:
+        """See Shell."""
+        self._ask(dialogs.message(title, lines, self._pop))
+
+    def ask(self, question: str, yes: Callable[[], None]) -> None:
+        """See Shell."""
+        self._ask(dialogs.question(question, yes, self._pop))
+
+    def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
+        """See Shell."""
+        self._ask(dialogs.entry(title, prompt, text, accept, self._pop))
+
+    def open(self, screen: urwid.Widget) -> None:
+        """See Shell. A screen that is open already comes to the top."""
+        self._screens = [other for other in self._screens if other is not screen] + [screen]
+        self._refresh_top()
+
+    def back(self) -> None:
+        """See Shell."""
+        if len(self._screens) > 1:
+            self._screens.pop()
+            self._refresh_top()
+
+    def show(self, name: str) -> urwid.Widget | None:
+        """Opens a screen by its name in the menus; None, and a message, where it is not to be had."""
+        screen = self._screen(name)
+        if screen is None:
+            self.message(_("Not here"), [_("This screen is not part of this program.")])
+        else:
+            self.open(screen)
+        return screen
+
+    def emergency_stop(self) -> None:
+        """At once."""
+        self._console.emergency_stop()
+
+    def menu(self) -> None:
+        """The first one drops."""
+        self._drop(0)
+
+    def help(self) -> None:
+        """The keys that work here."""
+        screen = self._screens[-1]
+        self.message(_("Keys"), help_lines([*screen_keys(screen), *FRAME_KEYS]))
+
+    def about(self) -> None:
+        """What this is."""
+        self.message(_("About"), [_("drillctl drives and simulates stepper-motor drilling machines.")])
+
+    def leave(self) -> None:
+        """At once from a machine at rest, after a question from one at work."""
+        if self._console.view().moving:
+            self.ask(_("The machine is moving. Stop it and leave?"), _leave)
+        else:
+            _leave()
+
+    def set_theme(self, theme: str) -> None:
+        """Another look."""
+        self.loop.screen.register_palette(palette(theme))
+        self.loop.screen.clear()
+
+    def choose_machine(self) -> None:
+        """A menu of those there are."""
+        items = [Item(name, "", "take_machine", name) for name, _description in self._console.machines()]
+        self._pull(items, len(_("Machine")), 2)
+
+    def take_machine(self, name: str) -> None:
+        """Another machine, from its start position."""
+        if problems := self._console.choose_machine(name):
+            self.message(_("Refused"), [_(problem) for problem in problems])
+        else:
+            self._refresh_top()
+
+    def _beat(self, loop: urwid.MainLoop, _data: object = None) -> None:
+        self.turn()
+        loop.set_alarm_in(BEAT_S, self._beat)
+
+    def _tell_fault(self, view: MachineView) -> None:
+        """Once a fault."""
+        fault = view.fault
+        code = fault.code if fault and view.condition != "returning" else 0
+        if fault and code and code != self._fault_told:
+            position = _("position kept") if fault.position == "kept" else _("position lost: initialise again")
+            lines = [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]
+            self._ask(dialogs.message(f"{_('FAULT')} {fault.name}", lines, self._pop, self._acknowledge))
+        self._fault_told = code
+
+    def _acknowledge(self) -> None:
+        self._console.acknowledge()
+
+    def _screen(self, name: str) -> urwid.Widget | None:
+        if name not in self._made and name in self._makers:
+            self._made[name] = self._makers[name](self._console, self)
+        return self._made.get(name)
+
+    def _refresh_top(self) -> None:
+        self.frame.show_screen(self._screens[-1])
+        self.turn()
+
+    def _clicked(self, event: str, _button: int, column: int, row: int) -> bool:
+        if event != "mouse press" or (self._layers and not isinstance(self._layers[-1].box, PullDown)):
+            return False
+        self._close_menus()
+        return row == 0 and self._drop(self.frame.bar.at(column))
+
+    def _drop(self, index: int | None) -> bool:
+        """A menu of the bar, in place of any that is open."""
+        if index is None:
+            return False
+        self._close_menus()
+        index %= len(MENUS)
+        self._pull(MENUS[index].items, self.frame.bar.left_of(index), 1, lambda by: self._drop(index + by))
+        return True
+
+    def _pull(
+        self, items: Sequence[Item], left: int, top: int, sideways: Callable[[int], object] = lambda by: None
+    ) -> None:
+        """A box of entries at a place; a further one lies a little below and to the right."""
+
+        def chosen(item: Item) -> None:
+            if item.items:
+                self._pull(item.items, left + 4, top + 2, lambda by: by < 0 and self._pop())
+            else:
+                self._choose(item)
+
+        box = PullDown(items, chosen, sideways, self._pop)
+        self._push(Layer(box, lambda below, columns, rows: _placed(box, below, left, top, columns, rows)))
+
+    def _choose(self, item: Item) -> None:
+        self._close_menus()
+        target = self.show(item.screen) if item.screen else self
+        if target is not None and item.method:
+            method = getattr(target, item.method)
+            method() if item.argument is None else method(item.argument)
+
+    def _close_menus(self) -> None:
+        self._layers = [layer for layer in self._layers if not isinstance(layer.box, PullDown)]
+        self._restack()
+
+    def _ask(self, dialog: dialogs.Dialog) -> None:
+        self._push(Layer(dialog, lambda below, columns, rows: dialogs.over(dialog, below, columns, rows)))
+
+    def _push(self, layer: Layer) -> None:
+        self._layers.append(layer)
+        self._restack()
+
+    def _pop(self) -> None:
+        if self._layers:
+            self._layers.pop()
+        self._restack()
+
+    def _restack(self) -> None:
+        """Every layer over the ones below, for the terminal as it is now."""
+        columns, rows = self.loop.screen.get_cols_rows()
+        widget: urwid.Widget = urwid.AttrMap(self.frame, "body")
+        for layer in self._layers:
+            widget = layer.over(widget, columns, rows)
+        self._root.original_widget = widget
+
+
+def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: int, rows: int) -> urwid.Overlay:
+    """Within the terminal, whatever its size."""
+    width, height = min(box.columns, columns), min(box.rows_wanted, rows - top)
+    shifted = max(0, min(left, columns - width))
+    return urwid.Overlay(box, below, "left", width, "top", height, left=shifted, top=top)
+
+
+def _leave() -> None:
+    raise urwid.ExitMainLoop

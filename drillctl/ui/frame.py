@@ -1,0 +1,105 @@
+"""What stays on every screen: the menu bar, a line on the machine, and the keys at the bottom.
+
+Rule: it only shows; what a click or a key does is decided in app.py.
+"""
+
+from collections.abc import Sequence
+
+import urwid
+
+from drillctl.panel.console import MachineView
+from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
+from drillctl.ui.lines import Line, Size, boxed, packed
+from drillctl.ui.menus import MENUS, hot_letter, label_markup, plain_label
+from drillctl.ui.words import N_, _
+
+# Condition: how it is shown, and its word.
+CONDITIONS = {
+    "ready": ("good", N_("READY")),
+    "holding": ("warning", N_("BRAKING")),
+    "held": ("warning", N_("HELD")),
+    "stopping": ("warning", N_("STOPPING")),
+    "returning": ("warning", N_("RETURNING")),
+    "latched": ("danger", N_("FAULT")),
+}
+
+
+class MenuBar(urwid.Text):
+    """The menus side by side; ``left_of`` and ``at`` tell where each of them stands."""
+
+    def __init__(self) -> None:
+        parts = [part for menu in MENUS for part in (" ", *label_markup(menu), " ")]
+        super().__init__(parts, wrap="clip")
+
+    @staticmethod
+    def left_of(index: int) -> int:
+        """The first column of a menu."""
+        return sum(len(plain_label(menu)) + 2 for menu in MENUS[:index])
+
+    def at(self, column: int) -> int | None:
+        """Which menu stands at a column."""
+        inside = (i for i in range(len(MENUS)) if self.left_of(i) <= column < self.left_of(i + 1))
+        return next(inside, None)
+
+    @staticmethod
+    def lettered(letter: str) -> int | None:
+        """Which menu has this hot letter."""
+        return next((i for i, menu in enumerate(MENUS) if hot_letter(menu) == letter.lower()), None)
+
+
+class KeyLine(urwid.Widget):
+    """The keys with a short word, in as many lines as they need."""
+
+    _sizing = frozenset([urwid.Sizing.FLOW])
+    keys: Sequence[Key] = ()
+
+    def show(self, keys: Sequence[Key]) -> None:
+        """Another screen's keys."""
+        self.keys = keys
+        self._invalidate()
+
+    def rows(self, size: tuple[int], focus: bool = False) -> int:
+        """By the width."""
+        return len(packed(key_parts(self.keys), size[0]))
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """All of them."""
+        assert len(size) == 1
+        lines = packed(key_parts(self.keys), size[0])
+        return boxed(lines, size[0], len(lines))
+
+
+class MainFrame(urwid.Frame):
+    """Bar and machine above, a screen between, keys below."""
+
+    def __init__(self, screen: urwid.Widget):
+        self.bar = MenuBar()
+        self._machine = urwid.Text("", wrap="clip")
+        self._keys = KeyLine()
+        header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
+        super().__init__(screen, header=header, footer=self._keys)
+
+    def show_screen(self, screen: urwid.Widget) -> None:
+        """Another screen between, its keys below."""
+        self.body = screen
+        self._keys.show([EMERGENCY, *screen_keys(screen), *FRAME_KEYS[1:]])
+
+    def show_machine(self, view: MachineView) -> None:
+        """The line on the machine."""
+        attribute, word = CONDITIONS[view.condition]
+        moving = _("moving") if view.moving else _("at rest")
+        known = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
+        place = f" {view.machine} | {view.port} | "
+        shown = (attribute, f" {_(word)} ")
+        title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
+        markup = [title, place, shown, f" {moving} | ", known]
+        if view.notices:
+            markup += [" | ", ("warning", view.notices[-1])]
+        if markup != getattr(self, "_shown", None):
+            self._shown = markup
+            self._machine.set_text(markup)
+
+
+def screen_keys(screen: urwid.Widget) -> Sequence[Key]:
+    """A screen's own table, where it has one."""
+    return getattr(screen, "keys", ())

@@ -1,0 +1,118 @@
+"""A phase table as a grid of cells: wires down, columns across, rows for motion backwards below where there are any.
+
+Rule: a grid never changes; every operation gives another one. Used by the phase editor, which keeps their history.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from drillctl.panel.tables import PhaseRow
+
+ON, OFF = "x", "."
+LEAST_COLUMNS = 2
+Pattern = Callable[[str], str]
+
+
+@dataclass(frozen=True, slots=True)
+class GridLine:
+    """A line of the grid: a wire's row, or its row for motion backwards."""
+
+    name: str
+    volts: float
+    pattern: str
+    backwards: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PhaseGrid:
+    """The rows of a phase table. Columns are counted from 0 here, from 1 on the screen."""
+
+    rows: tuple[PhaseRow, ...]
+
+    @property
+    def columns(self) -> int:
+        """The length of the longest row: a table being edited elsewhere may have uneven ones."""
+        return max((len(row.pattern) for row in self.rows), default=0)
+
+    @property
+    def has_reverse(self) -> bool:
+        """Whether motion backwards has rows of its own."""
+        return any(row.reverse is not None for row in self.rows)
+
+    @property
+    def lines(self) -> tuple[GridLine, ...]:
+        """The lines from top to bottom: every wire, then the rows for motion backwards."""
+        forward = [GridLine(row.name, row.volts, row.pattern, False) for row in self.rows]
+        back = [GridLine(row.name, row.volts, row.reverse, True) for row in self.rows if row.reverse is not None]
+        return (*forward, *back)
+
+    def toggle(self, line: int, column: int) -> "PhaseGrid":
+        """The cell the other way; a cell that is not there stays so."""
+        lines = self.lines
+        if not 0 <= line < len(lines) or not 0 <= column < len(lines[line].pattern):
+            return self
+        pattern = lines[line].pattern
+        other = OFF if pattern[column] == ON else ON
+        return self._with(lines[line], f"{pattern[:column]}{other}{pattern[column + 1 :]}")
+
+    def insert(self, column: int) -> "PhaseGrid":
+        """The column twice: the rotor is held there a tick longer, until its cells are toggled."""
+        return self._each(lambda pattern: pattern[: column + 1] + pattern[column:])
+
+    def remove(self, column: int) -> "PhaseGrid":
+        """Without the column; a table keeps two."""
+        if self.columns <= LEAST_COLUMNS:
+            return self
+        return self._each(lambda pattern: pattern[:column] + pattern[column + 1 :])
+
+    def mirrored(self) -> "PhaseGrid":
+        """With rows for motion backwards in which forcing comes first there too.
+
+        A table is played backwards as it stands, so forcing that opens a phase forwards closes it backwards. Here the
+        forcing wires (above the lowest voltage) are mirrored within every stretch of columns in which the other wires
+        stay as they are.
+        """
+        if len({len(row.pattern) for row in self.rows}) != 1:
+            return self  # rows of different lengths are no table yet
+        lowest = min(row.volts for row in self.rows)
+        stretches = self._stretches([row.pattern for row in self.rows if row.volts <= lowest])
+        return PhaseGrid(
+            tuple(
+                replace(row, reverse=_mirrored(row.pattern, stretches) if row.volts > lowest else row.pattern)
+                for row in self.rows
+            )
+        )
+
+    def without_reverse(self) -> "PhaseGrid":
+        """Motion backwards plays the same rows again."""
+        return PhaseGrid(tuple(replace(row, reverse=None) for row in self.rows))
+
+    def _stretches(self, patterns: list[str]) -> list[list[int]]:
+        """The columns of each stretch in which these rows don't change; the last may go on at the first column."""
+        columns = list(zip(*patterns, strict=True))
+        count = len(columns)
+        starts = [column for column in range(count) if columns[column] != columns[column - 1]] or [0]
+        ends = [*starts[1:], starts[0] + count]
+        return [[c % count for c in range(start, end)] for start, end in zip(starts, ends, strict=True) if count]
+
+    def _each(self, change: Pattern) -> "PhaseGrid":
+        return PhaseGrid(
+            tuple(
+                replace(row, pattern=change(row.pattern), reverse=None if row.reverse is None else change(row.reverse))
+                for row in self.rows
+            )
+        )
+
+    def _with(self, line: GridLine, pattern: str) -> "PhaseGrid":
+        def changed(row: PhaseRow) -> PhaseRow:
+            return replace(row, reverse=pattern) if line.backwards else replace(row, pattern=pattern)
+
+        return PhaseGrid(tuple(changed(row) if row.name == line.name else row for row in self.rows))
+
+
+def _mirrored(pattern: str, stretches: list[list[int]]) -> str:
+    marks = list(pattern)
+    for stretch in stretches:
+        for column, opposite in zip(stretch, reversed(stretch), strict=True):
+            marks[column] = pattern[opposite]
+    return "".join(marks)

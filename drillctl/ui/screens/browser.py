@@ -1,0 +1,106 @@
+"""A file browser: folders first, then the files that match a filter. Called by the Files screen.
+
+Rule: what can't be read shows as what it is, and never stops the browser: the reason takes its place.
+"""
+
+from collections.abc import Callable, Iterator
+from fnmatch import fnmatch
+from pathlib import Path
+
+import urwid
+
+from drillctl.ui.words import _
+
+DRILL_FILES = "*.drl *.drd *.xln *.xnc *.exc *.cnc *.nc *.txt *.tap *.ncd *.rou"
+MOST_ENTRIES = 2000
+PREVIEW_BYTES = 4096
+
+
+class Browser(urwid.ListBox):
+    """The entries of a folder; ``chosen`` is called with a file, ``looked_at`` with what the cursor stands on."""
+
+    def __init__(self, folder: Path, chosen: Callable[[Path], None], looked_at: Callable[[Path], None]):
+        self._chosen, self._looked_at = chosen, looked_at
+        self.pattern = DRILL_FILES
+        self.folder = folder
+        super().__init__(urwid.SimpleFocusListWalker([]))
+        self.go_to(folder)
+        urwid.connect_signal(self.body, "modified", self._moved)
+
+    def go_to(self, folder: Path) -> None:
+        """Shows another folder."""
+        self.folder = folder.resolve()
+        entries = [_Entry(path, name, self._choose) for path, name in self._found()]
+        self.body[:] = [urwid.AttrMap(entry, "body", "focus") for entry in entries]
+        self.body.set_focus(0)
+
+    def filter(self, pattern: str) -> None:
+        """Patterns apart by spaces; none of them means every file."""
+        self.pattern = pattern.strip() or "*"
+        self.go_to(self.folder)
+
+    @property
+    def current(self) -> Path:
+        """What the cursor stands on."""
+        return self.focus.base_widget.path
+
+    def _found(self) -> Iterator[tuple[Path, str]]:
+        yield self.folder.parent, "../"
+        try:
+            entries = sorted(self.folder.iterdir(), key=lambda path: path.name.lower())
+        except OSError as error:
+            yield self.folder, f"({error.strerror})"
+            return
+        folders = [path for path in entries if path.is_dir() and not path.name.startswith(".")]
+        files = [path for path in entries if not path.is_dir() and self._matches(path.name)]
+        yield from ((path, f"{path.name}/") for path in folders[:MOST_ENTRIES])
+        yield from ((path, path.name) for path in files[:MOST_ENTRIES])
+        if max(len(folders), len(files)) > MOST_ENTRIES:
+            yield self.folder, _("(more than can be shown: use the filter)")
+
+    def _matches(self, name: str) -> bool:
+        return any(fnmatch(name.lower(), pattern.lower()) for pattern in self.pattern.split())
+
+    def _choose(self, path: Path) -> None:
+        if path.is_dir():
+            self.go_to(path)
+        else:
+            self._chosen(path)
+
+    def _moved(self) -> None:
+        if self.focus is not None:
+            self._looked_at(self.current)
+
+
+class _Entry(urwid.SelectableIcon):
+    """A line of the list; Enter or a click chooses it."""
+
+    def __init__(self, path: Path, name: str, choose: Callable[[Path], None]):
+        self.path, self._choose = path, choose
+        super().__init__("".join(c if c.isprintable() else "?" for c in name), 0)
+        self.set_wrap_mode("ellipsis")
+
+    def keypress(self, size: tuple[int], key: str) -> str | None:
+        """Enter."""
+        if key != "enter":
+            return key
+        self._choose(self.path)
+        return None
+
+    def mouse_event(self, size: tuple[int], event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """The first button, on the entry that has the cursor."""
+        if event == "mouse press" and button == 1 and focus:
+            self._choose(self.path)
+        return event == "mouse press" and button == 1
+
+
+def preview(path: Path) -> list[str]:
+    """The first lines of a file, with a dot for what can't be printed; the reason for one that can't be read."""
+    if not path.is_file():
+        return []
+    try:
+        with path.open("rb") as stream:
+            text = stream.read(PREVIEW_BYTES).decode("latin-1")
+    except OSError as error:
+        return [f"({error.strerror})"]
+    return ["".join(c if c.isprintable() else "." for c in line) for line in text.splitlines()]

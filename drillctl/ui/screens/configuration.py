@@ -1,0 +1,164 @@
+"""The Configuration screen (the paper's Fig. 4): card, scale, work ranges, times, tick rate, for one machine's file.
+
+Rule: every field says its unit, its bounds and what it means; what can't be taken is said below it as it is typed, and
+nothing is saved while there is such a field. Opened from the list of machines.
+"""
+
+from typing import Any
+
+import urwid
+
+from drillctl.panel.console import Console
+from drillctl.panel.tables import FieldView, TableDesk
+from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Line
+from drillctl.ui.models.form import Form
+from drillctl.ui.screens.field_words import words_of
+from drillctl.ui.screens.table_editor import Size
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import N_, _
+
+LABEL_COLUMNS, VALUE_COLUMNS = 34, 26
+
+
+class Configuration(urwid.WidgetWrap[urwid.Widget]):
+    """The fields of one machine. Not live: the machine takes them when it is chosen."""
+
+    kind = "machines"
+    title = N_("Configuration")
+    keys = (
+        Key(("up",), "Up", "go", N_("the field above"), argument=-1),
+        Key(("down", "enter", "tab"), "Down", "go", N_("the field below"), argument=1),
+        Key(("f6",), "F6", "cycle", N_("the next choice, where a field has choices"), N_("Choice")),
+        Key(("f2",), "F2", "save", N_("saves to your own copy; a wrong value is never saved"), N_("Save")),
+        Key(("f3",), "F3", "diff", N_("what differs from the shipped file"), N_("Diff")),
+        Key(("f5",), "F5", "choose", N_("drives this machine, as it was saved"), N_("Drive it")),
+        Key(("f7",), "F7", "copy", N_("copies this machine's file under another name"), N_("Copy")),
+        Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped file is in force again"), N_("Reset")),
+    )
+
+    def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
+        self._console, self._shell, self._desk, self._name = console, shell, desk, name
+        self._heading, self._told = urwid.Text(""), urwid.Text("")
+        self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
+        self._list = urwid.ListBox(self._rows)
+        header = urwid.AttrMap(self._heading, "title")
+        super().__init__(urwid.Frame(self._list, header=header, footer=self._told))
+        self._open()
+
+    @property
+    def form(self) -> Form:
+        """What is typed."""
+        return self._form
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's keys, then the field's own; Esc asks first where something would be lost."""
+        if key == "esc" and self._form.changed:
+            self._shell.ask(_("Leave without saving?"), self._shell.back)
+            return None
+        if called(self, self.keys, key):
+            return None
+        left = super().keypress(size, key)
+        self._take()
+        return left
+
+    def go(self, by: int) -> None:
+        """Stops at the ends."""
+        if self._edits:
+            self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._edits) - 1)))
+            self._look()
+
+    def cycle(self) -> None:
+        """Only where there are choices."""
+        field = self._field
+        if field is None or not field.choices:
+            return
+        now = self._form.shown(field)
+        at = field.choices.index(now) if now in field.choices else -1
+        self._edits[self._list.focus_position].set_edit_text(field.choices[(at + 1) % len(field.choices)])
+        self._take()
+
+    def save(self) -> None:
+        """All fields or none."""
+        text, refused = self._form.candidate()
+        problems = refused or self._desk.save("machines", self._name, text)
+        if problems:
+            self._shell.message(_("Not saved"), problems)
+            return
+        self._open()
+        self._shell.ask(_("Saved. Start the machine anew with it? The position will be lost."), self.choose)
+
+    def diff(self) -> None:
+        """Of what is typed, as far as it can be taken."""
+        lines = self._desk.diff("machines", self._name, self._form.candidate()[0])
+        self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
+
+    def choose(self) -> None:
+        """Refused while something moves."""
+        if problems := self._console.choose_machine(self._name):
+            self._shell.message(_("Not loaded"), problems)
+
+    def copy(self) -> None:
+        """Asks for the name."""
+        self._shell.ask_text(_("Copy"), _("New name:"), f"my-{self._name}", self._copy)
+
+    def reset(self) -> None:
+        """Asks first."""
+        self._shell.ask(_("Take your own copy away and go back to the shipped table?"), self._reset)
+
+    @property
+    def _field(self) -> FieldView | None:
+        return self._form.fields[self._list.focus_position] if self._form.fields else None
+
+    def _open(self) -> None:
+        at = self._list.focus_position if self._rows else 0
+        self._form = Form(self._desk, self._desk.read("machines", self._name))
+        self._edits = [urwid.Edit(edit_text=field.value) for field in self._form.fields]
+        self._rows[:] = [_row(field, edit) for field, edit in zip(self._form.fields, self._edits, strict=True)]
+        if self._edits:
+            self._list.set_focus(min(at, len(self._edits) - 1))
+        self._look()
+
+    def _take(self) -> None:
+        """What stands in the field that has the cursor."""
+        if self._field is not None:
+            self._form.type(self._field, str(self._edits[self._list.focus_position].edit_text))
+        self._look()
+
+    def _copy(self, name: str) -> None:
+        if problems := self._desk.copy("machines", self._name, name):
+            self._shell.message(_("Not copied"), problems)
+        else:
+            self._name = name
+            self._open()
+
+    def _reset(self) -> None:
+        if problems := self._desk.reset("machines", self._name):
+            self._shell.message(_("Nothing changed"), problems)
+        else:
+            self._open()
+
+    def _look(self) -> None:
+        changed = _(", changed") if self._form.changed else ""
+        self._heading.set_text(f"{_(self.title)}: {self._name}{changed}")
+        self._told.set_text([part for line in self._lines() for part in [*line, "\n"]][:-1])
+
+    def _lines(self) -> list[Line]:
+        field = self._field
+        if field is None:
+            return [[("danger", _("problem: ") + str(found))] for found in self._form.check().problems]
+        wrong = [told for other in self._form.fields if (told := self._form.problem(other))]
+        wrong = wrong or list(map(str, self._form.check().problems))
+        problems: list[Line] = [[("danger", _("problem: ") + told)] for told in wrong]
+        return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
+
+
+def _row(field: FieldView, edit: urwid.Edit) -> urwid.Widget:
+    words = words_of(field)
+    label = f"{field.axis.upper()}: {_(words.label)}" if field.axis else _(words.label)
+    allowed = " | ".join(field.choices) or field.bounds
+    unit = f"{_(words.unit)}  " if words.unit else ""
+    box = urwid.AttrMap(edit, "field", "focus")
+    return urwid.Columns(
+        [(LABEL_COLUMNS, urwid.Text(label)), (VALUE_COLUMNS, box), urwid.Text(("dark", f"{unit}{allowed}"))], 1
+    )

@@ -1,0 +1,60 @@
+"""What the fields of configuration.py are called, counted in, and mean. Rule: a table, and how to look into it."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from drillctl.panel.tables import FieldView, Place
+from drillctl.ui.words import N_
+
+
+class FieldWords(NamedTuple):
+    """A field's label, unit and explanation, to be translated where they are shown."""
+
+    label: str
+    unit: str
+    meaning: str
+
+
+# By a field's place; that of an axis's field without the axis.
+FIELD_WORDS: Mapping[Place, FieldWords] = {
+    ("configuration", "card"): FieldWords(
+        N_("Card"), "", N_("The name of the I/O card that the motors' drivers and the sensors are wired to.")
+    ),
+    ("configuration", "card_address"): FieldWords(
+        N_("Card's address"), "", N_("Where the card answers on the bus; hexadecimal as in 0x2A0, or decimal.")
+    ),
+    ("configuration", "mode"): FieldWords(
+        N_("Mode"), "", N_("SIMULATED: the ticks drive a simulated machine. REAL: they drive the card.")
+    ),
+    ("columns_per_inch",): FieldWords(
+        N_("scale"), N_("columns/inch"), N_("Columns of the phase table to an inch of travel, as measured.")
+    ),
+    ("columns_per_step",): FieldWords(
+        N_("columns of a step"), N_("columns"), N_("How many columns of the phase table make one step of the ramp.")
+    ),
+    ("range", 0): FieldWords(
+        N_("lowest position"), N_("steps"), N_("Of the work range, from machine zero; a position below is a fault.")
+    ),
+    ("range", 1): FieldWords(
+        N_("highest position"), N_("steps"), N_("Of the work range, from machine zero; a position above is a fault.")
+    ),
+    ("configuration", "longest_drilling_s"): FieldWords(
+        N_("Longest drilling time"), "s", N_("A stroke that takes longer is a fault: the drill may be blunt.")
+    ),
+    ("configuration", "spin_up_s"): FieldWords(
+        N_("Spindle's run-up"), "s", N_("Waited after the spindle was switched on, before the first stroke.")
+    ),
+    ("configuration", "tool_change"): FieldWords(
+        N_("Tool change"), "", N_("MANUAL: the program waits for the operator at every tool.")
+    ),
+    ("tick_hz",): FieldWords(
+        N_("Interrupt frequency"), "Hz", N_("Ticks a second; with the ramp it decides how fast the motors turn.")
+    ),
+    ("description",): FieldWords(N_("Description"), "", N_("Anything that helps to know the machine again.")),
+}
+
+
+def words_of(field: FieldView) -> FieldWords:
+    """The words of a field; one without any is called what the file calls it."""
+    place = field.place[2:] if field.axis else field.place
+    return FIELD_WORDS.get(place, FieldWords(str(place[-1]), "", ""))

@@ -1,0 +1,104 @@
+"""The phase editor (Tests): the table as the paper prints it, a row a wire, a column a tick; Space turns a cell over.
+
+Rule: what is drawn is the grid of the text (models/phase_grid.py); every edit goes back into the text, whose comments
+stay. Opened from the list of tables.
+"""
+
+from collections.abc import Callable
+
+from drillctl.ui.keys import Key
+from drillctl.ui.lines import Line
+from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid
+from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
+from drillctl.ui.words import N_, _
+
+NAME_COLUMNS, VOLTS_COLUMNS, CELL_COLUMNS = 12, 7, 3
+
+
+class PhaseEditor(TableEditor):
+    """A phase table under a cursor."""
+
+    kind = "phase"
+    title = N_("Phase table")
+    keys = (
+        Key((" ",), "Space", "toggle", N_("turns the cell over"), N_("Cell")),
+        Key(("left",), "Left", "sideways", N_("a column to the left"), argument=-1),
+        Key(("right",), "Right", "sideways", N_("a column to the right"), argument=1),
+        Key(("up",), "Up", "upwards", N_("a row up"), argument=-1),
+        Key(("down",), "Down", "upwards", N_("a row down"), argument=1),
+        Key(("i", "insert"), "I", "insert", N_("the column once more, beside it"), N_("Insert")),
+        Key(("x", "delete"), "X", "remove", N_("takes the column away"), N_("Remove")),
+        Key(("m",), "M", "mirror", N_("rows for motion backwards with forcing mirrored, or none again"), N_("Mirror")),
+        *TABLE_KEYS,
+    )
+    _line = _column = 0  # the cursor, before the first look
+
+    def toggle(self) -> None:
+        """The cell under the cursor."""
+        self._change(lambda grid: grid.toggle(self._line, self._column))
+
+    def insert(self) -> None:
+        """Doubles the column under the cursor."""
+        self._change(lambda grid: grid.insert(self._column))
+
+    def remove(self) -> None:
+        """The column under the cursor."""
+        self._change(lambda grid: grid.remove(self._column))
+
+    def mirror(self) -> None:
+        """There and away."""
+        self._change(lambda grid: grid.without_reverse() if grid.has_reverse else grid.mirrored())
+
+    def sideways(self, by: int) -> None:
+        """Stops at the ends."""
+        self._go(self._line, self._column + by)
+
+    def upwards(self, by: int) -> None:
+        """Stops at the ends."""
+        self._go(self._line + by, self._column)
+
+    def drawing(self, columns: int) -> list[Line]:
+        """Only the columns around the cursor where there is no room for all."""
+        if not self._grid.rows:
+            return [[("danger", _("no phase table: its rows can't be read"))]]
+        room = max((columns - NAME_COLUMNS - VOLTS_COLUMNS) // CELL_COLUMNS, 1)
+        first = min(max(self._column - room // 2, 0), max(self._grid.columns - room, 0))
+        shown = range(first, min(first + room, self._grid.columns))
+        lines = [self._row(number, line, shown) for number, line in enumerate(self._grid.lines)]
+        if self._grid.has_reverse:
+            lines.insert(len(self._grid.rows), [("title", _("backwards"))])
+        return [self._numbers(shown), *lines, [""], [self._place()]]
+
+    def _look(self) -> None:
+        self._grid = PhaseGrid(tuple(self._desk.phase_rows(self.text)))
+        self._go(self._line, self._column)
+        super()._look()
+
+    def _change(self, operation: Callable[[PhaseGrid], PhaseGrid]) -> None:
+        changed = operation(self._grid)
+        if changed != self._grid:
+            self.edit(self._desk.with_phase_rows(self.text, changed.rows))
+
+    def _go(self, line: int, column: int) -> None:
+        self._line = max(0, min(line, len(self._grid.lines) - 1))
+        self._column = max(0, min(column, self._grid.columns - 1))
+        self._invalidate()
+
+    def _numbers(self, shown: range) -> Line:
+        numbers = "".join(f"{column + 1:>{CELL_COLUMNS - 1}} " for column in shown)
+        return [("dark", f"{_('wire'):{NAME_COLUMNS}}{'':{VOLTS_COLUMNS}}{numbers}")]
+
+    def _row(self, number: int, line: GridLine, shown: range) -> Line:
+        name = f"{line.name[: NAME_COLUMNS - 1]:{NAME_COLUMNS}}{line.volts:>4g} V "
+        return [name, *(part for column in shown for part in self._cell(number, line.pattern, column))]
+
+    def _cell(self, number: int, pattern: str, column: int) -> Line:
+        mark = pattern[column] if column < len(pattern) else " "
+        here = (number, column) == (self._line, self._column)
+        look = "focus" if here else "lit" if mark == ON else "dark"
+        return [(look, f"[{mark}]" if here else f" {mark} ")]
+
+    def _place(self) -> str:
+        line = self._grid.lines[self._line]
+        told = _("wire {name}, column {column} of {columns}")
+        return told.format(name=line.name, column=self._column + 1, columns=self._grid.columns)

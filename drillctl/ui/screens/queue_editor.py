@@ -1,0 +1,156 @@
+"""The queue editor (Tests): lines of KMD commands, completed by Tab, checked as they are typed, run whole or in part.
+
+Rule: what runs is the text on the screen; it is checked before it is handed on, and a refusal says line and column.
+Opened from the menu.
+"""
+
+import urwid
+
+from drillctl.panel.console import Console
+from drillctl.panel.queues import QueueDesk
+from drillctl.panel.tables import Finding
+from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Line
+from drillctl.ui.models.completion import completed, usage
+from drillctl.ui.screens.table_editor import Size
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import N_, _
+
+MOST_FINDINGS = 5
+
+
+class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
+    """A queue as text. ``file`` is where it was opened or saved last; empty for a new one."""
+
+    title = N_("Queue of commands")
+    keys = (
+        Key(("tab",), "Tab", "complete", N_("completes the word before the cursor"), N_("Complete")),
+        Key(("f5",), "F5", "run_all", N_("runs the whole queue"), N_("Run")),
+        Key(("f6",), "F6", "run_to_cursor", N_("runs down to the cursor's line, this one too"), N_("To cursor")),
+        Key(("f7",), "F7", "run_line", N_("runs the cursor's line alone and goes to the next"), N_("One")),
+        Key(("f2",), "F2", "save", N_("saves the queue to a file"), N_("Save")),
+        Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
+    )
+
+    def __init__(self, console: Console, shell: Shell, desk: QueueDesk):
+        self._console, self._shell, self._desk = console, shell, desk
+        self._commands = desk.commands()
+        self.file = ""
+        self._edit = urwid.Edit(multiline=True)
+        self._heading, self._told = urwid.Text(""), urwid.Text("")
+        body = urwid.ListBox(urwid.SimpleFocusListWalker([self._edit]))
+        header = urwid.AttrMap(self._heading, "title")
+        super().__init__(urwid.Frame(urwid.AttrMap(body, "field"), header=header, footer=self._told))
+        self._put("", "")
+
+    @property
+    def text(self) -> str:
+        """The queue as it stands on the screen."""
+        return str(self._edit.edit_text)
+
+    @property
+    def changed(self) -> bool:
+        """Whether it differs from its file."""
+        return self.text != self._saved
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's keys, then the text's own; Esc asks first where something would be lost."""
+        if key == "esc" and self.changed:
+            self._shell.ask(_("Leave without saving?"), self._shell.back)
+            return None
+        if called(self, self.keys, key):
+            return None
+        left = super().keypress(size, key)
+        self._look()
+        return left
+
+    def complete(self) -> None:
+        """Where several words begin alike they are listed below."""
+        before, after = self.text[: self._edit.edit_pos], self.text[self._edit.edit_pos :]
+        start = before.rfind("\n") + 1
+        line, fits = completed(before[start:], self._commands, self._desk.words())
+        self._edit.set_edit_text(f"{before[:start]}{line}{after}")
+        self._edit.set_edit_pos(start + len(line))
+        self._look(fits)
+
+    def run_all(self) -> None:
+        """From the first line."""
+        self._run(self.text)
+
+    def run_to_cursor(self) -> None:
+        """The lines after it stay out."""
+        self._run("\n".join(self.text.split("\n")[: self._line + 1]))
+
+    def run_line(self) -> None:
+        """Empty lines before it keep its number in what is said of it."""
+        lines = self.text.split("\n")
+        if self._run("\n" * self._line + lines[self._line]):
+            self._edit.set_edit_pos(min(len("\n".join(lines[: self._line + 1])) + 1, len(self.text)))
+            self._look()
+
+    def save(self) -> None:
+        """Asks for the file."""
+        self._shell.ask_text(_("Save"), _("File:"), self.file or "queue.kmd", self._save)
+
+    def open(self) -> None:
+        """Asks first where something would be lost."""
+        if self.changed:
+            self._shell.ask(_("Open another queue without saving this one?"), self._ask_file)
+        else:
+            self._ask_file()
+
+    @property
+    def _line(self) -> int:
+        """The cursor's line, from 0."""
+        return self.text.count("\n", 0, self._edit.edit_pos)
+
+    def _put(self, file: str, text: str) -> None:
+        self.file, self._saved = file, text
+        self._edit.set_edit_text(text)
+        self._edit.set_edit_pos(0)
+        self._look()
+
+    def _run(self, text: str) -> bool:
+        problems = tuple(map(str, self._desk.check_queue(text))) or self._console.run_queue(text)
+        if problems:
+            self._shell.message(_("Not run"), problems)
+        return not problems
+
+    def _save(self, file: str) -> None:
+        if problems := self._desk.save_queue(file, self.text):
+            self._shell.message(_("Not saved"), problems)
+            return
+        self.file, self._saved = file, self.text
+        self._look()
+
+    def _ask_file(self) -> None:
+        self._shell.ask_text(_("Open"), _("File:"), self.file, self._open)
+
+    def _open(self, file: str) -> None:
+        text, problems = self._desk.open_queue(file)
+        if problems:
+            self._shell.message(_("Not opened"), problems)
+        else:
+            self._put(file, text)
+
+    def _look(self, fits: tuple[str, ...] = ()) -> None:
+        """Heading and findings anew."""
+        changed = _(", changed") if self.changed else ""
+        self._heading.set_text(f"{_(self.title)}: {self.file or _('new')}{changed}")
+        lines = self._lines(fits)
+        self._told.set_text([part for line in lines for part in [*line, "\n"]][:-1])
+
+    def _lines(self, fits: tuple[str, ...]) -> list[Line]:
+        line = self.text.split("\n")[self._line]
+        column = self._edit.edit_pos - (self.text.rfind("\n", 0, self._edit.edit_pos) + 1)
+        place = _("line {line}, column {column}").format(line=self._line + 1, column=column + 1)
+        hint = "  ".join(fits) or usage(line, self._commands)
+        found = self._desk.check_queue(self.text) if self.text.strip() else ()
+        return [[("key", place)], [hint], *_findings(found)]
+
+
+def _findings(found: tuple[Finding, ...]) -> list[Line]:
+    lines: list[Line] = [[("danger", str(finding))] for finding in found[:MOST_FINDINGS]]
+    more = len(found) - MOST_FINDINGS
+    rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
+    return [*lines, *rest] or [[("good", _("sound"))]]

@@ -1,0 +1,125 @@
+"""The ramp editor (Tests): a row a state, its numbers typed over; the speed of a long move drawn as you type.
+
+Rule: a number goes into the text with every digit, so that profile, stopping distances and exactness are always those
+of what is on the screen; an unfinished number goes nowhere. Opened from the list of tables.
+"""
+
+from drillctl.panel.tables import StateRow
+from drillctl.ui.bars import bar_rows
+from drillctl.ui.keys import Key
+from drillctl.ui.lines import Line
+from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
+from drillctl.ui.words import N_, _
+
+FIELDS = ("accelerate", "brake", "interval")  # as in the file
+HEADINGS = (N_("state"), N_("accelerate"), N_("brake"), N_("interval"), N_("stop steps"), N_("stop ticks"))
+CELL_COLUMNS = 12
+SIGNS = tuple("-0123456789")
+MOST_DIGITS = 7
+PROFILE_ROWS = 5
+
+
+class RampEditor(TableEditor):
+    """A ramp under a cursor."""
+
+    kind = "ramp"
+    title = N_("Ramp")
+    keys = (
+        Key(("left",), "Left", "sideways", N_("a number to the left"), argument=-1),
+        Key(("right", "tab"), "Right", "sideways", N_("a number to the right"), argument=1),
+        Key(("up",), "Up", "upwards", N_("a state up"), argument=-1),
+        Key(("down", "enter"), "Down", "upwards", N_("a state down"), argument=1),
+        Key(("backspace",), "Backspace", "rub_out", N_("takes the last digit away")),
+        Key((), "0-9 -", "type", N_("types over the number"), N_("Number")),  # which one: see keypress
+        *TABLE_KEYS,
+    )
+    _line = _field = 0  # the cursor, before the first look
+    _typed: str | None = None  # the number being typed; None: the file's
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """Digits first."""
+        if key not in SIGNS:
+            return super().keypress(size, key)
+        self.type(key)
+        return None
+
+    def type(self, sign: str) -> None:
+        """A digit, or a minus in front of them; the first one replaces the number."""
+        typed = (self._typed or "") + sign
+        if len(typed) <= MOST_DIGITS and "-" not in typed[1:]:
+            self._take(typed)
+
+    def rub_out(self) -> None:
+        """One digit less."""
+        self._take((self._shown() if self._typed is None else self._typed)[:-1])
+
+    def sideways(self, by: int) -> None:
+        """Stops at the ends."""
+        self._go(self._line, self._field + by)
+
+    def upwards(self, by: int) -> None:
+        """Stops at the ends."""
+        self._go(self._line + by, self._field)
+
+    def undo(self) -> None:
+        """What was half typed goes too."""
+        self._typed = None
+        super().undo()
+
+    def redo(self) -> None:
+        """As undo."""
+        self._typed = None
+        super().redo()
+
+    def drawing(self, columns: int) -> list[Line]:
+        """The states, then the profile."""
+        if not self._told.states:
+            return [[("danger", _("no ramp: its rows can't be read"))]]
+        heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS)
+        rows = [self._row(line, state) for line, state in enumerate(self._told.states)]
+        return [[("dark", heading)], *rows, [""], *self._profile(columns)]
+
+    def _look(self) -> None:
+        self._told = self._desk.ramp(self.text)
+        super()._look()
+
+    def _take(self, typed: str) -> None:
+        """Into the text as soon as it is a number."""
+        if not self._told.states:
+            return
+        self._typed = typed
+        if typed.lstrip("-"):
+            state = self._told.states[self._line].state
+            self.edit(self._desk.with_state(self.text, state, FIELDS[self._field], int(typed)))
+        self._invalidate()
+
+    def _go(self, line: int, field: int) -> None:
+        self._typed = None
+        self._line = max(0, min(line, len(self._told.states) - 1))
+        self._field = max(0, min(field, len(FIELDS) - 1))
+        self._invalidate()
+
+    def _shown(self) -> str:
+        return str(getattr(self._told.states[self._line], FIELDS[self._field]))
+
+    def _row(self, line: int, state: StateRow) -> Line:
+        cells = [self._cell(line, field, getattr(state, name)) for field, name in enumerate(FIELDS)]
+        stopping = ("?" if value is None else value for value in (state.stop_steps, state.stop_ticks))
+        return [f"{state.state:>{CELL_COLUMNS}}", *cells, *(f"{value:>{CELL_COLUMNS}}" for value in stopping)]
+
+    def _cell(self, line: int, field: int, value: int) -> str | tuple[str, str]:
+        if (line, field) != (self._line, self._field):
+            return f"{value:>{CELL_COLUMNS}}"
+        typed = str(value) if self._typed is None else self._typed
+        return "focus", f"{'[' + typed + ']':>{CELL_COLUMNS}}"
+
+    def _profile(self, columns: int) -> list[Line]:
+        ticks = self._told.intervals
+        if not ticks:
+            return [[("warning", _("no profile: a ramp is drawn when every move lands exactly"))]]
+        told = _("speed, step by step, of a move of {steps} steps in {ticks} ticks").format(
+            steps=len(ticks), ticks=sum(ticks)
+        )
+        bars = bar_rows([1 / interval for interval in ticks], columns, PROFILE_ROWS, self._plain)
+        profile: list[Line] = [[("lit", row)] for row in bars]
+        return [[told], *profile, [("good", _("every move lands exactly"))]]

@@ -1,0 +1,136 @@
+"""What all editors of tables have in common: a text with its history, checked as it changes, saved, reset, compared.
+
+Rule: the text is the truth; what is drawn is drawn from it, and every edit gives a new text. A text with a problem is
+never saved. PhaseEditor and RampEditor are made of this.
+"""
+
+import urwid
+
+from drillctl.panel.console import Console
+from drillctl.panel.tables import Checked, Kind, TableDesk
+from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Line, boxed
+from drillctl.ui.models.history import History
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import N_, _
+
+Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid has it; a box has two
+MOST_FINDINGS = 6
+TABLE_KEYS = (
+    Key(("u",), "U", "undo", N_("takes the last change back"), N_("Undo")),
+    Key(("r",), "R", "redo", N_("makes it again"), N_("Redo")),
+    Key(("f2",), "F2", "save", N_("saves to your own copy; a table with a problem is never saved"), N_("Save")),
+    Key(("f3",), "F3", "diff", N_("what differs from the shipped table"), N_("Diff")),
+    Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped table is in force again"), N_("Reset")),
+)
+ORIGINS = {"shipped": N_("shipped"), "yours": N_("your own copy"), "other": N_("from a folder named first")}
+
+
+class TableEditor(urwid.Widget):
+    """One table on the screen. A kind of table adds ``kind``, ``title``, its keys, and ``drawing``."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+    _selectable = True
+    kind: Kind
+    title: str
+    keys: tuple[Key, ...] = TABLE_KEYS
+
+    def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
+        self._console, self._shell, self._desk = console, shell, desk
+        self._name, self._plain = name, plain
+        self._open()
+
+    @property
+    def text(self) -> str:
+        """The table as it stands on the screen."""
+        return self._history.now
+
+    @property
+    def changed(self) -> bool:
+        """Whether it differs from what is in force."""
+        return self.text != self._saved
+
+    def drawing(self, columns: int) -> list[Line]:
+        """The table itself, in lines."""
+        raise NotImplementedError
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Name, table, findings."""
+        assert len(size) == 2
+        columns, rows = size
+        lines: list[Line] = [[("title", self._heading())], [""], *self.drawing(columns), [""], *self._verdict()]
+        return boxed(lines, columns, rows)
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's keys; Esc asks first where something would be lost."""
+        if key == "esc" and self.changed:
+            self._shell.ask(_("Leave without saving?"), self._shell.back)
+            return None
+        return None if called(self, self.keys, key) else key
+
+    def edit(self, text: str) -> None:
+        """A new text, checked at once."""
+        self._history.do(text)
+        self._look()
+
+    def undo(self) -> None:
+        """The state before."""
+        self._history.undo()
+        self._look()
+
+    def redo(self) -> None:
+        """The state after."""
+        self._history.redo()
+        self._look()
+
+    def save(self) -> None:
+        """To the user's own copy; then the machine can be started anew with it."""
+        if problems := self._desk.save(self.kind, self._name, self.text):
+            self._shell.message(_("Not saved"), problems)
+            return
+        self._saved = self.text
+        self._look()
+        self._shell.ask(_("Saved. Start the machine anew with it? The position will be lost."), self._load)
+
+    def reset(self) -> None:
+        """Asks first."""
+        self._shell.ask(_("Take your own copy away and go back to the shipped table?"), self._reset)
+
+    def diff(self) -> None:
+        """Against the shipped table."""
+        lines = self._desk.diff(self.kind, self._name, self.text)
+        self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
+
+    def _open(self) -> None:
+        self._saved = self._desk.read(self.kind, self._name)
+        self._history = History(self._saved)
+        self._look()
+
+    def _look(self) -> None:
+        """Everything that is shown of the text; a kind of table adds its own."""
+        self._checked: Checked = self._desk.check(self.kind, self.text)
+        entries = self._desk.tables(self.kind)
+        self._origin = next((entry.origin for entry in entries if entry.name == self._name), "other")
+        self._invalidate()
+
+    def _load(self) -> None:
+        if problems := self._console.choose_machine(self._console.view().machine):
+            self._shell.message(_("Not loaded"), problems)
+
+    def _reset(self) -> None:
+        if problems := self._desk.reset(self.kind, self._name):
+            self._shell.message(_("Nothing changed"), problems)
+        else:
+            self._open()
+
+    def _heading(self) -> str:
+        changed = _(", changed") if self.changed else ""
+        return f"{_(self.title)}: {self._name} ({_(ORIGINS[self._origin])}{changed})"
+
+    def _verdict(self) -> list[Line]:
+        problems: list[Line] = [[("danger", _("problem: ") + str(found))] for found in self._checked.problems]
+        warnings: list[Line] = [[("warning", _("warning: ") + str(found))] for found in self._checked.warnings]
+        told = [*problems, *warnings]
+        more = len(told) - MOST_FINDINGS
+        rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
+        return [*told[:MOST_FINDINGS], *rest] if told else [[("good", _("sound"))]]

@@ -1,0 +1,81 @@
+"""The tables of one kind: choose one to edit, or copy it. Rule: says of each whose it is. Opened from the menu."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import urwid
+
+from drillctl.panel.console import Console
+from drillctl.panel.tables import Kind, TableDesk
+from drillctl.ui.keys import Key, called
+from drillctl.ui.screens.configuration import Configuration
+from drillctl.ui.screens.phase_editor import PhaseEditor
+from drillctl.ui.screens.ramp_editor import RampEditor
+from drillctl.ui.screens.table_editor import ORIGINS, Size
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import N_, _
+
+Editor = Callable[[Console, Shell, TableDesk, str, bool], urwid.Widget]
+EDITORS: Mapping[Kind, Editor] = {"phase": PhaseEditor, "ramp": RampEditor, "machines": Configuration}
+TITLES: Mapping[Kind, str] = {
+    "phase": N_("Phase tables"),
+    "ramp": N_("Ramps"),
+    "machines": N_("Machines"),
+}
+NAME_COLUMNS = 30
+
+
+class TableList(urwid.WidgetWrap[urwid.Widget]):
+    """The tables of a kind that has an editor."""
+
+    keys = (
+        Key(("enter",), "Enter", "edit", N_("opens the table"), N_("Open")),
+        Key(("c",), "C", "copy", N_("copies the table under another name"), N_("Copy")),
+    )
+
+    def __init__(self, console: Console, shell: Shell, desk: TableDesk, kind: Kind, plain: bool = False):
+        self._console, self._shell, self._desk, self._plain = console, shell, desk, plain
+        self.kind, self.title = kind, TITLES[kind]
+        self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
+        self._list = urwid.ListBox(self._rows)
+        super().__init__(urwid.Frame(self._list, header=urwid.Text(("title", _(self.title)))))
+        self.fill()
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's keys, then the list's own."""
+        return None if called(self, self.keys, key) else super().keypress(size, key)
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """What was saved meanwhile shows when the list is on top again."""
+        if [*self._desk.tables(self.kind)] != self._entries:
+            self.fill()
+        return super().render(size, focus)
+
+    def fill(self) -> None:
+        """The list anew; the cursor stays where it was."""
+        at = self._list.focus_position if self._rows else 0
+        self._entries = [*self._desk.tables(self.kind)]
+        lines = [f"{entry.name:{NAME_COLUMNS}}{_(ORIGINS[entry.origin])}" for entry in self._entries]
+        self._rows[:] = [urwid.AttrMap(urwid.SelectableIcon(line, 0), "body", "focus") for line in lines]
+        if lines:
+            self._list.set_focus(min(at, len(lines) - 1))
+
+    def edit(self) -> None:
+        """With the editor of its kind."""
+        if self._entries:
+            editor = EDITORS[self.kind]
+            self._shell.open(editor(self._console, self._shell, self._desk, self._current, self._plain))
+
+    def copy(self) -> None:
+        """Asks for the name."""
+        if self._entries:
+            self._shell.ask_text(_("Copy"), _("New name:"), f"my-{self._current}", self._copy)
+
+    @property
+    def _current(self) -> str:
+        return self._entries[self._list.focus_position].name
+
+    def _copy(self, name: str) -> None:
+        if problems := self._desk.copy(self.kind, self._current, name):
+            self._shell.message(_("Not copied"), problems)
+        self.fill()

@@ -1,0 +1,110 @@
+"""The doors in shared memory do what the doors of one process do; a status record is whole or not read at all."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from drillctl.children import Child
+from drillctl.kmd import CAPACITY, RECORD, STATUS, Command, Queue, Request, Requests
+from drillctl.kmd.channel import CHANNEL, Channel, SharedQueue, SharedRequests
+
+PUBLISHED = 20_000
+ASKED = [request for request in Request if request]
+FRESH_FOLDER = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+
+
+@pytest.fixture
+def channel(tmp_path: Path) -> Channel:
+    return Channel(tmp_path / "c", create=True)
+
+
+@given(st.lists(st.one_of(st.integers(0, 2 * CAPACITY), st.just("take")), max_size=60))
+@FRESH_FOLDER
+def test_the_shared_queue_is_the_queue(tmp_path: Path, doings: list[int | str]) -> None:
+    """Numbers put as many records; every answer and every command taken must be the same."""
+    shared, plain = SharedQueue(Channel(tmp_path / "c", create=True)), Queue()
+    mine, its = Command(), Command()
+    sent = 0
+    for doing in doings:
+        if isinstance(doing, int):
+            records = np.zeros(doing, RECORD)
+            records["sequence"] = records["tag"] = np.arange(sent, sent + doing)
+            assert (taken := shared.put(records)) == plain.put(records)
+            sent += taken
+        else:
+            assert shared.take(its) == plain.take(mine)
+            assert (its.sequence, its.tag) == (mine.sequence, mine.tag)
+        assert (len(shared), shared.room) == (len(plain), plain.room)
+
+
+@given(st.lists(st.one_of(st.sampled_from(ASKED), st.just("take")), max_size=60), st.data())
+@FRESH_FOLDER
+def test_the_shared_mailbox_is_the_mailbox(tmp_path: Path, doings: list[Request | str], data: st.DataObject) -> None:
+    """Whether the desk asks or the ticker itself."""
+    channel = Channel(tmp_path / "c", create=True)
+    desk, ticker, plain = SharedRequests(channel), SharedRequests(channel), Requests()
+    for doing in [*doings, "take"]:
+        if isinstance(doing, Request):
+            plain.post(doing)
+            (ticker.own if data.draw(st.booleans()) else desk).post(doing)
+        assert ticker.waiting == bool(plain.pending)
+        if doing == "take":
+            assert ticker.take() == plain.take()
+
+
+def numbered(number: int) -> np.void:
+    """A status record all of whose wide fields say the same."""
+    record = np.zeros(1, STATUS)[0]
+    record["tick"] = record["late_worst_ns"] = number
+    for name in ("position", "target", "steps"):
+        record[name] = number
+    record["sensors"] = number
+    return record
+
+
+def whole(record: np.void) -> bool:
+    values = {int(record["tick"]), int(record["late_worst_ns"]), int(record["sensors"])}
+    return len(values.union(*(record[name].tolist() for name in ("position", "target", "steps")))) == 1
+
+
+def test_no_status_is_ever_torn(channel: Channel) -> None:
+    """One process writes as fast as it can, another reads."""
+
+    def write() -> None:
+        for number in range(1, PUBLISHED + 1):
+            channel.publish(numbered(number))
+
+    writer = Child(write)
+    seen = set()
+    while not writer.gone:
+        record = channel.status()
+        assert whole(record), record
+        seen.add(int(record["tick"]))
+    assert len(seen) > 10 and int(channel.status()["tick"]) == PUBLISHED
+
+
+def test_a_record_whose_writer_died_in_it_is_not_read(channel: Channel) -> None:
+    channel.publish(numbered(7))
+    channel.fields["lock"] += 1
+    channel.fields["status"]["tick"] = 8
+    with pytest.raises(OSError, match="left half written"):
+        channel.status()
+
+
+def test_the_file_outlives_its_makers_and_a_new_one_leaves_the_old_be(tmp_path: Path) -> None:
+    file = tmp_path / "c"
+    old = Channel(file, create=True)
+    old.publish(numbered(3))
+    assert Channel(file, create=False).status()["tick"] == 3
+    Channel(file, create=True).publish(numbered(4))
+    assert (old.status()["tick"], Channel(file, create=False).status()["tick"]) == (3, 4)
+
+
+@pytest.mark.parametrize("content", [b"", b"DRILLCTL", bytes(CHANNEL.itemsize), bytes(CHANNEL.itemsize + 1)])
+def test_another_file_is_no_channel(content: bytes, tmp_path: Path) -> None:
+    (tmp_path / "c").write_bytes(content)
+    with pytest.raises(OSError, match="not a channel"):
+        Channel(tmp_path / "c", create=False)
