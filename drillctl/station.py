@@ -54,6 +54,11 @@ class Station:
             self._desk = None
 
     @property
+    def machine(self) -> Machine:
+        """The one in use."""
+        return self._machine
+
+    @property
     def at_work(self) -> bool:
         """A job, a jog or an initialisation is on its way."""
         return self._desk is not None

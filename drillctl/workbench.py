@@ -164,9 +164,14 @@ def _source(text: str) -> Source:
 
 
 def _field_view(setting: Setting) -> FieldView:
-    value = setting.value
-    shown = f"0x{value:X}" if setting.place[-1] == "card_address" else f"{value:g}" if setting.kind is float else f"{value}"
-    return FieldView(setting.place, setting.axis, shown, setting.choices, _bounds(setting))
+    return FieldView(setting.place, setting.axis, _shown(setting), setting.choices, _bounds(setting))
+
+
+def _shown(setting: Setting) -> str:
+    """A card's address in hexadecimal, as its switches are set; 18.0 s as 18."""
+    if setting.place[-1] == "card_address":
+        return f"0x{setting.value:X}"
+    return str(setting.value).removesuffix(".0") if setting.kind is float else str(setting.value)
 
 
 def _bounds(setting: Setting) -> str:

@@ -2,8 +2,14 @@
 
 import argparse
 import sys
+from typing import TYPE_CHECKING
 
 from drillctl.cli import options
+
+if TYPE_CHECKING:
+    from drillctl.machine import Library
+    from drillctl.station import Station
+    from drillctl.ui.app import Maker
 
 
 class ScreenError(Exception):
@@ -12,7 +18,7 @@ class ScreenError(Exception):
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
-    verb = verbs.add_parser("screen", help="work at the machine, on the screen; no verb means this", description=__doc__)
+    verb = verbs.add_parser("screen", help="work on the screen; no verb means this", description=__doc__)
     options.add_machine(verb)
     options.add_running(verb)
     verb.add_argument("--lang", choices=("en", "pl"), help="default: as LANG says")
@@ -35,7 +41,25 @@ def call(arguments: argparse.Namespace) -> int:
     library = options.library(arguments)
     station = Station(library, options.machine(arguments), Running(arguments.port, pace))
     try:
-        App(station, arguments.theme, plain).run()
+        App(station, arguments.theme, plain, _benches(library, station, plain)).run()
     finally:
         station.close()
     return 0
+
+
+def _benches(library: "Library", station: "Station", plain: bool) -> "dict[str, Maker]":
+    """The screens that edit, by their names in the menus."""
+    from drillctl.machine.library import user_tables
+    from drillctl.queuebench import QueueBench
+    from drillctl.ui.screens.queue_editor import QueueEditor
+    from drillctl.ui.screens.table_list import TableList
+    from drillctl.workbench import Workbench
+
+    tables = Workbench(library, user_tables())
+    queues = QueueBench(lambda: station.machine)
+    return {
+        "phase_editor": lambda console, shell: TableList(console, shell, tables, "phase", plain),
+        "ramp_editor": lambda console, shell: TableList(console, shell, tables, "ramp", plain),
+        "configuration": lambda console, shell: TableList(console, shell, tables, "machines", plain),
+        "queue_editor": lambda console, shell: QueueEditor(console, shell, queues),
+    }

@@ -9,7 +9,7 @@ from typing import Any
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import Integer
+from tomlkit.items import AoT, Integer
 
 from drillctl.machine.errors import TableError
 
@@ -41,22 +41,29 @@ def set_pattern(text: str, wire: str, pattern: str) -> str:
 def set_reverse(text: str, patterns: Mapping[str, str]) -> str:
     """The patterns of motion backwards, by wire; none take the ``[[reverse]]`` rows away."""
     document = _opened(text)
-    if list(patterns) == [row["name"] for row in document.get("reverse", ())]:
-        for row in document.get("reverse", ()):
+    rows = document.get("reverse", ())
+    if list(patterns) == [row["name"] for row in rows]:
+        for row in rows:
             row["pattern"] = patterns[row["name"]]
         return tomlkit.dumps(document)
-    document.pop("reverse", None)
+    if document.pop("reverse", None) is not None:
+        document = _opened(tomlkit.dumps(document).rstrip() + "\n")  # without the empty line that stood above
     if patterns:
-        document["reverse"] = rows = tomlkit.aot()
-        for name, pattern in patterns.items():
-            rows.append(tomlkit.item({"name": name, "pattern": pattern}))
-        rows[0].trivia.indent = "\n"  # an empty line above, as between the rows
+        document["reverse"] = _reverse_rows(patterns)
     return tomlkit.dumps(document)
 
 
 def set_state_row(text: str, state: int, field: str, value: int) -> str:
     """``accelerate``, ``brake`` or ``interval`` of a ramp's state. Raises TableError where there is no such state."""
     return set_value(text, ("state", _row_of(text, "state", "state", state), field), value)
+
+
+def _reverse_rows(patterns: Mapping[str, str]) -> AoT:
+    rows = tomlkit.aot()
+    for name, pattern in patterns.items():
+        rows.append(tomlkit.item({"name": name, "pattern": pattern}))
+    rows[0].trivia.indent = "\n"  # an empty line above, as between the rows
+    return rows
 
 
 def _opened(text: str) -> tomlkit.TOMLDocument:

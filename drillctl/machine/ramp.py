@@ -35,6 +35,19 @@ class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     description: str = ""
 
 
+class _WrittenRow(msgspec.Struct, frozen=True):
+    state: int
+    accelerate: int
+    brake: int
+    interval: int
+
+
+class _Written(msgspec.Struct, frozen=True):
+    """Rows in which an editor shows any number, that it may be put right."""
+
+    state: list[_WrittenRow]
+
+
 @dataclass(frozen=True, slots=True)
 class RampTable:
     """A checked automaton. Each tuple has 2n+1 entries, indexed by the signed state from -n to n.
@@ -142,7 +155,7 @@ def parse_ramp(source: Source) -> RampTable:
 
 def ramp_rows(source: Source) -> list[tuple[int, int, int, int]]:
     """State, accelerate, brake and interval of each row as written, by state, right or wrong. Raises TableError."""
-    rows = source.records(_File).state
+    rows = source.records(_Written).state
     return sorted((row.state, row.accelerate, row.brake, row.interval) for row in rows)
 
 

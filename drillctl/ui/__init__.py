@@ -4,6 +4,18 @@
     tools.py     the operator changes the tool, on a terminal
     summary.py   how a job ended, in words
     latency.py   how punctual this computer is
+    board.py     holes as braille dots
+
+The program on the screen, in urwid:
+
+    app.py       the loop: news in, keys out
+    layers.py    dialogs and menus over the frame
+    frame.py     menu bar, the line on the machine, the key line
+    menus.py     the menus as a table       keys.py    the keys as tables
+    dialogs.py   tell, ask, ask for text    pick.py    a line that can be chosen
+    shell.py     what a screen is offered   lines.py   lines of marked text in a box
+    themes.py    colours by meaning         words.py   the operator's language
+    screens/     Files, Drilling, and the editors
 
 May import panel.
 """

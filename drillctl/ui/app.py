@@ -6,7 +6,6 @@ here blocks. Made and run by the screen verb, which closes the console on every 
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import urwid
 
@@ -14,6 +13,7 @@ from drillctl.panel.console import Console, MachineView
 from drillctl.ui import dialogs
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, called, help_lines
+from drillctl.ui.layers import Layers
 from drillctl.ui.menus import MENUS, Item, PullDown
 from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import Files
@@ -27,14 +27,6 @@ TURNING_S = 0.01
 
 Maker = Callable[[Console, Shell], urwid.Widget]
 Pressed = str | tuple[str, int, int, int]
-
-
-@dataclass(frozen=True)
-class Layer:
-    """A box over the frame, and how it is laid over what is below in a terminal of so many columns and rows."""
-
-    box: urwid.Widget
-    over: Callable[[urwid.Widget, int, int], urwid.Overlay]
 
 
 class App:
@@ -51,13 +43,15 @@ class App:
             **(makers or {}),
         }
         self._made: dict[str, urwid.Widget] = {}
-        self._layers: list[Layer] = []
         self._fault_told = 0
-        self._screens = [self._screen("drilling")]
-        self.frame = MainFrame(self._screens[0])
-        self._root = urwid.WidgetPlaceholder(urwid.AttrMap(self.frame, "body"))
+        first = self._screen("drilling")
+        assert first is not None
+        self.screens = [first]
+        self.frame = MainFrame(self.screens[0])
+        terminal = terminal or urwid.display.raw.Screen()
+        self.layers = Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows)
         self.loop = urwid.MainLoop(
-            self._root, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
+            self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
         )
         self._refresh_top()
 
@@ -73,8 +67,8 @@ class App:
             self._console.turn()
         view = self._console.view()
         self.frame.show_machine(view)
-        if isinstance(self._screens[-1], Live):
-            self._screens[-1].refresh(view)
+        if isinstance(self.screens[-1], Live):
+            self.screens[-1].refresh(view)
         self._tell_fault(view)
 
     def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
@@ -82,7 +76,7 @@ class App:
         if any(key in EMERGENCY.names for key in keys):
             self.emergency_stop()
         if "window resize" in keys:
-            self._restack()
+            self.layers.restack()
         return [key for key in keys if key not in EMERGENCY.names]
 
     def unhandled(self, pressed: Pressed) -> bool:
@@ -95,25 +89,25 @@ class App:
 
     def message(self, title: str, lines: Sequence[str]) -> None:
         """See Shell."""
-        self._ask(dialogs.message(title, lines, self._pop))
+        self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop))
 
     def ask(self, question: str, yes: Callable[[], None]) -> None:
         """See Shell."""
-        self._ask(dialogs.question(question, yes, self._pop))
+        self.layers.push_dialog(dialogs.question(question, yes, self.layers.pop))
 
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
         """See Shell."""
-        self._ask(dialogs.entry(title, prompt, text, accept, self._pop))
+        self.layers.push_dialog(dialogs.entry(title, prompt, text, accept, self.layers.pop))
 
     def open(self, screen: urwid.Widget) -> None:
         """See Shell. A screen that is open already comes to the top."""
-        self._screens = [other for other in self._screens if other is not screen] + [screen]
+        self.screens = [other for other in self.screens if other is not screen] + [screen]
         self._refresh_top()
 
     def back(self) -> None:
         """See Shell."""
-        if len(self._screens) > 1:
-            self._screens.pop()
+        if len(self.screens) > 1:
+            self.screens.pop()
             self._refresh_top()
 
     def show(self, name: str) -> urwid.Widget | None:
@@ -135,7 +129,7 @@ class App:
 
     def help(self) -> None:
         """The keys that work here."""
-        screen = self._screens[-1]
+        screen = self.screens[-1]
         self.message(_("Keys"), help_lines([*screen_keys(screen), *FRAME_KEYS]))
 
     def about(self) -> None:
@@ -177,7 +171,7 @@ class App:
         if fault and code and code != self._fault_told:
             position = _("position kept") if fault.position == "kept" else _("position lost: initialise again")
             lines = [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]
-            self._ask(dialogs.message(f"{_('FAULT')} {fault.name}", lines, self._pop, self._acknowledge))
+            self.layers.push_dialog(dialogs.message(f"{_('FAULT')} {fault.name}", lines, self.layers.pop, self._acknowledge))
         self._fault_told = code
 
     def _acknowledge(self) -> None:
@@ -189,76 +183,48 @@ class App:
         return self._made.get(name)
 
     def _refresh_top(self) -> None:
-        self.frame.show_screen(self._screens[-1])
+        self.frame.show_screen(self.screens[-1])
         self.turn()
 
     def _clicked(self, event: str, _button: int, column: int, row: int) -> bool:
-        if event != "mouse press" or (self._layers and not isinstance(self._layers[-1].box, PullDown)):
+        if event != "mouse press" or not isinstance(self.layers.top, PullDown | None):
             return False
-        self._close_menus()
+        self.layers.close_menus()
         return row == 0 and self._drop(self.frame.bar.at(column))
 
     def _drop(self, index: int | None) -> bool:
         """A menu of the bar, in place of any that is open."""
         if index is None:
             return False
-        self._close_menus()
+        self.layers.close_menus()
         index %= len(MENUS)
-        self._pull(MENUS[index].items, self.frame.bar.left_of(index), 1, lambda by: self._drop(index + by))
+
+        def sideways(by: int) -> None:
+            self._drop(index + by)
+
+        self._pull(MENUS[index].items, self.frame.bar.left_of(index), 1, sideways)
         return True
 
     def _pull(
-        self, items: Sequence[Item], left: int, top: int, sideways: Callable[[int], object] = lambda by: None
+        self, items: Sequence[Item], left: int, top: int, sideways: Callable[[int], None] = lambda by: None
     ) -> None:
         """A box of entries at a place; a further one lies a little below and to the right."""
 
         def chosen(item: Item) -> None:
             if item.items:
-                self._pull(item.items, left + 4, top + 2, lambda by: by < 0 and self._pop())
+                self._pull(item.items, left + 4, top + 2, lambda by: self.layers.pop() if by < 0 else None)
             else:
                 self._choose(item)
 
-        box = PullDown(items, chosen, sideways, self._pop)
-        self._push(Layer(box, lambda below, columns, rows: _placed(box, below, left, top, columns, rows)))
+        box = PullDown(items, chosen, sideways, self.layers.pop)
+        self.layers.push_menu(box, left, top)
 
     def _choose(self, item: Item) -> None:
-        self._close_menus()
+        self.layers.close_menus()
         target = self.show(item.screen) if item.screen else self
         if target is not None and item.method:
             method = getattr(target, item.method)
             method() if item.argument is None else method(item.argument)
-
-    def _close_menus(self) -> None:
-        self._layers = [layer for layer in self._layers if not isinstance(layer.box, PullDown)]
-        self._restack()
-
-    def _ask(self, dialog: dialogs.Dialog) -> None:
-        self._push(Layer(dialog, lambda below, columns, rows: dialogs.over(dialog, below, columns, rows)))
-
-    def _push(self, layer: Layer) -> None:
-        self._layers.append(layer)
-        self._restack()
-
-    def _pop(self) -> None:
-        if self._layers:
-            self._layers.pop()
-        self._restack()
-
-    def _restack(self) -> None:
-        """Every layer over the ones below, for the terminal as it is now."""
-        columns, rows = self.loop.screen.get_cols_rows()
-        widget: urwid.Widget = urwid.AttrMap(self.frame, "body")
-        for layer in self._layers:
-            widget = layer.over(widget, columns, rows)
-        self._root.original_widget = widget
-
-
-def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: int, rows: int) -> urwid.Overlay:
-    """Within the terminal, whatever its size."""
-    width, height = min(box.columns, columns), min(box.rows_wanted, rows - top)
-    shifted = max(0, min(left, columns - width))
-    return urwid.Overlay(box, below, "left", width, "top", height, left=shifted, top=top)
-
 
 def _leave() -> None:
     raise urwid.ExitMainLoop

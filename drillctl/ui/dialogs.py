@@ -8,27 +8,30 @@ from collections.abc import Callable, Sequence
 
 import urwid
 
+from drillctl.ui.lines import Size
 from drillctl.ui.words import _
 
 WIDEST = 72
 
 Act = Callable[[], None]
+Part = urwid.Text | urwid.AttrMap[urwid.Edit]
 
 
 class Dialog(urwid.WidgetWrap[urwid.Widget]):
     """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc only closes."""
 
-    def __init__(self, title: str, body: Sequence[urwid.Widget], buttons: Sequence[tuple[str, Act]], closing: Act):
+    def __init__(self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act):
         self._closing = closing
         self._first = self._closed_by(buttons[0][1])
         row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
-        self._list = urwid.ListBox(urwid.SimpleFocusListWalker([*body, urwid.Divider(), row]))
+        self._parts: list[Part | urwid.Divider | urwid.GridFlow] = [*body, urwid.Divider(), row]
+        self._list = urwid.ListBox(urwid.SimpleFocusListWalker(self._parts))
         self._list.set_focus(_first_selectable(body, len(body) + 1))
         self._title = title
         self._frame = urwid.LineBox(urwid.Padding(self._list, left=1, right=1), title=title, title_attr="title")
         super().__init__(urwid.AttrMap(self._frame, "body"))
 
-    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+    def keypress(self, size: Size, key: str) -> str | None:
         """Nothing passes a dialog."""
         if key == "esc":
             self._closing()
@@ -44,9 +47,9 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
     def wanted_rows(self, columns: int) -> int:
         """Rows for all of it in a box so wide."""
         inner = (columns - 4,)
-        return sum(widget.rows(inner) for widget in self._list.body) + 2
+        return sum(widget.rows(inner) for widget in self._parts) + 2
 
-    def _button(self, label: str, act: Act) -> urwid.Widget:
+    def _button(self, label: str, act: Act) -> urwid.AttrMap[urwid.Button]:
         pressed = self._closed_by(act)
         return urwid.AttrMap(urwid.Button(label, lambda _button: pressed()), "key", "focus")
 
@@ -81,23 +84,29 @@ def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], clo
         [(_("OK"), lambda: accept(field.edit_text)), (_("Cancel"), nothing)],
         closing,
     )
-    field.entered = lambda: (closing(), accept(field.edit_text))
+
+    def entered() -> None:
+        closing()
+        accept(field.edit_text)
+
+    field.entered = entered
     return dialog
 
 
 class _Field(urwid.Edit):
     """A line of text with something to do on Enter."""
 
-    entered: Callable[[], object] = staticmethod(nothing)
+    entered: Act = staticmethod(nothing)
 
-    def keypress(self, size: tuple[int], key: str) -> str | None:
+    def keypress(self, size: Size, key: str) -> str | None:
+        assert len(size) == 1
         if key != "enter":
             return super().keypress(size, key)
         self.entered()
         return None
 
 
-def _first_selectable(body: Sequence[urwid.Widget], otherwise: int) -> int:
+def _first_selectable(body: Sequence[Part], otherwise: int) -> int:
     return next((i for i, widget in enumerate(body) if widget.selectable()), otherwise)
 
 
@@ -110,7 +119,7 @@ def pair_mm(text: str) -> tuple[float, float] | None:
     return (first, second) if math.isfinite(first) and math.isfinite(second) else None
 
 
-def over(dialog: Dialog, below: urwid.Widget, columns: int, rows: int) -> urwid.Overlay:
+def over(dialog: Dialog, below: urwid.Widget, columns: int, rows: int) -> urwid.Widget:
     """The dialog in the middle of a terminal of this size, as high as its text needs and the terminal allows."""
     width = min(WIDEST, columns - 2)
     wanted = dialog.wanted_rows(width)

@@ -4,6 +4,7 @@ Rule: it only shows; what a click or a key does is decided in app.py.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import urwid
 
@@ -69,13 +70,14 @@ class KeyLine(urwid.Widget):
         return boxed(lines, size[0], len(lines))
 
 
-class MainFrame(urwid.Frame):
+class MainFrame(urwid.Frame[Any, Any, Any]):
     """Bar and machine above, a screen between, keys below."""
 
     def __init__(self, screen: urwid.Widget):
         self.bar = MenuBar()
         self._machine = urwid.Text("", wrap="clip")
         self._keys = KeyLine()
+        self._shown: Line = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
         super().__init__(screen, header=header, footer=self._keys)
 
@@ -92,12 +94,12 @@ class MainFrame(urwid.Frame):
         place = f" {view.machine} | {view.port} | "
         shown = (attribute, f" {_(word)} ")
         title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
-        markup = [title, place, shown, f" {moving} | ", known]
+        markup: Line = [title, place, shown, f" {moving} | ", known]
         if view.notices:
             markup += [" | ", ("warning", view.notices[-1])]
-        if markup != getattr(self, "_shown", None):
+        if markup != self._shown:
             self._shown = markup
-            self._machine.set_text(markup)
+            self._machine.set_text(list(markup))
 
 
 def screen_keys(screen: urwid.Widget) -> Sequence[Key]:

@@ -4,11 +4,13 @@ Rule: a row says which screen comes to the front and which of its methods is cal
 entry is a new row. ``&`` stands before the hot letter, in every language. Used by app.py.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import NamedTuple
 
 import urwid
 
+from drillctl.ui.lines import Line, Size
+from drillctl.ui.pick import Pick
 from drillctl.ui.words import N_, _
 
 
@@ -90,34 +92,13 @@ def hot_letter(item: Item) -> str:
     return rest[:1].lower()
 
 
-def label_markup(item: Item, attribute: str | None = None) -> list[str | tuple[str, str]]:
+def label_markup(item: Item) -> Line:
     """With the hot letter marked."""
     before, _mark, rest = _(item.label).partition("&")
     return [before, ("menu_hot", rest[:1]), rest[1:]] if rest else [before]
 
 
-class Row(urwid.Text):
-    """An entry in a box; a click or Enter chooses it."""
-
-    _selectable = True
-
-    def __init__(self, item: Item, chosen: Callable[[Item], None]):
-        self.item, self._chosen = item, chosen
-        super().__init__([*label_markup(item), " >" if item.items else ""], wrap="clip")
-
-    def keypress(self, size: tuple[int], key: str) -> str | None:
-        """Enter, and to the right where there is a further box."""
-        if key == "enter" or (key == "right" and self.item.items):
-            self._chosen(self.item)
-            return None
-        return key
-
-    def mouse_event(self, size: tuple[int], event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """The first button chooses."""
-        if event == "mouse press" and button == 1:
-            self._chosen(self.item)
-            return True
-        return False
+FOCUSED: Mapping[Hashable, Hashable] = {"menu_hot": "focus", None: "focus"}
 
 
 class PullDown(urwid.WidgetWrap[urwid.Widget]):
@@ -128,12 +109,12 @@ class PullDown(urwid.WidgetWrap[urwid.Widget]):
         closing: Callable[[], None],
     ):  # fmt: skip
         self._items, self._chosen, self._sideways, self._closing = items, chosen, sideways, closing
-        rows = [urwid.AttrMap(Row(item, chosen), "menu", {"menu_hot": "focus", None: "focus"}) for item in items]
-        super().__init__(urwid.AttrMap(urwid.LineBox(urwid.ListBox(urwid.SimpleFocusListWalker(rows))), "menu"))
+        rows = urwid.SimpleFocusListWalker([urwid.AttrMap(self._row(item), "menu", FOCUSED) for item in items])
+        super().__init__(urwid.AttrMap(urwid.LineBox(urwid.ListBox(rows)), "menu"))
         self.columns = max(len(plain_label(item)) for item in items) + 4
         self.rows_wanted = len(items) + 2
 
-    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+    def keypress(self, size: Size, key: str) -> str | None:
         """Nothing passes an open menu."""
         left = super().keypress(size, key)
         if left == "esc":
@@ -143,6 +124,10 @@ class PullDown(urwid.WidgetWrap[urwid.Widget]):
         elif left is not None:
             self._letter(left)
         return None
+
+    def _row(self, item: Item) -> Pick:
+        further = (" >", "right") if item.items else ("",)
+        return Pick([*label_markup(item), further[0]], lambda: self._chosen(item), *further[1:])
 
     def _letter(self, key: str) -> None:
         for item in self._items:

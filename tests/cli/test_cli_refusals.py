@@ -44,7 +44,7 @@ REFUSED = [
     (["run", "kicad.drl", "--format", "wat"], "drillctl: kicad.drl: bad-format: "),
     (["run"], "drillctl: the following arguments are required: JOB (see drillctl run --help)"),
     (["dig"], "drillctl: argument VERB: invalid choice: 'dig'"),
-    ([], "drillctl: the following arguments are required: VERB"),
+    ([], "drillctl: the screen needs a terminal"),
     (["run", "hole.kmd", "--trace", "nowhere/x.trace"], "drillctl: nowhere/x.trace: can't be written: No such file"),
     (["run", "hole.kmd", "--trace", "."], "drillctl: .: can't be written: Is a directory"),
     (["run", "hole.kmd", "--vcd", "hole.kmd/x"], "drillctl: hole.kmd/x: can't be written: Not a directory"),

@@ -1,5 +1,6 @@
 """The doors in shared memory do what the doors of one process do; a status record is whole or not read at all."""
 
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -80,9 +81,10 @@ def test_no_status_is_ever_torn(channel: Channel) -> None:
     writer = Child(write)
     seen = set()
     while not writer.gone:
-        record = channel.status()
-        assert whole(record), record
-        seen.add(int(record["tick"]))
+        with suppress(OSError):  # a reader that is always too late gives up, as PacedLink then keeps its last one
+            record = channel.status()
+            assert whole(record), record
+            seen.add(int(record["tick"]))
     assert len(seen) > 10 and int(channel.status()["tick"]) == PUBLISHED
 
 

@@ -2,6 +2,7 @@
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -78,7 +79,7 @@ def test_a_key_that_is_not_written_yet_is_added_where_it_belongs(place: tuple[st
                                                                    "mode", "tool_change")))  # fmt: skip
     edited = set_value(bare, place, "REAL")
     machine = Library((shipped_tables(),)).check_source(Source(Path("machines/m.toml"), edited))
-    inner = tomllib.loads(edited)
+    inner: Any = tomllib.loads(edited)
     for part in place:
         inner = inner[part]
     assert inner == "REAL" and machine == []

@@ -1,13 +1,15 @@
 """The editors' desk over real tables: what is saved is sound, is the user's own, and can be taken back."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from drillctl.machine import Library, shipped_tables
-from drillctl.machine.edit import set_value
-from drillctl.panel.tables import Kind
+from drillctl.machine.library import user_tables
+from drillctl.panel.tables import Checked, Kind
 from drillctl.queuebench import QueueBench
+from drillctl.ui.models.phase_grid import PhaseGrid
 from drillctl.workbench import KEY_OF, Workbench
 
 
@@ -88,9 +90,19 @@ def test_a_folder_that_is_looked_at_first_is_named(tmp_path: Path, user: Path) -
     assert str(first) in problem and not user.exists()
 
 
+def test_in_a_checkout_the_users_copy_comes_before_the_shipped_tables(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(shipped_tables().parent)
+    assert Library.standard().folders == (user_tables(), shipped_tables())
+
+
+def test_elsewhere_the_projects_tables_come_first(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert Library.standard().folders == (Path("tables"), user_tables(), shipped_tables())
+
+
 def test_a_dangerous_table_is_saved_with_its_warnings(bench: Workbench) -> None:
     rows = bench.phase_rows(bench.read("phase", "two-phase-forced"))
-    dark = [row.__class__(row.name, row.volts, "." + row.pattern[1:]) for row in rows]
+    dark = [replace(row, pattern=f".{row.pattern[1:]}") for row in rows]
     text = bench.with_phase_rows(bench.read("phase", "two-phase-forced"), dark)
     checked = bench.check("phase", text)
     assert checked.problems == () and any("nothing pulls" in found.text for found in checked.warnings)
@@ -103,6 +115,18 @@ def test_phase_rows_and_back_leave_the_text_as_it_was(bench: Workbench) -> None:
         assert bench.with_phase_rows(text, bench.phase_rows(text)) == text
 
 
+def test_mirrored_forcing_opens_every_phase_in_both_directions(bench: Workbench) -> None:
+    """The paper's pulse closes a phase when the table is played backwards; mirrored, it comes first there too."""
+    text = bench.read("phase", "two-phase-forced")
+    grid = PhaseGrid(bench.phase_rows(text)).mirrored()
+    edited = bench.with_phase_rows(text, grid.rows)
+    assert bench.check("phase", edited) == Checked()
+    rows = {row.name: row.reverse or "" for row in bench.phase_rows(edited)}
+    phases = list(zip(*(rows[name] for name in ("1a", "1b", "2a", "2b")), strict=True))
+    forced = [column for column in range(12) if "x" in (rows["24a"][column], rows["24b"][column])]
+    assert forced == [column for column in range(12) if phases[column] != phases[(column + 1) % 12]]
+
+
 def test_a_ramp_is_drawn_and_an_inexact_one_is_not(bench: Workbench) -> None:
     text = bench.read("ramp", "seven-state")
     told = bench.ramp(text)
@@ -110,9 +134,19 @@ def test_a_ramp_is_drawn_and_an_inexact_one_is_not(bench: Workbench) -> None:
     assert [(row.state, row.stop_steps, row.stop_ticks) for row in told.states][3:] == [
         (0, 0, 0), (1, 1, 4), (2, 2, 6), (3, 3, 7),
     ]  # fmt: skip
-    unsound = bench.ramp(bench.with_state(text, 3, "brake", 3))
-    assert unsound.intervals == () and unsound.states[-1].brake == 3 and unsound.states[-1].stop_steps is None
-    assert bench.ramp("nonsense") == bench.ramp("name = 'x'")
+    for state in (3, 2, 1):
+        text = bench.with_state(text, state, "brake", 1)
+    inexact = bench.ramp(text)
+    assert inexact.intervals == () and inexact.states[-1].brake == 1 and inexact.states[-1].stop_steps is None
+    assert "not landed on exactly" in bench.save("ramp", "seven-state", text)[0]
+    assert bench.ramp("nonsense").states == bench.ramp("name = 'x'").states == ()
+
+
+@pytest.mark.parametrize(("field", "value"), [("interval", 0), ("interval", 9_999_999), ("brake", -4), ("brake", 5000)])
+def test_a_number_out_of_bounds_is_shown_that_it_may_be_put_right(bench: Workbench, field: str, value: int) -> None:
+    text = bench.with_state(bench.read("ramp", "seven-state"), 2, field, value)
+    assert getattr(bench.ramp(text).states[5], field) == value and bench.check("ramp", text).problems
+    assert bench.save("ramp", "seven-state", text) != ()
 
 
 def test_fields_have_values_bounds_and_choices(bench: Workbench) -> None:
@@ -121,6 +155,7 @@ def test_fields_have_values_bounds_and_choices(bench: Workbench) -> None:
     assert fields[("configuration", "mode")].choices == ("REAL", "SIMULATED")
     assert fields[("axis", 0, "range", 1)].value == "16535" and fields[("axis", 0, "range", 1)].axis == "x"
     assert fields[("tick_hz",)].bounds == "1..100000"
+    assert fields[("configuration", "longest_drilling_s")].value == "18"
     assert fields[("configuration", "longest_drilling_s")].bounds == "above 0..3600"
     assert bench.fields("name = 1") == ()
 
@@ -202,8 +237,3 @@ def test_a_queue_is_kept_and_opened_again(queue: QueueBench, tmp_path: Path) -> 
     file.write_bytes(b"\xff\xfe")
     assert "not UTF-8" in queue.open_queue(str(file))[1][0]
     assert queue.open_queue("a\0b")[1] and queue.save_queue("a\0b", "")
-
-
-def test_the_copy_of_another_value_keeps_comments(bench: Workbench) -> None:
-    text = bench.read("machines", "pcb-drill")
-    assert text.count("#") == set_value(text, ("tick_hz",), 1000).count("#")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from drillctl.panel.console import BoardView
 from drillctl.ui.board import BRAILLE, Sheet
-from drillctl.ui.lines import Line, boxed
+from drillctl.ui.lines import Line, Size, boxed
 from drillctl.ui.words import _
 
 Place = tuple[float, float]
@@ -42,8 +42,9 @@ class BoardPicture(urwid.Widget):
             self._state = state
             self._invalidate()
 
-    def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """The picture, clipped to the box."""
+        assert len(size) == 2
         columns, rows = size
         return boxed(self._lines(columns, rows), columns, rows)
 

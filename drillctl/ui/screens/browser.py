@@ -9,6 +9,7 @@ from pathlib import Path
 
 import urwid
 
+from drillctl.ui.pick import Pick
 from drillctl.ui.words import _
 
 DRILL_FILES = "*.drl *.drd *.xln *.xnc *.exc *.cnc *.nc *.txt *.tap *.ncd *.rou"
@@ -16,23 +17,26 @@ MOST_ENTRIES = 2000
 PREVIEW_BYTES = 4096
 
 
-class Browser(urwid.ListBox):
+class Browser(urwid.ListBox[int]):
     """The entries of a folder; ``chosen`` is called with a file, ``looked_at`` with what the cursor stands on."""
 
     def __init__(self, folder: Path, chosen: Callable[[Path], None], looked_at: Callable[[Path], None]):
         self._chosen, self._looked_at = chosen, looked_at
         self.pattern = DRILL_FILES
         self.folder = folder
-        super().__init__(urwid.SimpleFocusListWalker([]))
+        self._paths: list[Path] = []
+        self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Pick]] = urwid.SimpleFocusListWalker([])
+        super().__init__(self._rows)
         self.go_to(folder)
-        urwid.connect_signal(self.body, "modified", self._moved)
+        urwid.connect_signal(self._rows, "modified", self._moved)
 
     def go_to(self, folder: Path) -> None:
         """Shows another folder."""
         self.folder = folder.resolve()
-        entries = [_Entry(path, name, self._choose) for path, name in self._found()]
-        self.body[:] = [urwid.AttrMap(entry, "body", "focus") for entry in entries]
-        self.body.set_focus(0)
+        found = list(self._found())
+        self._paths = [path for path, _name in found]
+        self._rows[:] = [urwid.AttrMap(self._row(*entry), "body", "focus") for entry in found]
+        self._rows.set_focus(0)
 
     def filter(self, pattern: str) -> None:
         """Patterns apart by spaces; none of them means every file."""
@@ -42,7 +46,7 @@ class Browser(urwid.ListBox):
     @property
     def current(self) -> Path:
         """What the cursor stands on."""
-        return self.focus.base_widget.path
+        return self._paths[self._rows.focus or 0]
 
     def _found(self) -> Iterator[tuple[Path, str]]:
         yield self.folder.parent, "../"
@@ -58,6 +62,9 @@ class Browser(urwid.ListBox):
         if max(len(folders), len(files)) > MOST_ENTRIES:
             yield self.folder, _("(more than can be shown: use the filter)")
 
+    def _row(self, path: Path, name: str) -> Pick:
+        return Pick("".join(c if c.isprintable() else "?" for c in name), lambda: self._choose(path))
+
     def _matches(self, name: str) -> bool:
         return any(fnmatch(name.lower(), pattern.lower()) for pattern in self.pattern.split())
 
@@ -68,30 +75,7 @@ class Browser(urwid.ListBox):
             self._chosen(path)
 
     def _moved(self) -> None:
-        if self.focus is not None:
-            self._looked_at(self.current)
-
-
-class _Entry(urwid.SelectableIcon):
-    """A line of the list; Enter or a click chooses it."""
-
-    def __init__(self, path: Path, name: str, choose: Callable[[Path], None]):
-        self.path, self._choose = path, choose
-        super().__init__("".join(c if c.isprintable() else "?" for c in name), 0)
-        self.set_wrap_mode("ellipsis")
-
-    def keypress(self, size: tuple[int], key: str) -> str | None:
-        """Enter."""
-        if key != "enter":
-            return key
-        self._choose(self.path)
-        return None
-
-    def mouse_event(self, size: tuple[int], event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """The first button, on the entry that has the cursor."""
-        if event == "mouse press" and button == 1 and focus:
-            self._choose(self.path)
-        return event == "mouse press" and button == 1
+        self._looked_at(self.current)
 
 
 def preview(path: Path) -> list[str]:

@@ -14,6 +14,7 @@ from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Line
 from drillctl.ui.models.form import Form
 from drillctl.ui.screens.field_words import words_of
+from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.shell import Shell
 from drillctl.ui.words import N_, _
@@ -24,7 +25,6 @@ LABEL_COLUMNS, VALUE_COLUMNS = 34, 26
 class Configuration(urwid.WidgetWrap[urwid.Widget]):
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
-    kind = "machines"
     title = N_("Configuration")
     keys = (
         Key(("up",), "Up", "go", N_("the field above"), argument=-1),
@@ -38,7 +38,8 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
     )
 
     def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
-        self._console, self._shell, self._desk, self._name = console, shell, desk, name
+        self._shell, self._desk, self._name = shell, desk, name
+        self._shelf = Shelf(console, shell, desk, "machines")
         self._heading, self._told = urwid.Text(""), urwid.Text("")
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
         self._list = urwid.ListBox(self._rows)
@@ -81,30 +82,26 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
     def save(self) -> None:
         """All fields or none."""
         text, refused = self._form.candidate()
-        problems = refused or self._desk.save("machines", self._name, text)
-        if problems:
-            self._shell.message(_("Not saved"), problems)
-            return
-        self._open()
-        self._shell.ask(_("Saved. Start the machine anew with it? The position will be lost."), self.choose)
+        if refused:
+            self._shell.message(_("Not saved"), refused)
+        else:
+            self._shelf.save(self._name, text, self._name, self._open)
 
     def diff(self) -> None:
         """Of what is typed, as far as it can be taken."""
-        lines = self._desk.diff("machines", self._name, self._form.candidate()[0])
-        self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
+        self._shelf.diff(self._name, self._form.candidate()[0])
 
     def choose(self) -> None:
-        """Refused while something moves."""
-        if problems := self._console.choose_machine(self._name):
-            self._shell.message(_("Not loaded"), problems)
+        """What is typed and not saved stays out of it."""
+        self._shelf.drive(self._name)
 
     def copy(self) -> None:
-        """Asks for the name."""
-        self._shell.ask_text(_("Copy"), _("New name:"), f"my-{self._name}", self._copy)
+        """The copy is gone on with."""
+        self._shelf.copy(self._name, self._go_on_with)
 
     def reset(self) -> None:
-        """Asks first."""
-        self._shell.ask(_("Take your own copy away and go back to the shipped table?"), self._reset)
+        """What is typed goes too."""
+        self._shelf.reset(self._name, self._open)
 
     @property
     def _field(self) -> FieldView | None:
@@ -125,18 +122,9 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
             self._form.type(self._field, str(self._edits[self._list.focus_position].edit_text))
         self._look()
 
-    def _copy(self, name: str) -> None:
-        if problems := self._desk.copy("machines", self._name, name):
-            self._shell.message(_("Not copied"), problems)
-        else:
-            self._name = name
-            self._open()
-
-    def _reset(self) -> None:
-        if problems := self._desk.reset("machines", self._name):
-            self._shell.message(_("Nothing changed"), problems)
-        else:
-            self._open()
+    def _go_on_with(self, name: str) -> None:
+        self._name = name
+        self._open()
 
     def _look(self) -> None:
         changed = _(", changed") if self._form.changed else ""

@@ -5,12 +5,14 @@ line. Drilling itself asks first. Opened by the frame; it is the screen that sta
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import urwid
 
 from drillctl.panel.console import Console, MachineView, Problems
 from drillctl.ui.dialogs import pair_mm
 from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Size
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.side_window import SideWindow
 from drillctl.ui.shell import Shell
@@ -47,7 +49,7 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         Key(("a",), "A", "acknowledge", N_("the fault has been seen")),
     )
 
-    def __init__(self, console: Console, shell: Shell, plain: bool = False, files: Callable[[], None] | None = None):
+    def __init__(self, console: Console, shell: Shell, plain: bool = False, files: Callable[[], object] | None = None):
         self._console, self._shell, self._open_files = console, shell, files
         self._size_index = 2
         self._told: tuple[str, str] = ("body", "")
@@ -62,16 +64,18 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         """It takes keys although nothing in it does."""
         return True
 
-    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+    def keypress(self, size: Size, key: str) -> str | None:
         """The table's; everything else is the frame's."""
         return None if called(self, self.keys, key) else key
 
-    def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Columns by what there is room for."""
+        assert len(size) == 2
         window = WIDE_WINDOW if size[0] >= WIDE else NARROW_WINDOW
-        both = [(self._picture, self._columns.options()), (self._window, self._columns.options("given", window))]
-        alone = [(self._window, self._columns.options())]
-        self._columns.contents = both if size[0] >= window + LEAST_BOARD else alone
+        beside = size[0] >= window + LEAST_BOARD
+        board: list[Any] = [(self._picture, self._columns.options())] if beside else []
+        width = self._columns.options("given", window) if beside else self._columns.options()
+        self._columns.contents = [*board, (self._window, width)]
         return super().render(size, focus)
 
     def refresh(self, view: MachineView) -> None:

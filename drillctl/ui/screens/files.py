@@ -6,7 +6,7 @@ shown of a board comes from its BoardView alone. Opened by the frame and by the 
 
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import urwid
@@ -14,6 +14,7 @@ import urwid
 from drillctl.panel.console import Asked, BoardView, Console
 from drillctl.ui.dialogs import pair_mm
 from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Size
 from drillctl.ui.progress import clock
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.browser import Browser, preview
@@ -33,7 +34,10 @@ CHOICES = (
     Choice("mirror", N_("Mirror"), ((None, N_("no")), ("x", N_("in X")), ("y", N_("in Y")))),
     Choice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
     Choice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
-    Choice("order", N_("Order"), (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best")))),
+    Choice(
+        "order", N_("Order"),
+        (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best"))),
+    ),
 )
 BY_FIELD = {choice.field: choice for choice in CHOICES}
 
@@ -58,16 +62,17 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._console, self._shell = console, shell
         self._asked, self._loaded = Asked(), Path()
         self._picture = BoardPicture(plain)
-        self._facts = urwid.ListBox(urwid.SimpleFocusListWalker([]))
+        self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[urwid.SelectableIcon]] = urwid.SimpleFocusListWalker([])
+        facts = urwid.ListBox(self._rows)
         self._browser = Browser(folder or Path.cwd(), self.load, self._look_at)
         self._where = urwid.Text("", wrap="ellipsis")
-        self._right = urwid.Pile([("weight", 2, self._picture), ("weight", 3, self._facts)])
-        left = urwid.Frame(self._browser, header=urwid.AttrMap(self._where, "title"))
+        self._right = urwid.Pile([("weight", 2, self._picture), ("weight", 3, facts)])
+        left: urwid.Widget = urwid.Frame(self._browser, header=urwid.AttrMap(self._where, "title"))
         self._sides = urwid.Columns([("weight", 2, left), ("weight", 3, self._right)], dividechars=1)
         super().__init__(self._sides)
         self._look_at(self._browser.current)
 
-    def keypress(self, size: tuple[int, int], key: str) -> str | None:
+    def keypress(self, size: Size, key: str) -> str | None:
         """The list's keys first: Enter is its own."""
         left = super().keypress(size, key)
         return None if left is None or called(self, self.keys, left) else left
@@ -93,7 +98,8 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         """The next value of a choice."""
         values = [value for value, _word in BY_FIELD[field].values]
         following = values[(values.index(getattr(self._asked, field)) + 1) % len(values)]
-        self._try(self._loaded, replace(self._asked, **{field: following}))
+        changed: dict[str, Any] = {field: following}
+        self._try(self._loaded, replace(self._asked, **changed))
 
     def set_format(self, name: str) -> None:
         """Settled by hand; empty: recognised."""
@@ -126,16 +132,16 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         board = self._console.board() if path == self._loaded else None
         self._picture.show(board)
         lines = board_lines(board) if board else preview(path)
-        self._facts.body[:] = [_row(line) for line in [*self._wishes(), "", *lines]]
-        self._facts.body.set_focus(0)
+        self._rows[:] = [_row(line) for line in [*self._wishes(), "", *lines]]
+        self._rows.set_focus(0)
 
     def _wishes(self) -> list[str]:
         """Two a line."""
         words = [(choice.label, dict(choice.values)[getattr(self._asked, choice.field)]) for choice in CHOICES]
-        offset = _("X {x:g}, Y {y:g} mm").format(x=self._asked.offset_mm[0], y=self._asked.offset_mm[1])
+        offset = "{:g} {:g} mm".format(*self._asked.offset_mm)
         told = [f"{_(label)}: {_(word)}" for label, word in words] + [f"{_('Offset')}: {offset}"]
         told.insert(0, f"{_('Format')}: {self._asked.format or _('recognised')}")
-        return [f"{left:24}{right}" for left, right in zip(told[::2], told[1::2], strict=True)]
+        return [f"{left:24} {right}" for left, right in zip(told[::2], told[1::2], strict=True)]
 
 
 def board_lines(board: BoardView) -> list[str]:
@@ -169,7 +175,7 @@ def _whole_time(board: BoardView) -> str:
     return line if told.fault is None else f"{line}; {_('it would end in')} {told.fault.name}: {_(told.fault.cause)}"
 
 
-def _row(line: str) -> urwid.Widget:
+def _row(line: str) -> urwid.AttrMap[urwid.SelectableIcon]:
     """A line that can be scrolled to; a warning is marked."""
     marked = "warning" if line.startswith(_("warning: {text}").partition("{")[0]) else "body"
     return urwid.AttrMap(urwid.SelectableIcon(line, 0), marked, "focus")

@@ -51,7 +51,7 @@ class RampEditor(TableEditor):
 
     def rub_out(self) -> None:
         """One digit less."""
-        self._take((self._shown() if self._typed is None else self._typed)[:-1])
+        self._take(self._shown()[:-1])
 
     def sideways(self, by: int) -> None:
         """Stops at the ends."""
@@ -100,6 +100,9 @@ class RampEditor(TableEditor):
         self._invalidate()
 
     def _shown(self) -> str:
+        """What stands under the cursor."""
+        if self._typed is not None or not self._told.states:
+            return self._typed or ""
         return str(getattr(self._told.states[self._line], FIELDS[self._field]))
 
     def _row(self, line: int, state: StateRow) -> Line:
@@ -110,8 +113,7 @@ class RampEditor(TableEditor):
     def _cell(self, line: int, field: int, value: int) -> str | tuple[str, str]:
         if (line, field) != (self._line, self._field):
             return f"{value:>{CELL_COLUMNS}}"
-        typed = str(value) if self._typed is None else self._typed
-        return "focus", f"{'[' + typed + ']':>{CELL_COLUMNS}}"
+        return "focus", f"{'[' + self._shown() + ']':>{CELL_COLUMNS}}"
 
     def _profile(self, columns: int) -> list[Line]:
         ticks = self._told.intervals

@@ -10,7 +10,7 @@ import urwid
 
 from drillctl.panel.console import AxisView, BoardView, MachineView
 from drillctl.panel.records import Progress
-from drillctl.ui.lines import Line, boxed
+from drillctl.ui.lines import Line, Size, boxed
 from drillctl.ui.progress import clock
 from drillctl.ui.words import _
 
@@ -31,8 +31,9 @@ class SideWindow(urwid.Widget):
             self._shown = (view, progress, board)
             self._invalidate()
 
-    def render(self, size: tuple[int, int], focus: bool = False) -> urwid.Canvas:
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """The lines, clipped to the box."""
+        assert len(size) == 2
         columns, rows = size
         lines = side_lines(*self._shown, columns, rows) if self._shown else []
         return boxed(lines, columns, rows)
@@ -141,7 +142,7 @@ def _marked(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> li
 def _tick_lines(view: MachineView) -> list[Line]:
     late = _("{hz} Hz, {late} late").format(hz=view.tick_hz, late=view.late)
     worst = f" ({view.late_worst_ms:.1f} ms)" if view.late else ""
-    lines = [[("title", f"{_('Ticks'):{LABEL_WIDTH}}"), ("warning" if view.late else "body", late + worst)]]
+    lines: list[Line] = [[("title", f"{_('Ticks'):{LABEL_WIDTH}}"), ("warning" if view.late else "body", late + worst)]]
     if view.lost_steps is not None:
         lost = " ".join(map(str, view.lost_steps))
         lines.append([("title", f"{_('Lost'):{LABEL_WIDTH}}"), ("danger" if any(view.lost_steps) else "body", lost)])

@@ -11,6 +11,7 @@ from drillctl.panel.tables import Checked, Kind, TableDesk
 from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Line, boxed
 from drillctl.ui.models.history import History
+from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.shell import Shell
 from drillctl.ui.words import N_, _
 
@@ -37,6 +38,7 @@ class TableEditor(urwid.Widget):
 
     def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
         self._console, self._shell, self._desk = console, shell, desk
+        self._shelf = Shelf(console, shell, desk, self.kind)
         self._name, self._plain = name, plain
         self._open()
 
@@ -84,22 +86,16 @@ class TableEditor(urwid.Widget):
         self._look()
 
     def save(self) -> None:
-        """To the user's own copy; then the machine can be started anew with it."""
-        if problems := self._desk.save(self.kind, self._name, self.text):
-            self._shell.message(_("Not saved"), problems)
-            return
-        self._saved = self.text
-        self._look()
-        self._shell.ask(_("Saved. Start the machine anew with it? The position will be lost."), self._load)
+        """The history stays: what was saved can be undone on the screen."""
+        self._shelf.save(self._name, self.text, self._console.view().machine, self._keep)
 
     def reset(self) -> None:
-        """Asks first."""
-        self._shell.ask(_("Take your own copy away and go back to the shipped table?"), self._reset)
+        """The history ends."""
+        self._shelf.reset(self._name, self._open)
 
     def diff(self) -> None:
-        """Against the shipped table."""
-        lines = self._desk.diff(self.kind, self._name, self.text)
-        self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
+        """Of the text on the screen, saved or not."""
+        self._shelf.diff(self._name, self.text)
 
     def _open(self) -> None:
         self._saved = self._desk.read(self.kind, self._name)
@@ -113,15 +109,9 @@ class TableEditor(urwid.Widget):
         self._origin = next((entry.origin for entry in entries if entry.name == self._name), "other")
         self._invalidate()
 
-    def _load(self) -> None:
-        if problems := self._console.choose_machine(self._console.view().machine):
-            self._shell.message(_("Not loaded"), problems)
-
-    def _reset(self) -> None:
-        if problems := self._desk.reset(self.kind, self._name):
-            self._shell.message(_("Nothing changed"), problems)
-        else:
-            self._open()
+    def _keep(self) -> None:
+        self._saved = self.text
+        self._look()
 
     def _heading(self) -> str:
         changed = _(", changed") if self.changed else ""

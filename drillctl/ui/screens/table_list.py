@@ -11,6 +11,7 @@ from drillctl.ui.keys import Key, called
 from drillctl.ui.screens.configuration import Configuration
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.ramp_editor import RampEditor
+from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import ORIGINS, Size
 from drillctl.ui.shell import Shell
 from drillctl.ui.words import N_, _
@@ -35,10 +36,11 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(self, console: Console, shell: Shell, desk: TableDesk, kind: Kind, plain: bool = False):
         self._console, self._shell, self._desk, self._plain = console, shell, desk, plain
+        self._shelf = Shelf(console, shell, desk, kind)
         self.kind, self.title = kind, TITLES[kind]
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
         self._list = urwid.ListBox(self._rows)
-        super().__init__(urwid.Frame(self._list, header=urwid.Text(("title", _(self.title)))))
+        super().__init__(self._list)
         self.fill()
 
     def keypress(self, size: Size, key: str) -> str | None:
@@ -69,13 +71,8 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
     def copy(self) -> None:
         """Asks for the name."""
         if self._entries:
-            self._shell.ask_text(_("Copy"), _("New name:"), f"my-{self._current}", self._copy)
+            self._shelf.copy(self._current, lambda _name: self.fill())
 
     @property
     def _current(self) -> str:
         return self._entries[self._list.focus_position].name
-
-    def _copy(self, name: str) -> None:
-        if problems := self._desk.copy(self.kind, self._current, name):
-            self._shell.message(_("Not copied"), problems)
-        self.fill()

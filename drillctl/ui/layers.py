@@ -1,0 +1,71 @@
+"""The boxes over the frame: dialogs and menus, each over the ones before it.
+
+Rule: only the topmost gets keys. Where a box lies is worked out anew whenever one comes, goes, or the terminal's size
+changes. Used by app.py.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import urwid
+
+from drillctl.ui import dialogs
+from drillctl.ui.menus import PullDown
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A box, and how it is laid over what is below in a terminal of so many columns and rows."""
+
+    box: urwid.Widget
+    over: Callable[[urwid.Widget, int, int], urwid.Widget]
+
+
+class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
+    """The widget of the whole terminal. ``size`` gives the terminal's columns and rows."""
+
+    def __init__(self, base: urwid.Widget, size: Callable[[], tuple[int, int]]):
+        super().__init__(base)
+        self._base, self._size = base, size
+        self._layers: list[Layer] = []
+
+    @property
+    def top(self) -> urwid.Widget | None:
+        """The box that gets the keys; None where the screen does."""
+        return self._layers[-1].box if self._layers else None
+
+    def push_dialog(self, dialog: dialogs.Dialog) -> None:
+        """In the middle."""
+        self._push(Layer(dialog, lambda below, columns, rows: dialogs.over(dialog, below, columns, rows)))
+
+    def push_menu(self, box: PullDown, left: int, top: int) -> None:
+        """With its corner here, as far as the terminal allows."""
+        self._push(Layer(box, lambda below, columns, rows: _placed(box, below, left, top, columns, rows)))
+
+    def pop(self) -> None:
+        """Takes the topmost away."""
+        del self._layers[-1:]
+        self.restack()
+
+    def close_menus(self) -> None:
+        """Dialogs stay."""
+        self._layers = [layer for layer in self._layers if not isinstance(layer.box, PullDown)]
+        self.restack()
+
+    def restack(self) -> None:
+        """Every layer over the ones below, for the terminal as it is now."""
+        widget = self._base
+        for layer in self._layers:
+            widget = layer.over(widget, *self._size())
+        self.original_widget = widget
+
+    def _push(self, layer: Layer) -> None:
+        self._layers.append(layer)
+        self.restack()
+
+
+def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: int, rows: int) -> urwid.Widget:
+    """Within the terminal, whatever its size."""
+    width, height = min(box.columns, columns), min(box.rows_wanted, rows - top)
+    shifted = max(0, min(left, columns - width))
+    return urwid.Overlay(box, below, "left", width, "top", height, left=shifted, top=top)

@@ -1,0 +1,61 @@
+"""What the editors of tables do with a text beyond editing it: save, reset, compare, copy, drive.
+
+Rule: a refusal is told and nothing follows; ``then`` is called only after success. Used by table_editor, configuration
+and table_list.
+"""
+
+from collections.abc import Callable
+
+from drillctl.panel.console import Console, Problems
+from drillctl.panel.tables import Kind, TableDesk
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import _
+
+Then = Callable[[], None]
+
+
+class Shelf:
+    """The tables of one kind, with the dialogs that go with them."""
+
+    def __init__(self, console: Console, shell: Shell, desk: TableDesk, kind: Kind):
+        self._console, self._shell, self._desk, self._kind = console, shell, desk, kind
+
+    def save(self, name: str, text: str, machine: str, then: Then) -> None:
+        """To the user's own copy; then ``machine`` can be started anew with it."""
+        if self._refused(_("Not saved"), self._desk.save(self._kind, name, text)):
+            return
+        then()
+        question = _("Saved. Start the machine anew with it? The position will be lost.")
+        self._shell.ask(question, lambda: self.drive(machine))
+
+    def reset(self, name: str, then: Then) -> None:
+        """Asks first."""
+
+        def yes() -> None:
+            if not self._refused(_("Nothing changed"), self._desk.reset(self._kind, name)):
+                then()
+
+        self._shell.ask(_("Take your own copy away and go back to the shipped table?"), yes)
+
+    def diff(self, name: str, text: str) -> None:
+        """Against the shipped table."""
+        lines = self._desk.diff(self._kind, name, text)
+        self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
+
+    def copy(self, name: str, then: Callable[[str], None]) -> None:
+        """Asks for the new name, which ``then`` is given."""
+
+        def accept(new_name: str) -> None:
+            if not self._refused(_("Not copied"), self._desk.copy(self._kind, name, new_name)):
+                then(new_name)
+
+        self._shell.ask_text(_("Copy"), _("New name:"), f"my-{name}", accept)
+
+    def drive(self, machine: str) -> None:
+        """The machine starts anew, with the tables as they are saved. Refused while something moves."""
+        self._refused(_("Not loaded"), self._console.choose_machine(machine))
+
+    def _refused(self, title: str, problems: Problems) -> bool:
+        if problems:
+            self._shell.message(title, problems)
+        return bool(problems)

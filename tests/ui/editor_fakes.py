@@ -1,0 +1,194 @@
+"""Stand-ins for the editors' tests: a desk whose tables are words in lines, a shell that remembers, a console."""
+
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, field, replace
+from types import SimpleNamespace
+from typing import Any
+
+import urwid
+
+from drillctl.panel.console import Problems
+from drillctl.panel.queues import CommandHelp
+from drillctl.panel.tables import (
+    Checked,
+    FieldView,
+    Finding,
+    Kind,
+    PhaseRow,
+    Place,
+    RampDrawing,
+    StateRow,
+    TableEntry,
+)  # fmt: skip
+
+SIZE = (100, 30)
+
+
+def text_of(widget: urwid.Widget, size: tuple[int, int] = SIZE) -> str:
+    return "\n".join(row.decode().rstrip() for row in widget.render(size, focus=True).text)
+
+
+def attributes_of(widget: urwid.Widget, word: str) -> set[Hashable]:
+    """The attributes in which a word stands on the screen."""
+    runs = [run for row in widget.render(SIZE, focus=True).content() for run in row]
+    return {attribute for attribute, _charset, text in runs if word in text.decode()}
+
+
+def press(widget: urwid.Widget, *keys: str) -> list[str]:
+    """The keys that the widget left to others."""
+    left = [widget.keypress(SIZE, key) for key in keys]
+    return [key for key in left if key is not None]
+
+
+@dataclass
+class Shell:
+    """Answers yes where ``says_yes``; types ``types`` where it is asked for a text."""
+
+    says_yes: bool = False
+    types: str = ""
+    told: list[tuple[str, list[str]]] = field(default_factory=list)
+    asked: list[str] = field(default_factory=list)
+    opened: list[urwid.Widget] = field(default_factory=list)
+    closed: int = 0
+
+    def message(self, title: str, lines: Sequence[str]) -> None:
+        self.told.append((title, list(lines)))
+
+    def ask(self, question: str, yes: Callable[[], None]) -> None:
+        self.asked.append(question)
+        if self.says_yes:
+            yes()
+
+    def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
+        self.asked.append(prompt)
+        accept(self.types)
+
+    def open(self, screen: urwid.Widget) -> None:
+        self.opened.append(screen)
+
+    def back(self) -> None:
+        self.closed += 1
+
+
+class Console:
+    """Remembers what was run and chosen; refuses where ``refusal`` is set."""
+
+    def __init__(self) -> None:
+        self.ran: list[str] = []
+        self.chosen: list[str] = []
+        self.refusal: Problems = ()
+
+    def view(self) -> Any:
+        return SimpleNamespace(machine="drill")
+
+    def choose_machine(self, name: str) -> Problems:
+        self.chosen.append(name)
+        return self.refusal
+
+    def run_queue(self, text: str) -> Problems:
+        self.ran.append(text)
+        return self.refusal
+
+
+class Tables:
+    """A TableDesk over one table a kind, its own format: ``name volts pattern [reverse]``, four numbers, or
+    ``place value``, a line each. A line with ``bad`` is a problem, a lone ``....`` a warning."""
+
+    def __init__(self, **shipped: str):
+        self.shipped: dict[str, str] = dict(shipped)
+        self.own: dict[str, str] = {}
+
+    def tables(self, kind: Kind) -> list[TableEntry]:
+        return [TableEntry("one", "yours" if kind in self.own else "shipped")]
+
+    def read(self, kind: Kind, name: str) -> str:
+        return self.own.get(kind, self.shipped[kind])
+
+    def check(self, kind: Kind, text: str) -> Checked:
+        lines = list(enumerate(text.split("\n"), start=1))
+        problems = tuple(Finding(number, "it is bad") for number, line in lines if "bad" in line)
+        return Checked(problems, tuple(Finding(None, "all dark") for _number, line in lines if "...." in line))
+
+    def save(self, kind: Kind, name: str, text: str) -> Problems:
+        if problems := self.check(kind, text).problems:
+            return tuple(map(str, problems))
+        self.own[kind] = text
+        return ()
+
+    def reset(self, kind: Kind, name: str) -> Problems:
+        return () if self.own.pop(kind, None) is not None else ("there is no copy of your own",)
+
+    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+        return () if text == self.shipped[kind] else ("-before", "+after")
+
+    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+        return ("there is one already",) if new_name == name else ()
+
+    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
+        rows = (line.split() for line in text.split("\n"))
+        return tuple(PhaseRow(row[0], float(row[1]), row[2], *row[3:]) for row in rows)
+
+    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
+        return "\n".join(" ".join([row.name, f"{row.volts:g}", row.pattern, row.reverse or ""]).strip() for row in rows)
+
+    def ramp(self, text: str) -> RampDrawing:
+        """Sound while no interval is 0."""
+        numbers = [list(map(int, line.split())) for line in text.split("\n")]
+        rows = [StateRow(*row) for row in numbers]
+        if any(row.interval == 0 for row in rows):
+            return RampDrawing(tuple(rows))
+        told = (replace(row, stop_steps=abs(row.state), stop_ticks=row.interval) for row in rows)
+        return RampDrawing(tuple(told), tuple(row.interval for row in rows))
+
+    def with_state(self, text: str, state: int, name: str, value: int) -> str:
+        rows = [line.split() for line in text.split("\n")]
+        row = next(row for row in rows if int(row[0]) == state)
+        row[("state", "accelerate", "brake", "interval").index(name)] = str(value)
+        return "\n".join(map(" ".join, rows))
+
+    def fields(self, text: str) -> tuple[FieldView, ...]:
+        pairs = [line.partition(" ") for line in text.split("\n")]
+        places: dict[str, tuple[Place, str, tuple[str, ...]]] = {
+            "tick_hz": (("tick_hz",), "", ()),
+            "mode": (("configuration", "mode"), "", ("REAL", "SIMULATED")),
+            "scale": (("axis", 0, "columns_per_inch"), "x", ()),
+        }
+        return tuple(
+            FieldView(places[name][0], places[name][1], value, places[name][2], "1..9999") for name, _, value in pairs
+        )
+
+    def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
+        if not typed or not typed.isalnum():
+            return text, (f"{typed!r}: not that",)
+        fields = self.fields(text)
+        names = [line.partition(" ")[0] for line in text.split("\n")]
+        values = [typed if told.place == place else told.value for told in fields]
+        return "\n".join(f"{name} {value}" for name, value in zip(names, values, strict=True)), ()
+
+
+class Queues:
+    """A QueueDesk: a line that begins with KMD_ is right; files are a dictionary."""
+
+    def __init__(self) -> None:
+        self.files: dict[str, str] = {}
+
+    def commands(self) -> list[CommandHelp]:
+        return [
+            CommandHelp("KMD_CZEKAJ", "ticks", "wait"),
+            CommandHelp("KMD_RUCH", "axis=steps", "move"),
+            CommandHelp("KMD_RUCHd", "axis=steps", "move from here"),
+        ]
+
+    def words(self) -> list[str]:
+        return ["x", "y", "spindle"]
+
+    def check_queue(self, text: str) -> tuple[Finding, ...]:
+        lines = enumerate(text.split("\n"), start=1)
+        return tuple(Finding(n, "unknown command", 1) for n, line in lines if line and not line.startswith("KMD_"))
+
+    def open_queue(self, file: str) -> tuple[str, Problems]:
+        return (self.files[file], ()) if file in self.files else ("", (f"{file}: can't be read",))
+
+    def save_queue(self, file: str, text: str) -> Problems:
+        self.files[file] = text
+        return ()

@@ -1,0 +1,155 @@
+"""The configuration: every field with its words, what is typed checked at once, all saved or nothing; and the list."""
+
+import pytest
+
+from drillctl.machine import Library, shipped_tables
+from drillctl.machine.settings import settings
+from drillctl.machine.source import Source
+from drillctl.panel.tables import FieldView
+from drillctl.ui.screens.configuration import Configuration
+from drillctl.ui.screens.field_words import FIELD_WORDS, words_of
+from drillctl.ui.screens.phase_editor import PhaseEditor
+from drillctl.ui.screens.table_list import EDITORS, TableList
+from tests.ui.editor_fakes import Console, Shell, Tables, attributes_of, press, text_of
+
+FILE = "tick_hz 500\nmode SIMULATED\nscale 1200"
+
+
+@pytest.fixture
+def shell() -> Shell:
+    return Shell()
+
+
+@pytest.fixture
+def console() -> Console:
+    return Console()
+
+
+@pytest.fixture
+def desk() -> Tables:
+    return Tables(machines=FILE)
+
+
+@pytest.fixture
+def screen(console: Console, shell: Shell, desk: Tables) -> Configuration:
+    return Configuration(console, shell, desk, "one")
+
+
+def row_of(screen: Configuration, label: str) -> list[str]:
+    return next(row for row in text_of(screen).split("\n") if row.startswith(label)).removeprefix(label).split()
+
+
+def test_every_setting_of_a_machine_has_words() -> None:
+    library = Library((shipped_tables(),))
+    for name in library.machine_names():
+        for setting in settings(Source.read(shipped_tables() / "machines" / f"{name}.toml")):
+            place = setting.place[2:] if setting.axis else setting.place
+            assert FIELD_WORDS[place].meaning
+    assert words_of(FieldView(("new",), "", "1")).label == "new"
+
+
+def test_a_field_has_its_unit_and_bounds_and_the_focused_one_its_meaning(screen: Configuration) -> None:
+    assert row_of(screen, "Interrupt frequency") == ["500", "Hz", "1..9999"]
+    assert row_of(screen, "Mode") == ["SIMULATED", "REAL", "|", "SIMULATED"]
+    assert row_of(screen, "X: scale") == ["1200", "columns/inch", "1..9999"]
+    assert "Ticks a second" in text_of(screen)
+    press(screen, "down")
+    assert "they drive the card" in text_of(screen)
+
+
+def test_what_is_typed_is_saved_with_the_rest_as_it_was(screen: Configuration, shell: Shell, desk: Tables) -> None:
+    press(screen, "end", "backspace", "5", "down", "f6", "f2")
+    assert desk.own["machines"] == "tick_hz 505\nmode REAL\nscale 1200"
+    assert not screen.form.changed and "position will be lost" in shell.asked[0]
+
+
+def test_a_value_that_cannot_be_taken_is_told_and_nothing_is_saved(
+    screen: Configuration, shell: Shell, desk: Tables
+) -> None:
+    press(screen, "end", "-", "down", "down", "end", "7")
+    assert "problem: '500-': not that" in text_of(screen)
+    assert attributes_of(screen, "not that") == {"danger"}
+    press(screen, "f2")
+    assert desk.own == {} and shell.told == [("Not saved", ["'500-': not that"])]
+
+
+def test_fields_that_are_right_alone_and_wrong_together_are_not_saved(
+    screen: Configuration, shell: Shell, desk: Tables
+) -> None:
+    press(screen, "end", *["backspace"] * 3, *"bad")
+    assert "problem: 1: it is bad" in text_of(screen)
+    press(screen, "f2")
+    assert desk.own == {} and shell.told == [("Not saved", ["1: it is bad"])]
+
+
+def test_the_old_value_typed_again_is_no_change(screen: Configuration) -> None:
+    press(screen, "end", "1")
+    assert screen.form.changed and "changed" in text_of(screen)
+    press(screen, "backspace")
+    assert not screen.form.changed
+
+
+def test_choices_go_round_and_a_field_without_any_stays(screen: Configuration) -> None:
+    press(screen, "f6")
+    assert not screen.form.changed
+    press(screen, "down", "f6", "f6")
+    assert row_of(screen, "Mode")[0] == "SIMULATED"
+
+
+def test_the_machine_is_chosen_and_a_refusal_told(screen: Configuration, console: Console, shell: Shell) -> None:
+    console.refusal = ("the machine is at work",)
+    press(screen, "f5")
+    assert console.chosen == ["one"] and shell.told == [("Not loaded", ["the machine is at work"])]
+
+
+def test_a_copy_is_gone_on_with(screen: Configuration, shell: Shell) -> None:
+    shell.types = "two"
+    press(screen, "f7")
+    assert "Configuration: two" in text_of(screen)
+    press(screen, "f7")
+    assert shell.told == [("Not copied", ["there is one already"])]
+
+
+def test_reset_and_difference(console: Console, desk: Tables) -> None:
+    shell = Shell(says_yes=True)
+    desk.own["machines"] = FILE.replace("500", "400")
+    screen = Configuration(console, shell, desk, "one")
+    press(screen, "f3", "f8")
+    assert shell.told == [("Differences", ["-before", "+after"])]
+    assert row_of(screen, "Interrupt frequency")[0] == "500"
+
+
+class Unread(Tables):
+    """A desk that can't read the machine's file."""
+
+    def fields(self, text: str) -> tuple[FieldView, ...]:
+        return ()
+
+
+def test_a_file_that_cannot_be_read_is_said_to_be_so(console: Console, shell: Shell) -> None:
+    screen = Configuration(console, shell, Unread(machines="bad"), "one")
+    press(screen, "up", "down", "f6", "f5")
+    assert "problem: 1: it is bad" in text_of(screen)
+
+
+def test_leaving_asks_only_where_something_would_be_lost(screen: Configuration, shell: Shell) -> None:
+    assert press(screen, "esc") == ["esc"]
+    assert press(screen, "end", "1", "esc") == [] and shell.asked == ["Leave without saving?"]
+
+
+@pytest.mark.parametrize("kind", EDITORS)
+def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: str) -> None:
+    desk = Tables(phase="1a 5 x.", ramp="0 0 0 1", machines=FILE)
+    tables = TableList(console, shell, desk, kind)  # type: ignore[arg-type]
+    assert text_of(tables).split("\n")[0].split() == ["one", "shipped"]
+    desk.own[kind] = desk.shipped[kind]
+    assert "your own copy" in text_of(tables), "what changed meanwhile shows"
+    press(tables, "enter")
+    assert isinstance(shell.opened[0], EDITORS[kind])  # type: ignore[arg-type,index]
+
+
+def test_a_table_is_copied_from_the_list(console: Console) -> None:
+    shell = Shell(types="one")
+    press(TableList(console, shell, Tables(phase="1a 5 x."), "phase"), "c")
+    assert shell.told == [("Not copied", ["there is one already"])]
+    assert EDITORS["phase"] is PhaseEditor

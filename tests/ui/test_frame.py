@@ -1,0 +1,184 @@
+"""The frame: bar, menus, dialogs, keys, and the emergency stop that nothing hides."""
+
+import random
+from contextlib import suppress
+from dataclasses import replace
+
+import pytest
+import urwid
+
+from drillctl.ui import app, words
+from drillctl.ui.keys import FRAME_KEYS
+from drillctl.ui.menus import MENUS, Item, PullDown, hot_letter, plain_label
+from drillctl.ui.screens.drilling import Drilling
+from drillctl.ui.screens.files import Files
+from drillctl.ui.themes import ATTRIBUTES, THEMES, palette
+from tests.ui.desk import BOARD, FAULT, MOTIONS, VIEW, FakeConsole, Program
+
+SIZES = [(80, 24), (160, 50), (50, 15)]
+RANDOM_EVENTS = 2000
+ALPHABET = [
+    *"abcdefghijklmnopqrstuvwxyz0123456789 /+-.,", "enter", "esc", "tab", "up", "down", "left", "right", "page up",
+    "page down", "home", "end", "backspace", "f1", "f9", "meta f", "meta d", "meta t", "meta c", "window resize",
+]  # fmt: skip
+MOVING = {"dry_run", "hold_or_resume", "initialise", "set_base", "jog_on", "jog_back"}
+
+
+@pytest.fixture(autouse=True)
+def english(monkeypatch: pytest.MonkeyPatch) -> None:
+    words.use("en")
+    monkeypatch.setattr(app, "TURNING_S", 0.0)  # a console without a machine needs no time
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+@pytest.mark.parametrize("size", SIZES)
+def test_the_first_frame_fills_the_terminal(language: str, size: tuple[int, int]) -> None:
+    words.use(language)
+    program = Program(FakeConsole(loaded=BOARD), size)
+    rows = program.text().splitlines()
+    assert len(rows) == size[1] and all(len(row) == size[0] for row in rows)
+    assert all(plain_label(menu) in rows[0] for menu in MENUS)
+    assert "pcb-drill" in rows[1] and "F10" in rows[-2] + rows[-3] + rows[-1]
+
+
+def test_polish_labels_are_the_papers() -> None:
+    words.use("pl")
+    program = Program(FakeConsole())
+    assert program.text().splitlines()[0].split()[:4] == ["Zbiory", "Wiercenie", "Testy", "Konfiguracja"]
+    program.press("f9", "right")
+    assert all(label in program.text() for label in ("Start", "Bazowanie", "Inicjalizacja"))
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_hot_letters_differ_within_a_menu(language: str) -> None:
+    words.use(language)
+
+    def check(items: tuple[Item, ...]) -> None:
+        letters = [hot_letter(item) for item in items]
+        assert all(letters) and len(set(letters)) == len(letters), letters
+        for item in items:
+            if item.items:
+                check(item.items)
+
+    check(MENUS)
+
+
+def leaves(items: tuple[Item, ...], path: tuple[Item, ...] = ()) -> list[tuple[Item, ...]]:
+    return [leaf for item in items for leaf in (leaves(item.items, (*path, item)) if item.items else [(*path, item)])]
+
+
+@pytest.mark.parametrize("path", leaves(MENUS), ids=lambda path: "/".join(plain_label(item) for item in path))
+def test_every_entry_of_the_menus_answers(path: tuple[Item, ...]) -> None:
+    """By its hot letters; what a screen is not there for says so."""
+    program = Program(FakeConsole(loaded=BOARD))
+    before = program.text()
+    if path[-1].method == "leave":
+        with pytest.raises(urwid.ExitMainLoop):
+            program.press(f"meta {hot_letter(path[0])}", *map(hot_letter, path[1:]))
+        return
+    program.press(f"meta {hot_letter(path[0])}", *map(hot_letter, path[1:]))
+    if path[-1].method != "set_theme":
+        assert program.text() != before or program.console.asked
+    assert "Not here" in program.text() or path[-1].screen in ("", "files", "drilling")
+
+
+def test_a_click_opens_a_menu_and_one_beside_closes_it() -> None:
+    program = Program(FakeConsole())
+    program.press(("mouse press", 1, 10, 0))
+    assert "Initialisation" in program.text()
+    program.press(("mouse press", 1, 70, 20))
+    assert "Initialisation" not in program.text()
+    program.press(("mouse press", 1, 10, 0), ("mouse press", 1, 12, 7))
+    assert program.console.asked == [("initialise",)] and "Acknowledge" not in program.text()
+
+
+@pytest.mark.parametrize("key", ["f10", "!"])
+@pytest.mark.parametrize("first", [[], ["f9"], ["f9", "down", "enter"], ["f1"], ["t"], ["f", "/"], ["f4"]])
+def test_the_emergency_stop_is_live_everywhere(key: str, first: list[str]) -> None:
+    program = Program(FakeConsole(now=replace(VIEW, moving=True), loaded=BOARD))
+    program.press(*first)
+    program.press(key)
+    assert program.console.asked[-1] == ("emergency_stop",)
+    assert "EMERGENCY_STOP" in program.text()
+
+
+def test_a_fault_is_told_once_and_acknowledged() -> None:
+    program = Program(FakeConsole(now=replace(VIEW, condition="latched", fault=FAULT)))
+    program.app.turn()
+    text = program.text()
+    assert all(part in text for part in ("somebody pressed it", "look why", "position lost"))
+    program.press("enter")
+    assert program.console.asked == [("acknowledge",)] and "look why" not in program.text()
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+@pytest.mark.parametrize("screen", [Drilling, Files])
+def test_the_help_tells_of_every_key(screen: type[Drilling | Files], language: str) -> None:
+    words.use(language)
+    program = Program(FakeConsole(), (80, 50))
+    program.press(*(["f"] if screen is Files else []), "f1")
+    text = program.text()
+    for key in (*screen.keys, *FRAME_KEYS):
+        assert f"{key.printed:<12}{words._(key.help)}" in text
+
+
+def test_leaving_asks_only_while_something_moves() -> None:
+    with pytest.raises(urwid.ExitMainLoop):
+        Program(FakeConsole()).press("f4")
+    program = Program(FakeConsole(now=replace(VIEW, moving=True)))
+    program.press("f4", "enter")
+    assert "moving. Stop it" not in program.text()
+    with pytest.raises(urwid.ExitMainLoop):
+        program.press("f4", "right", "enter")
+
+
+def test_a_smaller_terminal_keeps_dialogs_within() -> None:
+    program = Program(FakeConsole(), (160, 50))
+    program.press("f1")
+    program.paper.size = (60, 16)
+    program.press("window resize")
+    rows = program.text().splitlines()
+    assert len(rows) == 16 and all(len(row) == 60 for row in rows) and "PgDn" in program.text()
+
+
+def test_another_machine_is_chosen_from_a_list() -> None:
+    program = Program(FakeConsole())
+    program.press("meta c", "m", "down", "enter")
+    assert program.console.asked == [("choose_machine", "boiler-drum")]
+    program.console.answer = ("the machine is at work",)
+    program.press("meta c", "m", "enter")
+    assert "the machine is at work" in program.text()
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_a_theme_has_every_attribute(theme: str) -> None:
+    entries = palette(theme)
+    assert [name for name, *_ in entries] == list(ATTRIBUTES)
+    screen = urwid.display.raw.Screen()
+    screen.register_palette(entries)  # raises for a colour that there is not
+
+
+def asks_for_motion(program: Program, key: str) -> bool:
+    """Whether a key, as things stand, is one that the operator knows to move something: Start alone asks first."""
+    if program.app.layers.top:
+        return key == "enter" or isinstance(program.app.layers.top, PullDown)
+    rows = [row for row in Drilling.keys if row.method in MOVING and key in row.names]
+    return isinstance(program.app.screens[-1], Drilling) and bool(rows)
+
+
+def test_random_keys_move_nothing_unasked_and_leave_the_stop_alive() -> None:
+    chance = random.Random(1996)
+    program = Program(FakeConsole(loaded=BOARD))
+    asked = program.console.asked
+    for _ in range(RANDOM_EVENTS):
+        key = chance.choice(ALPHABET)
+        before, may_move = len(asked), asks_for_motion(program, key)
+        with suppress(urwid.ExitMainLoop):  # Quit was found
+            program.press(key)
+        moved = [request for request in asked[before:] if request[0] in MOTIONS]
+        assert not moved or (len(moved) == 1 and may_move), (key, moved)
+        if chance.random() < 0.01:
+            program.press("f10")
+            assert asked[-1] == ("emergency_stop",)
+        if chance.random() < 0.05:
+            program.canvas()

@@ -1,0 +1,132 @@
+"""The queue editor: completion apart from the screen, then typing, running in part and whole, and files."""
+
+import pytest
+
+from drillctl.ui.models.completion import completed, usage
+from drillctl.ui.screens.queue_editor import QueueEditor
+from tests.ui.editor_fakes import Console, Queues, Shell, attributes_of, press, text_of
+
+COMMANDS = Queues().commands()
+WORDS = Queues().words()
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "fits"),
+    [
+        pytest.param("KMD_C", "KMD_CZEKAJ ", (), id="the only one"),
+        pytest.param("kmd_c", "KMD_CZEKAJ ", (), id="case is put right"),
+        pytest.param("KMD_R", "KMD_RUCH", ("KMD_RUCH", "KMD_RUCHd"), id="as far as two agree"),
+        pytest.param("", "KMD_", ("KMD_CZEKAJ", "KMD_RUCH", "KMD_RUCHd"), id="nothing typed"),
+        pytest.param("KMD_Q", "KMD_Q", (), id="none"),
+        pytest.param("KMD_RUCH sp", "KMD_RUCH spindle ", (), id="a name of the machine"),
+        pytest.param("KMD_RUCH x=3 y", "KMD_RUCH x=3 y ", (), id="a later name"),
+        pytest.param("  kmd_c", "  KMD_CZEKAJ ", (), id="after spaces"),
+    ],
+)
+def test_completion(before: str, after: str, fits: tuple[str, ...]) -> None:
+    assert completed(before, COMMANDS, WORDS) == (after, fits)
+
+
+def test_usage_of_a_line() -> None:
+    assert usage(" KMD_CZEKAJ 5", COMMANDS) == "KMD_CZEKAJ ticks: wait"
+    assert usage("", COMMANDS) == usage("KMD_NONE", COMMANDS) == ""
+
+
+@pytest.fixture
+def shell() -> Shell:
+    return Shell(types="q.kmd")
+
+
+@pytest.fixture
+def console() -> Console:
+    return Console()
+
+
+@pytest.fixture
+def desk() -> Queues:
+    return Queues()
+
+
+@pytest.fixture
+def editor(console: Console, shell: Shell, desk: Queues) -> QueueEditor:
+    return QueueEditor(console, shell, desk)
+
+
+def test_tab_completes_in_the_middle_of_a_text(editor: QueueEditor) -> None:
+    press(editor, *"KMD_RUCH x=1", "enter", *"kmd_c", "tab", "9")
+    assert editor.text == "KMD_RUCH x=1\nKMD_CZEKAJ 9"
+    assert "line 2, column 13" in text_of(editor) and "KMD_CZEKAJ ticks: wait" in text_of(editor)
+    press(editor, "up", "home", "tab")
+    assert editor.text == "KMD_KMD_RUCH x=1\nKMD_CZEKAJ 9"
+
+
+def test_words_that_begin_alike_are_listed(editor: QueueEditor) -> None:
+    press(editor, *"KMD_R", "tab")
+    assert "KMD_RUCH  KMD_RUCHd" in text_of(editor)
+
+
+def test_wrong_lines_are_told_as_they_are_typed(editor: QueueEditor) -> None:
+    press(editor, *"KMD_CZEKAJ 1")
+    assert "sound" in text_of(editor)
+    press(editor, "enter", "X")
+    assert "2:1: unknown command" in text_of(editor)
+    assert attributes_of(editor, "2:1: unknown") == {"danger"}
+
+
+def test_many_wrong_lines_are_counted(editor: QueueEditor) -> None:
+    press(editor, *["X", "enter"] * 8)
+    assert "and 3 more" in text_of(editor)
+
+
+@pytest.fixture
+def three_lines(editor: QueueEditor) -> QueueEditor:
+    press(editor, *"KMD_CZEKAJ 1", "enter", *"KMD_CZEKAJ 2", "enter", *"KMD_CZEKAJ 3", "up")
+    return editor
+
+
+def test_a_queue_runs_whole_and_to_the_cursor(three_lines: QueueEditor, console: Console) -> None:
+    press(three_lines, "f5", "f6")
+    assert console.ran == ["KMD_CZEKAJ 1\nKMD_CZEKAJ 2\nKMD_CZEKAJ 3", "KMD_CZEKAJ 1\nKMD_CZEKAJ 2"]
+
+
+def test_lines_run_one_after_the_other(three_lines: QueueEditor, console: Console) -> None:
+    press(three_lines, "f7", "f7")
+    assert [text.strip() for text in console.ran] == ["KMD_CZEKAJ 2", "KMD_CZEKAJ 3"]
+    assert [text.count("\n") for text in console.ran] == [1, 2], "so that line numbers are those of the screen"
+
+
+def test_a_wrong_queue_is_not_handed_on(editor: QueueEditor, console: Console, shell: Shell) -> None:
+    press(editor, *"nonsense", "f5", "f6", "f7")
+    assert console.ran == [] and shell.told == [("Not run", ["1:1: unknown command"])] * 3
+
+
+def test_a_right_line_runs_beside_a_wrong_one(three_lines: QueueEditor, console: Console) -> None:
+    press(three_lines, "down", "end", "enter", "X", "up", "f7")
+    assert [text.strip() for text in console.ran] == ["KMD_CZEKAJ 3"]
+
+
+def test_a_refusal_is_told_and_the_cursor_stays(three_lines: QueueEditor, console: Console, shell: Shell) -> None:
+    console.refusal = ("the machine is at work",)
+    press(three_lines, "f7")
+    assert shell.told == [("Not run", ["the machine is at work"])] and "line 2" in text_of(three_lines)
+
+
+def test_a_queue_is_saved_and_opened(editor: QueueEditor, shell: Shell, desk: Queues) -> None:
+    press(editor, *"KMD_RUCH x=1", "f2")
+    assert desk.files == {"q.kmd": "KMD_RUCH x=1"} and not editor.changed
+    assert "Queue of commands: q.kmd" in text_of(editor)
+    desk.files["q.kmd"] = "KMD_CZEKAJ 5"
+    press(editor, "f3")
+    assert editor.text == "KMD_CZEKAJ 5" and not editor.changed
+
+
+def test_a_file_that_cannot_be_read_leaves_the_queue(editor: QueueEditor, shell: Shell) -> None:
+    shell.says_yes = True
+    press(editor, *"KMD_RUCH x=1", "f3")
+    assert editor.text == "KMD_RUCH x=1" and shell.told == [("Not opened", ["q.kmd: can't be read"])]
+
+
+def test_what_is_not_saved_is_asked_for(editor: QueueEditor, shell: Shell) -> None:
+    assert press(editor, "esc") == ["esc"]
+    press(editor, "x", "f3", "esc")
+    assert len(shell.asked) == 2 and editor.text == "x" and shell.closed == 0
