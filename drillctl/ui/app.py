@@ -171,7 +171,8 @@ class App:
         if fault and code and code != self._fault_told:
             position = _("position kept") if fault.position == "kept" else _("position lost: initialise again")
             lines = [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]
-            self.layers.push_dialog(dialogs.message(f"{_('FAULT')} {fault.name}", lines, self.layers.pop, self._acknowledge))
+            title = f"{_('FAULT')} {fault.name}"
+            self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop, self._acknowledge))
         self._fault_told = code
 
     def _acknowledge(self) -> None:
