@@ -1,4 +1,4 @@
-"""The long campaign: boards drilled in real pace while processes are killed, sensors lie, disks fill, the port is pulled.
+"""The long campaign: boards are drilled by the clock while processes are killed, sensors lie, disks fill, ports go.
 
     .venv/bin/python benchmarks/campaign.py --rounds 1000 --jobs 2
 
@@ -26,14 +26,13 @@ def main() -> int:
     begun_s = time.monotonic()
     seeds = range(arguments.seed, arguments.seed + arguments.rounds)
     played = []
-    with tempfile.TemporaryDirectory(prefix="drillctl-campaign-") as folder:
-        with ThreadPoolExecutor(arguments.jobs) as pool:
-            for r in pool.map(lambda seed: _play(seed, Path(folder)), seeds):
-                played.append(r)
-                for violation in r.violations:
-                    print(f"VIOLATION {violation}", flush=True)
-                if len(played) % SHOW_EVERY == 0:
-                    print(f"{len(played)} rounds, {time.monotonic() - begun_s:.0f} s", file=sys.stderr, flush=True)
+    with tempfile.TemporaryDirectory(prefix="drillctl-campaign-") as folder, ThreadPoolExecutor(arguments.jobs) as pool:
+        for r in pool.map(lambda seed: _play(seed, Path(folder)), seeds):
+            played.append(r)
+            for violation in r.violations:
+                print(f"VIOLATION {violation}", flush=True)
+            if len(played) % SHOW_EVERY == 0:
+                print(f"{len(played)} rounds, {time.monotonic() - begun_s:.0f} s", file=sys.stderr, flush=True)
     _report(played, time.monotonic() - begun_s)
     return 1 if any(r.violations for r in played) else 0
 

@@ -24,6 +24,7 @@ from drillctl.trace.ring import RingRecorder
 
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
+DESK_IDLE_NS = 60_000_000_000  # at rest and without a job it may be busy so long: a large board is read and planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
 
@@ -72,8 +73,9 @@ class PacedTicker:
             self._publish()
 
     def _is_wanted(self) -> bool:
-        """At rest, with nothing to do, the current is held and no tick is counted."""
-        return len(self.queue) > 0 or not self.ticker.over() or self.requests.waiting
+        """At rest, with nothing to do, the current is held and no tick is counted. What is latched takes no command."""
+        takes = self.ticker.controller.condition != Condition.LATCHED
+        return not self.ticker.over() or self.requests.waiting or (takes and len(self.queue) > 0)
 
     def _publish(self) -> None:
         self.channel["ticker_beat_ns"] = time.monotonic_ns()
@@ -90,7 +92,8 @@ class PacedTicker:
         dead = os.getppid() != self.desk
         if (dead or silent_ns > DESK_HOLD_NS) and m.condition == Condition.READY and m.job:
             self.requests.own.post(Request.HOLD)
-        if silent_ns <= DESK_SAFE_NS and not (dead and not m.moving):
+        patience_ns = DESK_SAFE_NS if m.job or m.moving else DESK_IDLE_NS
+        if silent_ns <= patience_ns and not (dead and not m.moving):
             return False
         self._end_by(Fault.HEARTBEAT_LOST)
         return True

@@ -108,7 +108,9 @@ class Station:
         return ()
 
     def load(self, file: str, asked: Asked) -> Problems:
-        """Read, placed, ordered, checked against the reach, and foreseen; or nothing changes."""
+        """Read, placed, ordered, checked against the reach, and foreseen; or nothing changes. Takes its time."""
+        if self._desk is not None:
+            return (BUSY,)
         try:
             placing = Placing(asked.origin, asked.mirror, asked.rotate_deg, asked.offset_mm)
             wishes = Wishes(placing, asked.order)

@@ -76,8 +76,8 @@ def _tell(file: Path, account: "Account", left: "Job") -> None:
     for warning in left.warnings:
         print(f"drillctl: warning: {warning}", file=sys.stderr)
     if account.head.options["spot"] is not None and account.begun:
-        print("drillctl: holes of the tool in hand may bear their spot already; they are marked again, in the same place",
-              file=sys.stderr)  # fmt: skip
+        spotted = "holes of the tool in hand may bear their spot already; they are marked again, in the same place"
+        print(f"drillctl: {spotted}", file=sys.stderr)
     for number in account.open:
         x_mm, y_mm = left.file_place(number)
         print(f"drillctl: hole {number} (X{x_mm:.4f} Y{y_mm:.4f} mm) was cut off; it is drilled again", file=sys.stderr)

@@ -11,7 +11,6 @@ ATTRIBUTES = (
     "body", "title", "menu", "menu_hot", "key", "lit", "dark", "good", "warning", "danger", "focus", "field",
 )  # fmt: skip
 
-Look = tuple[str, str, str]  # foreground, background, and what a terminal without colours shows
 Entry = tuple[str, str, str, str]  # as urwid wants it: name, foreground, background, monochrome
 
 MONO: Mapping[str, str] = {

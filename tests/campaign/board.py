@@ -1,6 +1,7 @@
 """The campaign's boards: a few holes, and where each must be found afterwards. Reckoned here, not by the program."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 
@@ -23,7 +24,7 @@ class Board:
         holes = rng.sample(grid, rng.randint(3, 6))
         cuts = sorted(rng.sample(range(1, len(holes)), rng.randint(0, 2)))
         bounds = [0, *cuts, len(holes)]
-        return cls(tuple(tuple(holes[a:b]) for a, b in zip(bounds, bounds[1:], strict=False)))
+        return cls(tuple(tuple(holes[a:b]) for a, b in pairwise(bounds)))
 
     @property
     def holes(self) -> list[Place]:

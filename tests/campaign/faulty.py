@@ -11,6 +11,7 @@ import json
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -94,10 +95,11 @@ def full_disk(lines: int, room_bytes: int, witness: int) -> Callable[[int, bytes
 def run(witness_file: str, plan: Plan, arguments: list[str]) -> int:
     """One run of the program, to its exit code."""
     witness = os.open(witness_file, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
-    machinery.SimulatedCard = lambda plant: FaultyCard(plant, plan, witness)  # type: ignore[assignment, misc]
+    setattr(machinery, "SimulatedCard", partial(FaultyCard, plan=plan, witness=witness))  # noqa: B010  of another type
     if plan.get("fails") == "disk":
         real = {name: getattr(os, name) for name in dir(os)}
-        journal.os = SimpleNamespace(**real | {"write": full_disk(plan["lines"], plan["room_bytes"], witness)})  # type: ignore[attr-defined, assignment]
+        full = full_disk(plan["lines"], plan["room_bytes"], witness)
+        setattr(journal, "os", SimpleNamespace(**real | {"write": full}))  # noqa: B010
     return main(arguments)
 
 

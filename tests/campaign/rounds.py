@@ -99,7 +99,8 @@ def _hit(r: Round, desk: "subprocess.Popen[bytes]") -> list[int]:
     ticker = _ticker_of(r.folder / "j.status", desk)
     time.sleep(r.moment_s)
     family = {"desk": desk.pid, "ticker": ticker}
-    family |= {"guard": child for child in _children(desk.pid) if child != ticker}
+    for child in set(_children(desk.pid)) - {ticker}:
+        family["guard"] = child
     struck = family.get(r.blow.target)
     if struck is None or desk.poll() is not None:
         return list(family.values())  # the job was over before
@@ -215,7 +216,8 @@ def _judge_holes(r: Round) -> None:
     named = Counter(int(found) for found in NAMED.findall((r.folder / "err").read_text()))
     for number in range(1, len(r.board.holes) + 1):
         r.check(met[number] > 0, f"hole {number} is lost")
-        r.check(met[number] <= 1 + named[number], f"hole {number} was visited {met[number]} times, named {named[number]}")
+        told = f"hole {number} was visited {met[number]} times, named {named[number]}"
+        r.check(met[number] <= 1 + named[number], told)
         r.again += met[number] > 1
     r.named = sum(named.values())
 

@@ -1,11 +1,5 @@
-"""The journal: cut off anywhere, damaged, full, locked, foreign; and what resuming makes of it.
+"""The journal as a file: begun, locked, damaged, cut at any byte; never overwritten while anything in it is wanted."""
 
-A run's journal cut after any line is what a power cut at that moment leaves: the resumed run must drill exactly the
-rest, and name the hole that was under way.
-"""
-
-import csv
-import json
 import resource
 import subprocess
 import sys
@@ -17,91 +11,10 @@ from hypothesis import strategies as st
 
 from drillctl.cli import main
 from drillctl.generation.journal import Account, Head, Journal, JournalError, read_journal
-from drillctl.machine import shipped_tables
+from drillctl.session import default_journal
+from tests.support.journalled import BOARD, keep_lines, resume, run
 
-# Tool 1 comes twice, so the numbers of the holes are not those of the file's lines.
-BOARD = "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nG90\nT1\nX1.0Y1.0\nX3.0Y1.0\nT2\nX1.0Y3.0\nT1\nX3.0Y4.0\nM30\n"
 HEAD = Head("job.drl", "a", "b", "pcb-drill", "c", 9, {})
-KINDS = {
-    "plain": [],
-    "panel": ["--panel", "2x1:6,0", "--skip-tools", "2"],
-    "pecks": ["--peck", "1.5"],
-    "spots": ["--spot", "0.4"],
-    "order": ["--order", "optimised", "--rotate", "90"],
-}
-
-
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    (tmp_path / "job.drl").write_text(BOARD)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def run(*options: str) -> int:
-    return main(["run", "job.drl", "--journal", "j", "--holes", "h.csv", "--json", *options])
-
-
-def resume() -> int:
-    return main(["resume", "j", "--holes", "h.csv", "--json"])
-
-
-def holes(folder: Path) -> list[list[str]]:
-    return list(csv.reader((folder / "h.csv").open()))[1:]
-
-
-def keep_lines(folder: Path, count: int, piece: bytes = b"") -> None:
-    lines = (folder / "j").read_bytes().splitlines(keepends=True)
-    (folder / "j").write_bytes(b"".join(lines[:count]) + piece)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("lines", [1, 2, 3, 4, 6, 8])
-def test_resuming_drills_exactly_the_rest(kind: str, lines: int, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(*KINDS[kind]) == 0
-    whole = holes(folder)
-    keep_lines(folder, lines)
-    account = read_journal(folder / "j")
-    capsys.readouterr()
-    assert resume() == 0
-    told = capsys.readouterr()
-    assert holes(folder) == whole[len(account.done) :]
-    outcome = json.loads(told.out)
-    assert outcome["holes_done"] == outcome["holes_total"] == len(whole)
-    named = [line for line in told.err.splitlines() if "was cut off; it is drilled again" in line]
-    assert len(named) == len(account.open) == (1 if lines % 2 == 0 else 0)
-    assert all(f"hole {number} (" in line for number, line in zip(account.open, named, strict=True))
-    now = read_journal(folder / "j")
-    assert now.done == now.begun == set(range(1, len(whole) + 1)) and now.ended == "done"
-
-
-def test_resumed_twice_after_a_torn_line(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The torn piece goes before anything is appended: the second resume finds no damage."""
-    assert run() == 0
-    whole = holes(folder)
-    keep_lines(folder, 3, piece=b'{"beg')
-    account = read_journal(folder / "j")
-    assert account.torn and account.done == {1}
-    assert resume() == 0
-    assert "its last line is torn" in capsys.readouterr().err
-    keep_lines(folder, 6, piece=b'{"done": 3}')
-    assert read_journal(folder / "j").done == {1, 2}
-    assert resume() == 0
-    assert holes(folder) == whole[2:]
-
-
-def test_spots_made_before_the_cut_are_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("--spot", "0.4") == 0
-    keep_lines(folder, 3)
-    capsys.readouterr()
-    assert resume() == 0
-    assert "may bear their spot already; they are marked again, in the same place" in capsys.readouterr().err
-
-
-def test_a_finished_journal_leaves_nothing_to_resume(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run() == 0
-    assert resume() == 2
-    assert "all 4 holes of job.drl are drilled; nothing is left" in capsys.readouterr().err
 
 
 def test_a_new_run_replaces_a_finished_journal(folder: Path) -> None:
@@ -161,68 +74,6 @@ def test_damage_in_the_middle_is_named_and_refused(
     assert reason in capsys.readouterr().err
 
 
-def test_a_file_that_has_changed_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run() == 0
-    keep_lines(folder, 4)
-    (folder / "job.drl").write_text(BOARD.replace("X3.0Y4.0", "X3.0Y4.1"))
-    assert resume() == 2
-    assert "job.drl has changed since the job was begun" in capsys.readouterr().err
-
-
-def test_another_machine_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    table = folder / "t" / "machines" / "pcb-drill.toml"
-    table.parent.mkdir(parents=True)
-    text = (shipped_tables() / "machines" / "pcb-drill.toml").read_text("utf-8")
-    table.write_text(text, "utf-8")
-    assert run("--tables", "t") == 0
-    keep_lines(folder, 4)
-    table.write_text(text.replace("hysteresis = 9", "hysteresis = 8"), "utf-8")
-    assert resume() == 2
-    assert "machine pcb-drill is not the one that the job was begun on" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("used_hits", "diameter_mm", "code", "reason"),
-    [(10, 1.0, 0, "is good for 0 more"), (0, 3.0, 2, "drill")],
-    ids=["its drills are worn", "a drill is gone"],
-)
-def test_a_drill_table_that_has_changed_is_looked_at_again(
-    used_hits: int, diameter_mm: float, code: int, reason: str, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """What is left needs the drills at hand now; that they are older changes no place."""
-    table = "[[drill]]\ndiameter_mm = 0.8\nlife_hits = 10\nused_hits = {}\n[[drill]]\ndiameter_mm = {}\n"
-    (folder / "d").write_text(table.format(0, 1.0))
-    assert run("--drills", "d") == 0
-    keep_lines(folder, 4)
-    (folder / "d").write_text(table.format(used_hits, diameter_mm))
-    capsys.readouterr()
-    assert resume() == code
-    assert reason in capsys.readouterr().err
-
-
-def test_another_alignment_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (folder / "a").write_text("1 1 5 5\n3 4 7 8\n")
-    assert run("--align", "a") == 0
-    keep_lines(folder, 4)
-    (folder / "a").write_text("1 1 5 5\n3 4 7.1 8.1\n")
-    assert resume() == 2
-    assert "the placing, the order or a table beside the job has changed" in capsys.readouterr().err
-
-
-def test_another_version_of_the_program_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run() == 0
-    keep_lines(folder, 4)
-    text = (folder / "j").read_text()
-    for old, new, reason in (
-        ('"peck": null, ', "", "written by another version of this program"),
-        ('"drillctl-journal": 1', '"drillctl-journal": 2', "not a journal of this program"),
-        ('"holes": 4, ', "", "its first line is not whole"),
-    ):
-        (folder / "j").write_text(text.replace(old, new))
-        assert resume() == 2
-        assert reason in capsys.readouterr().err
-
-
 def test_nobody_writes_to_a_journal_that_a_living_run_writes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run() == 0
     keep_lines(folder, 4)
@@ -247,28 +98,10 @@ def test_what_another_run_added_before_the_lock_was_had_is_seen(tmp_path: Path) 
         Journal(file, stale)
 
 
-@pytest.mark.parametrize("room_bytes", [0, 5, 30])
-def test_a_full_disk_stops_the_job_and_leaves_a_whole_journal(room_bytes: int, folder: Path) -> None:
-    assert run() == 0
-    lines = (folder / "j").read_bytes().splitlines(keepends=True)
-    (folder / "j").unlink()
-    limit = sum(map(len, lines[:4])) + room_bytes
-    call = [sys.executable, "-m", "drillctl", "run", "job.drl", "--journal", "j", "--json"]
-    done = subprocess.run(
-        call, capture_output=True, text=True, timeout=60, check=False,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
-    )  # fmt: skip
-    assert done.returncode == 1 and "j: can't be written" in done.stderr
-    outcome = json.loads(done.stdout)
-    assert outcome["interrupted"] and outcome["position_known"] and outcome["fault"] is None
-    account = read_journal(folder / "j")
-    assert not account.torn and 1 in account.done
-    assert resume() == 0
-    assert read_journal(folder / "j").done == {1, 2, 3, 4}
-
-
 @pytest.mark.parametrize("place", ["/dev/full", "/dev/zero", ".", "job.drl/x"])
-def test_a_place_that_can_hold_no_journal_is_refused(place: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_place_that_can_hold_no_journal_is_refused(
+    place: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["run", "job.drl", "--journal", place]) == 2
     assert f"drillctl: {place}: " in capsys.readouterr().err
 
@@ -283,10 +116,8 @@ def test_a_disk_without_room_for_the_first_line_refuses_the_run(folder: Path) ->
     assert run() == 0
 
 
-def test_a_journal_of_ones_own_is_found_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_journal_of_ones_own_is_found_again(folder: Path) -> None:
     """Two boards of one name in two folders have a journal each."""
-    from drillctl.session import default_journal
-
     assert default_journal(folder / "a" / "board.drl") != default_journal(folder / "b" / "board.drl")
     assert default_journal(folder / "board.drl") == default_journal(Path("board.drl"))
 

@@ -33,7 +33,8 @@ def test_the_shared_queue_is_the_queue(tmp_path: Path, doings: list[int | str]) 
         if isinstance(doing, int):
             records = np.zeros(doing, RECORD)
             records["sequence"] = records["tag"] = np.arange(sent, sent + doing)
-            assert (taken := shared.put(records)) == plain.put(records)
+            taken = shared.put(records)
+            assert taken == plain.put(records)
             sent += taken
         else:
             assert shared.take(its) == plain.take(mine)

@@ -102,7 +102,8 @@ def test_a_board_is_gone_over_dry(terminal: Terminal) -> None:
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
-def test_ctrl_c_leaves_cleanly(terminal: Terminal) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_leaves_cleanly(terminal: Terminal, number: signal.Signals) -> None:
     terminal.wait_for("No board is loaded")
-    terminal.press("\x03")
-    assert terminal.exit_code() == 130
+    os.kill(terminal.pid, number)
+    assert terminal.exit_code() == 128 + number

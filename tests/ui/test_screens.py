@@ -135,6 +135,12 @@ def test_the_whole_table_stands_where_there_is_room_with_its_column_marked() -> 
     assert "X   7 +3 [1a] 1b [24a]" in small
 
 
+def test_where_rows_are_few_the_phases_give_way_to_ticks_and_sensors() -> None:
+    many = replace(VIEW, axes=VIEW.axes[:1] * 8)
+    text = "\n".join(plain_text(side_lines(many, None, None, 36, 19)))
+    assert "500 Hz" in text and "[x_min]" in text and text.count("\n") == 18
+
+
 def signs_of(picture: BoardPicture, size: tuple[int, int] = (20, 6)) -> str:
     return "\n".join(row.decode() for row in picture.render(size).text)
 

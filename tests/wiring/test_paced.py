@@ -23,16 +23,17 @@ pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="re
 
 LIBRARY = Library((shipped_tables(),))
 BOARD = "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nG90\nT1\nX1.0Y1.0\nT2\nX2.0Y1.5\nM30\n"
-QUEUE = "KMD_RUCHd x=60 y=-40\nKMD_RUCHd z=20\nKMD_CZEKAJ 5\nKMD_LINIAd x=-30 y=7 z=-20\nKMD_FAZY_WYL\n"
+QUEUE = "KMD_RUCHd x=60 y=-40\nKMD_RUCHd z=20\nKMD_CZEKAJ 5\nKMD_LINIAd x=-30 y=7 z=-9\nKMD_FAZY_WYL\n"
+ON_A_LIMIT = QUEUE.replace("z=-9", "z=-20")
 SLOW_HZ = 100  # a gap of less than 70 ms is no news to a motor then
 FAST_HZ = 2000
+PACED = ("--tick-hz", str(FAST_HZ), "--pace", "real", "--journal", "j", "--json")
 ATTEMPTS = 4
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     (tmp_path / "board.drl").write_text(BOARD)
-    (tmp_path / "queue.kmd").write_text(QUEUE)
     return tmp_path
 
 
@@ -72,10 +73,11 @@ def burners(count: int) -> Iterator[None]:
             each.wait()
 
 
-@pytest.mark.parametrize("beside", [0, 2])
-def test_the_trace_of_a_paced_run_is_that_of_a_free_one(beside: int, folder: Path) -> None:
+@pytest.mark.parametrize(("queue", "beside"), [(QUEUE, 0), (QUEUE, 2), (ON_A_LIMIT, 0)], ids=["alone", "busy", "fault"])
+def test_the_trace_of_a_paced_run_is_that_of_a_free_one(queue: str, beside: int, folder: Path) -> None:
     """To the byte, where no gap was long enough to stop a motor; with one, its replay is the same."""
     rate = ("--tick-hz", str(SLOW_HZ))
+    (folder / "queue.kmd").write_text(queue)
     run(folder, "queue.kmd", *rate, "--trace", "free.trace")
     with burners(beside):
         for _ in range(ATTEMPTS):
@@ -121,9 +123,7 @@ def stand_still(pid: int, seconds: float) -> None:
 
 @pytest.mark.parametrize(("gap_s", "fault"), [(0.02, None), (0.08, None), (0.3, "LATE_TICK")])
 def test_a_gap_in_time_is_counted_held_or_a_fault_and_replays(gap_s: float, fault: str | None, folder: Path) -> None:
-    begun = start(
-        folder, "board.drl", "--tick-hz", str(FAST_HZ), "--pace", "real", "--journal", "j", "--trace", "t.trace", "--json"
-    )
+    begun = start(folder, "board.drl", *PACED, "--trace", "t.trace")
     channel = moving(folder, begun, 2200)  # on its way down
     stand_still(channel["ticker_pid"], gap_s)
     told = finish(begun)
@@ -140,9 +140,7 @@ def test_a_gap_in_time_is_counted_held_or_a_fault_and_replays(gap_s: float, faul
 
 
 def test_a_desk_that_falls_silent_for_a_moment_holds_the_machine_and_goes_on(folder: Path) -> None:
-    begun = start(
-        folder, "board.drl", "--tick-hz", str(FAST_HZ), "--pace", "real", "--journal", "j", "--trace", "t.trace", "--json"
-    )
+    begun = start(folder, "board.drl", *PACED, "--trace", "t.trace")
     moving(folder, begun, 2200)
     stand_still(begun.pid, 0.6)
     told = finish(begun)
@@ -153,8 +151,7 @@ def test_a_desk_that_falls_silent_for_a_moment_holds_the_machine_and_goes_on(fol
 
 def test_a_desk_that_stays_silent_finds_the_outputs_off(folder: Path) -> None:
     """As after Ctrl-Z: the terminal's stop does not reach the other processes."""
-    options = ("--tick-hz", str(FAST_HZ), "--pace", "real", "--port", "mapped:card", "--journal", "j", "--json")
-    begun = start(folder, "board.drl", *options)
+    begun = start(folder, "board.drl", *PACED, "--port", "mapped:card")
     moving(folder, begun, 2200)
     os.kill(begun.pid, signal.SIGTSTP)
     time.sleep(1.2)
@@ -171,7 +168,7 @@ def test_a_tick_slower_than_the_guards_patience_is_no_silence(folder: Path) -> N
 
 
 def test_a_signal_to_the_ticker_alone_is_no_success(folder: Path) -> None:
-    begun = start(folder, "board.drl", "--tick-hz", str(FAST_HZ), "--pace", "real", "--journal", "j", "--json")
+    begun = start(folder, "board.drl", *PACED)
     os.kill(moving(folder, begun, 2200)["ticker_pid"], signal.SIGTERM)
     told = finish(begun)
     assert told["exit"] == 1 and told["interrupted"] and told["position_known"] and told["fault"] is None

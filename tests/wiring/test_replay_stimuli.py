@@ -1,4 +1,4 @@
-"""Whatever comes from outside while the queue is empty, or while time stands still, is in the trace: replays are exact."""
+"""Whatever comes from outside while the queue is empty, or while time stands still, is in the trace and replays."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -124,3 +124,15 @@ def test_another_machine_starts_anew(station: Station) -> None:
     assert station.choose_machine("boiler-drum") == ()
     assert station.view().machine == "boiler-drum" and station.board() is None
     assert "no machine of this name" in station.choose_machine("nonsense")[0]
+
+
+def test_a_busy_desk_at_rest_loses_nothing_and_a_moving_machine_takes_no_board(station: Station) -> None:
+    """Reading and planning a large board may take seconds."""
+    station.initialise()
+    settle(station)
+    time.sleep(1.5)
+    station.turn()
+    assert station.view().fault is None and station.view().position_known
+    station.jog("x", 9000)
+    assert station.load(str(EXAMPLES / "blinker.drl"), Asked())[0].startswith("the machine is at work")
+    settle(station)

@@ -42,14 +42,14 @@ class SideWindow(urwid.Widget):
 def side_lines(
     view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
 ) -> list[Line]:
-    """At most ``rows`` lines; a longer one is wrapped or clipped to ``columns``."""
+    """At most ``rows`` lines for a window of ``columns``; where they are too few, phases give way first."""
     head = [*_job_lines(view, progress, board), _headings(), *map(_place_line, view.axes)]
-    tail = [*_marked(_("Sensors"), view.sensors, columns), *_marked(_("Outputs"), view.outputs, columns)]
-    tail += _tick_lines(view)
+    sensors, outputs = _marked(_("Sensors"), view.sensors, columns), _marked(_("Outputs"), view.outputs, columns)
+    tail = [*_tick_lines(view), *sensors, *outputs]
     tables = [line for axis in view.axes for line in _phase_table(axis)]
     if len(head) + len(tables) + len(tail) > rows:
         tables = [[("title", _("Phases"))], *map(_phase_line, view.axes)]
-    return [*head, *tables, *tail][:rows]
+    return [*head, *tables[: max(0, rows - len(head) - len(tail))], *tail][:rows]
 
 
 def _job_lines(view: MachineView, progress: Progress | None, board: BoardView | None) -> list[Line]:
