@@ -7,6 +7,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from drillctl.lab.capacity import most_ticks_hz
 from drillctl.link import Link, LocalLink
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
@@ -45,6 +46,9 @@ def start(machine: Machine, running: Running, status_file: Path) -> Link:
     status_file  the mapped file between the two processes of a paced run
     """
     pace = pace_of(running)
+    if pace == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
+        reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
+        raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
     port, _ = select(running.port)
     plant = None if port.real else IdealPlant(machine)
     driver = open_port(running.port, wiring_of(machine), SimulatedCard(plant) if plant else None)

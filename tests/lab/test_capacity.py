@@ -1,0 +1,21 @@
+"""A rate that this computer can't work off is refused before anything moves, with the rate that it can."""
+
+import pytest
+
+from drillctl.lab import capacity
+from drillctl.lab.capacity import most_ticks_hz
+from drillctl.machine import Library
+from drillctl.machinery import Running, start
+from drillctl.ports import PortRefused
+
+MACHINE = Library.standard().machine("pcb-drill")
+
+
+def test_the_papers_rate_is_no_trouble_for_any_computer_of_today() -> None:
+    assert most_ticks_hz(MACHINE) > MACHINE.tick_hz
+
+
+def test_a_slow_computer_refuses_and_says_what_it_can(monkeypatch: pytest.MonkeyPatch, tmp_path: object) -> None:
+    monkeypatch.setattr(capacity, "_seconds_a_tick", lambda ticker: 0.004)
+    with pytest.raises(PortRefused, match=r"500 ticks a second of pcb-drill are too many .*--tick-hz 250 is the most"):
+        start(MACHINE, Running(pace="real"), tmp_path / "status")  # type: ignore[operator]
