@@ -43,10 +43,11 @@ class Channel:
     """One mapped file of dtype CHANNEL. Raises OSError where it can't be made or is no such file."""
 
     def __init__(self, file: Path, create: bool):
-        if create:
-            file.unlink(missing_ok=True)  # never cut short: whoever still has the old one mapped would be killed for it
-        flags = os.O_RDWR | (os.O_CREAT | os.O_EXCL if create else 0)
-        handle = os.open(file, flags | os.O_CLOEXEC, 0o600)
+        # A new one is made whole beside its place, then put there: whoever looks finds a whole one, and whoever
+        # still has an old one mapped keeps it.
+        place = file.with_name(f".{file.name}.{os.getpid()}") if create else file
+        flags = os.O_RDWR | (os.O_CREAT | os.O_TRUNC if create else 0)
+        handle = os.open(place, flags | os.O_CLOEXEC, 0o600)
         try:
             if create:
                 os.ftruncate(handle, CHANNEL.itemsize)
@@ -59,6 +60,7 @@ class Channel:
         self.fields: NDArray[np.void] = np.frombuffer(self.memory, dtype=CHANNEL, count=1)
         if create:
             self.fields["magic"] = MAGIC
+            place.replace(file)
         elif int(self.fields["magic"][0]) != MAGIC:
             raise OSError(f"{file}: not a channel of this program")
 
