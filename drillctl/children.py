@@ -1,7 +1,7 @@
 """Wiring: processes of ours beside the one that was started: forked, watched and ended by their ids.
 
 Rule: a child runs its body and nothing else of this program, in a session of its own: what a terminal sends to
-everybody (Ctrl-C, Ctrl-\\, Ctrl-Z) reaches its parent alone, who decides. Called by paced.
+everybody (Ctrl-C, Ctrl-\\, Ctrl-Z) reaches its parent alone, who decides. Called by paced and lab/latency.
 """
 
 import os

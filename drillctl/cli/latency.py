@@ -47,8 +47,6 @@ def _whole(most: int) -> Callable[[str], int]:
     """An option's type: a whole number from 1."""
 
     def read(text: str) -> int:
-        if not text.isdecimal() or not 1 <= int(text[:20]) <= most:
-            raise argparse.ArgumentTypeError(f"{text[:20]!r} is not a whole number from 1 to {most}")
-        return int(text)
+        return options.whole_number(text, 1, most)
 
     return read

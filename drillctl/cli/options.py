@@ -45,9 +45,13 @@ def machine(arguments: argparse.Namespace) -> "Machine":
 def _rate(text: str) -> int:
     from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 
-    if not text.isdecimal() or not SLOWEST_TICK_HZ <= int(text) <= FASTEST_TICK_HZ:
-        reason = f"{text[:20]!r} is not a whole number from {SLOWEST_TICK_HZ} to {FASTEST_TICK_HZ}"
-        raise argparse.ArgumentTypeError(reason)
+    return whole_number(text, SLOWEST_TICK_HZ, FASTEST_TICK_HZ)
+
+
+def whole_number(text: str, least: int, most: int) -> int:
+    """An option's value. Raises ArgumentTypeError for anything but a whole number within the bounds."""
+    if not text.isdecimal() or not least <= int(text[:20]) <= most:
+        raise argparse.ArgumentTypeError(f"{text[:20]!r} is not a whole number from {least} to {most}")
     return int(text)
 
 

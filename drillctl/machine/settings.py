@@ -80,7 +80,7 @@ def _setting(raw: MachineFile, place: Place, axis: str) -> Setting:
     value: object = raw
     shape: Type = type_info(MachineFile)
     for part in place:
-        value = value[part] if isinstance(part, int) else getattr(value, part)  # type: ignore[index]
+        value = value[part] if isinstance(part, int) else getattr(value, part)  # type: ignore[index]  # a place leads through lists and records alike
         shape = _shape_inside(shape, part)
     assert isinstance(value, Value)
     return _bounded(place, axis, value, shape)

@@ -24,7 +24,9 @@ FIELD_WORDS: Mapping[Place, FieldWords] = {
         N_("Card's address"), "", N_("Where the card answers on the bus; hexadecimal as in 0x2A0, or decimal.")
     ),
     ("configuration", "mode"): FieldWords(
-        N_("Mode"), "", N_("SIMULATED: the ticks drive a simulated machine. REAL: they drive the card.")
+        N_("Mode"),
+        "",
+        N_("On the paper's screen: the ticks move a simulation, or they drive the card. Here --port decides."),
     ),
     ("columns_per_inch",): FieldWords(
         N_("scale"), N_("columns/inch"), N_("Columns of the phase table to an inch of travel, as measured.")
@@ -45,7 +47,9 @@ FIELD_WORDS: Mapping[Place, FieldWords] = {
         N_("Spindle's run-up"), "s", N_("Waited after the spindle was switched on, before the first stroke.")
     ),
     ("configuration", "tool_change"): FieldWords(
-        N_("Tool change"), "", N_("MANUAL: the program waits for the operator at every tool.")
+        N_("Tool change"),
+        "",
+        N_("As on the paper's screen. Whether a run asks for its tools is said with it (--tools)."),
     ),
     ("tick_hz",): FieldWords(
         N_("Interrupt frequency"), "Hz", N_("Ticks a second; with the ramp it decides how fast the motors turn.")

@@ -53,7 +53,7 @@ class TableEditor(urwid.Widget):
         return self.text != self._saved
 
     def drawing(self, columns: int) -> list[Line]:
-        """The table itself, in lines."""
+        """The table itself, in lines: what each kind of editor draws in its own way."""
         raise NotImplementedError
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
