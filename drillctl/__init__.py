@@ -16,12 +16,11 @@ port image a tick; *port I/O* carries that image to a card or to a simulated mac
     trace/           one columnar record of a run: text, VCD, first difference
     lab/             forecasts, and how punctual this computer is
 
-and the wiring, which composes them and decides nothing about motion:
+and what composes them and decides nothing about motion:
 
-    ticker.py  layers 3 and 4: runs ticks     desk.py     layers 1 and 2: takes a job down the queue
-    link.py    the desk's end of a ticker     paced.py    ... in a process of its own, with guard.py beside it
-    session.py one run of a job               station.py  a machine kept running for the screens
-    replay.py  a recorded run again           pytest_plugin.py  ``*.trace`` files as tests
+    wiring/          ticker (layers 3 and 4), desk (layers 1 and 2), the processes and the guard, sessions, replay
+    station/         a machine kept running for the screens
+    pytest_plugin.py ``*.trace`` files as tests
 
 docs/ARCHITECTURE.md follows one command from its text to a port byte; tests/test_rooms.py holds the walls.
 This package imports nothing.

@@ -60,7 +60,7 @@ class TraceItem(pytest.Item):
 
     def runtest(self) -> None:
         """Raises TraceMismatch at the first tick that differs."""
-        from drillctl.replay import record_again, replay
+        from drillctl.wiring.replay import record_again, replay
 
         option = self.config.getoption
         library = Library.standard(option("--drillctl-tables"))

@@ -17,7 +17,7 @@ from typing import NoReturn, TextIO
 
 from drillctl import __version__
 from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, screen, tables
-from drillctl.interrupts import caught, exit_code, leave
+from drillctl.wiring.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
@@ -100,9 +100,9 @@ def _is_refusal(error: Exception) -> bool:
     from drillctl.generation.placing import PlacingError
     from drillctl.lab.latency import LatencyError
     from drillctl.machine import TableError
-    from drillctl.outputs import OutputError
     from drillctl.ports import PortError
     from drillctl.trace import TraceError
+    from drillctl.wiring.outputs import OutputError
 
     refusals = (
         JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError,

@@ -20,7 +20,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """The whole text is made first; then the file is written, or nothing is."""
-    from drillctl.outputs import reserved
+    from drillctl.wiring.outputs import reserved
 
     text, warnings = _queue(arguments) if arguments.to.suffix.lower() == ".kmd" else _excellon(arguments)
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):

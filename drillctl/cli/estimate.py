@@ -19,9 +19,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Everything that ``run`` would refuse is refused here too; a job that would end in a fault is told so (exit 1)."""
-    from drillctl.estimate import estimate
     from drillctl.generation.job import load_job
     from drillctl.ui.summary import estimate_lines
+    from drillctl.wiring.estimate import estimate
 
     machine = options.machine(arguments)
     told = estimate(load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format))

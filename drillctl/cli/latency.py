@@ -8,7 +8,7 @@ import json
 from collections.abc import Callable
 
 from drillctl.cli import options
-from drillctl.interrupts import caught, exit_code
+from drillctl.wiring.interrupts import caught, exit_code
 
 LONGEST_S = 3600
 FASTEST_HZ = 20_000

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from drillctl.desk import Run, ToolChange, Watcher
     from drillctl.machine import Library, Machine
-    from drillctl.outputs import Output
+    from drillctl.wiring.desk import Run, ToolChange, Watcher
+    from drillctl.wiring.outputs import Output
 
 DEFAULT_MACHINE = "pcb-drill"
 
@@ -115,8 +115,8 @@ def _holes_csv(done: "Run") -> "Iterator[str]":
 
 def told(done: "Run", as_json: bool) -> int:
     """Prints how a run ended; returns its exit code."""
-    from drillctl.interrupts import exit_code
     from drillctl.ui.summary import summary_lines
+    from drillctl.wiring.interrupts import exit_code
 
     for notice in done.notices:
         print(f"drillctl: {notice}", file=sys.stderr)

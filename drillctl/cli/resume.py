@@ -10,7 +10,7 @@ from drillctl.cli import jobs, options
 if TYPE_CHECKING:
     from drillctl.generation.job import Job
     from drillctl.generation.journal import Account
-    from drillctl.session import Session
+    from drillctl.wiring.session import Session
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -27,7 +27,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """The job is made again and must be the same; holes cut off in the middle are drilled again, and named."""
     from drillctl.generation.journal import read_journal
-    from drillctl.outputs import reserved
+    from drillctl.wiring.outputs import reserved
 
     file = arguments.journal or _newest()
     account = read_journal(file)
@@ -43,8 +43,8 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     from drillctl.generation.errors import JobError
     from drillctl.generation.job import load_job
     from drillctl.generation.journal import check_same, head_of
-    from drillctl.machinery import Running
-    from drillctl.session import Session
+    from drillctl.wiring.machinery import Running
+    from drillctl.wiring.session import Session
 
     given = jobs.given_again(account.head.options)
     wishes = jobs.wishes(given)
@@ -60,7 +60,7 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
 
 def _newest() -> Path:
     from drillctl.generation.errors import JobError
-    from drillctl.session import journals
+    from drillctl.wiring.session import journals
 
     found = sorted(journals().glob("*.journal"), key=lambda journal: journal.stat().st_mtime)
     if not found:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from drillctl.cli import jobs, options
 
 if TYPE_CHECKING:
-    from drillctl.desk import Run
     from drillctl.generation.job import Job
-    from drillctl.outputs import Output
+    from drillctl.wiring.desk import Run
+    from drillctl.wiring.outputs import Output
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -33,9 +33,9 @@ def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
     from drillctl.generation.job import load_job
     from drillctl.machine import machine_hazards
-    from drillctl.machinery import Running, pace_of
-    from drillctl.outputs import reserved
-    from drillctl.session import Session
+    from drillctl.wiring.machinery import Running, pace_of
+    from drillctl.wiring.outputs import reserved
+    from drillctl.wiring.session import Session
 
     machine = options.machine(arguments)
     running = Running(arguments.port, arguments.pace, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
@@ -58,8 +58,8 @@ def call(arguments: argparse.Namespace) -> int:
 def _write(job: "Job", done: "Run", trace: "Output | None", vcd: "Output | None") -> None:
     from dataclasses import replace
 
-    from drillctl.sampler import vcd_layout
     from drillctl.trace import write_text, write_vcd
+    from drillctl.wiring.sampler import vcd_layout
 
     kept = done.trace
     if trace is not None and kept is not None:

@@ -8,7 +8,7 @@ from drillctl.cli import options
 
 if TYPE_CHECKING:
     from drillctl.machine import Library
-    from drillctl.station import Station
+    from drillctl.station.station import Station
     from drillctl.ui.app import Maker
 
 
@@ -30,10 +30,10 @@ def call(arguments: argparse.Namespace) -> int:
     """Every way out closes the console: the outputs are safe, and what was started has ended."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise ScreenError("the screen needs a terminal; for a pipe or a script there are verbs: drillctl --help")
-    from drillctl.machinery import Running
-    from drillctl.station import Station
+    from drillctl.station.station import Station
     from drillctl.ui import words
     from drillctl.ui.app import App
+    from drillctl.wiring.machinery import Running
 
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
     words.use(arguments.lang or words.language_of(), plain)
@@ -50,10 +50,10 @@ def call(arguments: argparse.Namespace) -> int:
 def _benches(library: "Library", station: "Station", plain: bool) -> "dict[str, Maker]":
     """The screens that edit, by their names in the menus."""
     from drillctl.machine.library import user_tables
-    from drillctl.queuebench import QueueBench
+    from drillctl.station.queuebench import QueueBench
+    from drillctl.station.workbench import Workbench
     from drillctl.ui.screens.queue_editor import QueueEditor
     from drillctl.ui.screens.table_list import TableList
-    from drillctl.workbench import Workbench
 
     tables = Workbench(library, user_tables())
     queues = QueueBench(lambda: station.machine)

@@ -10,7 +10,7 @@ import numpy as np
 
 from drillctl.kmd import RECORD, Op
 from drillctl.machine import Machine
-from drillctl.ticker import Ticker
+from drillctl.wiring.ticker import Ticker
 
 RUNS = 8
 TICKS_A_RUN = 50

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from drillctl.kmd import Op
 from drillctl.kmd.commands import Flag
 from drillctl.machine import Machine, travel_table
-from drillctl.ticker import Ticker
+from drillctl.wiring.ticker import Ticker
 
 Ticks = NDArray[np.int64]
 LONGEST_COMMAND_TICKS = 100_000_000

@@ -18,14 +18,14 @@ from functools import partial
 
 import numpy as np
 
-from drillctl.children import Child
 from drillctl.execution.clock import PacedClock
 from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
 from drillctl.lab.wakes import MOST_TEXT, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
 from drillctl.machine import Machine
 from drillctl.panel.latency import LatencyReport
-from drillctl.realtime import become_punctual
-from drillctl.ticker import Ticker
+from drillctl.wiring.children import Child
+from drillctl.wiring.realtime import become_punctual
+from drillctl.wiring.ticker import Ticker
 
 MOST_PROCESSORS = 4  # the ticker stays on these, so that a canary sees whatever stops it
 CANARY_WAKES = 2  # a period

@@ -15,11 +15,11 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
-from drillctl import machinery
 from drillctl.cli import main
 from drillctl.generation import journal
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
+from drillctl.wiring import machinery
 
 Plan = dict[str, Any]
 

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.desk import Desk, Run
 from drillctl.generation.job import load_job
 from drillctl.generation.wishes import Wishes
-from drillctl.link import LocalLink
 from drillctl.machine import Library, shipped_tables
 from drillctl.panel import Progress
 from drillctl.ports import SAFE_IMAGE
-from drillctl.ticker import Ticker
+from drillctl.wiring.desk import Desk, Run
+from drillctl.wiring.link import LocalLink
+from drillctl.wiring.ticker import Ticker
 
 Started = Callable[..., "subprocess.Popen[str]"]
 SIGNALS = pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])

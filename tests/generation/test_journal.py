@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from drillctl.cli import main
 from drillctl.generation.journal import Account, Head, Journal, JournalError, read_journal
-from drillctl.session import default_journal
+from drillctl.wiring.session import default_journal
 from tests.support.journalled import BOARD, keep_lines, resume, run
 
 HEAD = Head("job.drl", "a", "b", "pcb-drill", "c", 9, {})

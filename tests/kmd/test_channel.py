@@ -8,9 +8,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from drillctl.children import Child
 from drillctl.kmd import CAPACITY, RECORD, STATUS, Command, Queue, Request, Requests
 from drillctl.kmd.channel import CHANNEL, Channel, SharedQueue, SharedRequests
+from drillctl.wiring.children import Child
 
 PUBLISHED = 20_000
 ASKED = [request for request in Request if request]

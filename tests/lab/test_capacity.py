@@ -5,8 +5,8 @@ import pytest
 from drillctl.lab import capacity
 from drillctl.lab.capacity import most_ticks_hz
 from drillctl.machine import Library
-from drillctl.machinery import Running, start
 from drillctl.ports import PortRefused
+from drillctl.wiring.machinery import Running, start
 
 MACHINE = Library.standard().machine("pcb-drill")
 

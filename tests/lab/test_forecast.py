@@ -7,8 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drillctl.desk import Desk
-from drillctl.estimate import estimate
 from drillctl.generation.drillfile import decode
 from drillctl.generation.job import Job, load_job, names_of
 from drillctl.generation.placing import Panel, Placing
@@ -17,8 +15,10 @@ from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import build
 from drillctl.kmd import parse_program
 from drillctl.lab import forecast
-from drillctl.link import LocalLink
 from drillctl.machine import Library
+from drillctl.wiring.desk import Desk
+from drillctl.wiring.estimate import estimate
+from drillctl.wiring.link import LocalLink
 
 LIBRARY = Library.standard()
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"

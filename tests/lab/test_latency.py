@@ -17,8 +17,8 @@ from drillctl.lab.latency import MOST_PROCESSORS, LatencyError, measure
 from drillctl.lab.wakes import WakeLog
 from drillctl.machine import Library, Machine
 from drillctl.panel.latency import LatencyReport
-from drillctl.ticker import Ticker
 from drillctl.ui.latency import latency_lines
+from drillctl.wiring.ticker import Ticker
 
 COMMAND = (sys.executable, "-m", "drillctl", "latency")
 LONG_S = 600

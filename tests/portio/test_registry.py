@@ -8,13 +8,13 @@ import pytest
 
 from drillctl.cli import main
 from drillctl.machine import Library, shipped_tables
-from drillctl.machinery import wiring_of
 from drillctl.portio.firmata import max_tick_hz
 from drillctl.portio.firmata_pins import MEGA, UNO, Board, Pins
 from drillctl.portio.mapped import MappedCard
 from drillctl.portio.registry import PORTS, open_port, select
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import PortRefused, Wiring, bits_of
+from drillctl.wiring.machinery import wiring_of
 from tests.portio.conformance import WIRING, StandInPlant
 
 LIBRARY = Library((shipped_tables(),))

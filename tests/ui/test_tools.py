@@ -10,13 +10,13 @@ from typing import TextIO
 import pytest
 
 from drillctl.cli import main
-from drillctl.desk import Desk
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.wishes import Wishes
-from drillctl.link import LocalLink
 from drillctl.machine import Library
 from drillctl.panel import Progress
 from drillctl.ui.tools import ToolPrompt
+from drillctl.wiring.desk import Desk
+from drillctl.wiring.link import LocalLink
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 

@@ -66,6 +66,6 @@ def test_entries_of_several_lines_and_escapes_are_read() -> None:
 
 def test_no_entry_is_left_over() -> None:
     """Besides the screens' own messages there are the faults' words, and the station's refusals."""
-    refusals = Path(ui.__file__).parents[1] / "station.py"
+    refusals = Path(ui.__file__).parents[1] / "station" / "station.py"
     told = {node.value for node in ast.walk(ast.parse(refusals.read_text("utf-8"))) if isinstance(node, ast.Constant)}
     assert set(POLISH) - messages() - told - {text for fault in FAULT_WORDS.values() for text in fault} == set()

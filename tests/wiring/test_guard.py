@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.children import Child
-from drillctl.guard import run_guard
 from drillctl.kmd.channel import Channel
+from drillctl.wiring.children import Child
+from drillctl.wiring.guard import run_guard
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the guard needs Linux")
 SILENCE_NS = 300_000_000

@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
-from drillctl import realtime
-from drillctl.realtime import PRIORITY, become_punctual
+from drillctl.wiring import realtime
+from drillctl.wiring.realtime import PRIORITY, become_punctual
 
 NOBODY = 65534
 PR_GET_TIMERSLACK = 30

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.desk import trace_header
 from drillctl.generation.job import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.kmd import Request
 from drillctl.machine import Library, shipped_tables
-from drillctl.replay import replay
-from drillctl.ticker import Ticker
 from drillctl.trace import write_text
+from drillctl.wiring.desk import trace_header
+from drillctl.wiring.replay import replay
+from drillctl.wiring.ticker import Ticker
 
 LIBRARY = Library((shipped_tables(),))
 

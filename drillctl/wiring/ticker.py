@@ -15,8 +15,8 @@ from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver
-from drillctl.sampler import Keeper, Sampler
 from drillctl.trace import Recorder, Trace
+from drillctl.wiring.sampler import Keeper, Sampler
 
 
 @dataclass

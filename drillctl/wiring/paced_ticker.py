@@ -18,9 +18,9 @@ from drillctl.kmd.commands import MOST_AXES
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.ports import Driver
-from drillctl.realtime import become_punctual
-from drillctl.ticker import Ticker
 from drillctl.trace.ring import RingRecorder
+from drillctl.wiring.realtime import become_punctual
+from drillctl.wiring.ticker import Ticker
 
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off

@@ -8,9 +8,9 @@ import pytest
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.library import user_tables
 from drillctl.panel.tables import Checked, Kind
-from drillctl.queuebench import QueueBench
+from drillctl.station.queuebench import QueueBench
+from drillctl.station.workbench import KEY_OF, Workbench
 from drillctl.ui.models.phase_grid import PhaseGrid
-from drillctl.workbench import KEY_OF, Workbench
 
 
 @pytest.fixture

@@ -9,10 +9,10 @@ from pathlib import Path
 from drillctl.generation.job import names_of
 from drillctl.kmd import COMMANDS, KmdError, Names, parse_program
 from drillctl.machine import Machine
-from drillctl.outputs import write_text
 from drillctl.panel.console import Problems
 from drillctl.panel.queues import CommandHelp
 from drillctl.panel.tables import Finding
+from drillctl.wiring.outputs import write_text
 
 LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it is checked at every key
 

@@ -14,11 +14,11 @@ import numpy as np
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import Job, MadeHole, names_of
 from drillctl.generation.journal import Journal, JournalError
-from drillctl.interrupts import caught
 from drillctl.kmd import Condition, Fault, Request, to_text
-from drillctl.link import Link, is_over
 from drillctl.panel import Outcome, Progress, fault_report
 from drillctl.trace import Trace
+from drillctl.wiring.interrupts import caught
+from drillctl.wiring.link import Link, is_over
 
 Watcher = Callable[[Progress], None]
 ToolChange = Callable[[int, float | None], bool]  # tool and diameter; asked again and again until it is True

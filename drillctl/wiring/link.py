@@ -15,8 +15,8 @@ from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver
-from drillctl.ticker import Ticker
 from drillctl.trace import Trace
+from drillctl.wiring.ticker import Ticker
 
 Header = list[tuple[str, str]]
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from drillctl.machine import Library
-from drillctl.machinery import Running
 from drillctl.panel.console import Asked
-from drillctl.station import Station
+from drillctl.station.station import Station
+from drillctl.wiring.machinery import Running
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 PATIENCE_S = 40.0

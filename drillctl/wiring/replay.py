@@ -16,12 +16,12 @@ from drillctl.generation.job import names_of
 from drillctl.kmd import KmdError, Request, parse_program
 from drillctl.machine import Library, Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
-from drillctl.outputs import Output
 from drillctl.portio.playback import PlaybackCard
 from drillctl.ports import CARD_BITS
-from drillctl.sampler import REQUEST_WORDS
-from drillctl.ticker import Ticker
 from drillctl.trace import Difference, Trace, TraceError, first_difference, read_text, render, write_text
+from drillctl.wiring.outputs import Output
+from drillctl.wiring.sampler import REQUEST_WORDS
+from drillctl.wiring.ticker import Ticker
 
 MOST_TICKS = 100_000_000
 

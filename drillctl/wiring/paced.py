@@ -14,18 +14,18 @@ from pathlib import Path
 
 import numpy as np
 
-from drillctl.children import Child
-from drillctl.guard import SILENCE_NS, run_guard
 from drillctl.kmd import Fault, Request
 from drillctl.kmd.channel import Channel, SharedQueue, SharedRequests
-from drillctl.link import Header, Touch
 from drillctl.machine import Machine
-from drillctl.paced_ticker import TOUCH, PacedTicker
 from drillctl.plant import IdealPlant
 from drillctl.ports import Driver
-from drillctl.sampler import signals
 from drillctl.trace import Trace
 from drillctl.trace.ring import CHANGE, RingRecorder
+from drillctl.wiring.children import Child
+from drillctl.wiring.guard import SILENCE_NS, run_guard
+from drillctl.wiring.link import Header, Touch
+from drillctl.wiring.paced_ticker import TOUCH, PacedTicker
+from drillctl.wiring.sampler import signals
 
 GUARD_SILENCE_NS = 2 * SILENCE_NS
 START_NS = 5_000_000_000  # granted to the ticker before its first beat

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from drillctl.generation.drillfile import read
 from drillctl.generation.job import Job, names_of
 from drillctl.kmd import Condition, to_text
-from drillctl.link import Link
 from drillctl.machine import AxisTable, Machine
 from drillctl.panel import fault_report
 from drillctl.panel.console import AxisView, BoardView, MachineView, ToolView
 from drillctl.panel.records import Estimate
+from drillctl.wiring.link import Link
 
 CONDITIONS = {
     Condition.READY: "ready",

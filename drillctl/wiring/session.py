@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from drillctl.desk import Desk, Run, ToolChange, Watcher
 from drillctl.generation.job import Job
 from drillctl.generation.journal import Account, Head, Journal, head_of
 from drillctl.lab import forecast
-from drillctl.machinery import Running, start
+from drillctl.wiring.desk import Desk, Run, ToolChange, Watcher
+from drillctl.wiring.machinery import Running, start
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drillctl.lab.capacity import most_ticks_hz
-from drillctl.link import Link, LocalLink
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.portio.registry import open_port, select
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import PortRefused, Wiring
-from drillctl.ticker import Ticker
+from drillctl.wiring.link import Link, LocalLink
+from drillctl.wiring.ticker import Ticker
 
 FREE, REAL = "free", "real"
 
@@ -54,7 +54,7 @@ def start(machine: Machine, running: Running, status_file: Path) -> Link:
     driver = open_port(running.port, wiring_of(machine), SimulatedCard(plant) if plant else None)
     if pace == FREE:
         return LocalLink(Ticker(machine, driver, plant, running.traced, running.derived))
-    from drillctl.paced import PacedLink
+    from drillctl.wiring.paced import PacedLink
 
     return PacedLink(machine, driver, plant, status_file, running.traced, running.derived)
 

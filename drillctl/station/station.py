@@ -11,21 +11,21 @@ from pathlib import Path
 
 import numpy as np
 
-from drillctl.desk import Desk
-from drillctl.estimate import estimate
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, load_job, names_of
 from drillctl.generation.placing import Placing, PlacingError
 from drillctl.generation.strokes import record
 from drillctl.generation.wishes import Wishes
 from drillctl.kmd import Condition, KmdError, Op, Request, parse_program
-from drillctl.link import Link
 from drillctl.machine import Library, Machine, TableError
-from drillctl.machinery import Running, start
 from drillctl.panel.console import Asked, BoardView, MachineView, Problems
 from drillctl.panel.records import Progress
 from drillctl.ports import PortError
-from drillctl.views import board_view, machine_view
+from drillctl.station.views import board_view, machine_view
+from drillctl.wiring.desk import Desk
+from drillctl.wiring.estimate import estimate
+from drillctl.wiring.link import Link
+from drillctl.wiring.machinery import Running, start
 
 BUSY = "the machine is at work; hold or stop it first"
 

@@ -15,9 +15,9 @@ from drillctl.machine.ramp import parse_ramp, ramp_rows
 from drillctl.machine.settings import Setting, settings
 from drillctl.machine.source import Source
 from drillctl.machine.travel import stopping
-from drillctl.outputs import write_text
 from drillctl.panel.console import Problems
 from drillctl.panel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
+from drillctl.wiring.outputs import write_text
 
 # What makes a text a table of its kind: a key that only this kind has.
 KEY_OF: dict[Kind, tuple[str, ...]] = {

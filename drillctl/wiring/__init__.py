@@ -1,0 +1,10 @@
+"""The wiring: puts the rooms together into processes and runs, and decides nothing about motion.
+
+    ticker    layers 3 and 4: runs ticks         desk      layers 1 and 2: takes a job down the queue
+    link      the desk's end of a ticker         paced     ... in a process of its own, with guard beside it
+    machinery opens a port, a ticker behind it   session   one run of a job, with its journal
+    sampler   which number is which signal       replay    a recorded run again
+    estimate  what a job will take               outputs   files reserved before anything moves
+
+Called by the verbs, by the screens' station and by the pytest plugin. Imports nothing by itself.
+"""
