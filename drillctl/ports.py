@@ -7,7 +7,7 @@ Rule: within a tick inputs are latched once, first, and outputs flushed once, la
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 CARD_BITS = 32
 CARD_MASK = (1 << CARD_BITS) - 1
@@ -18,6 +18,11 @@ LONGEST_WAIT_S = 0.05  # for the port, while an image is put out or the outputs 
 def word(image: int, card: int) -> int:
     """The 32 bits of one card."""
     return image >> CARD_BITS * card & CARD_MASK
+
+
+def with_bits(image: int, bits: int, on: int) -> int:
+    """The image with these bits set, or cleared."""
+    return image | bits if on else image & ~bits
 
 
 def bits_of(image: int) -> list[int]:
@@ -38,7 +43,11 @@ class PortRefused(PortError):
 
 
 class PortLost(PortError):
-    """While it was in use: the port is gone, or too slow. What its outputs are now is unknown."""
+    """While it was in use: the port is gone. What its outputs are now is unknown."""
+
+
+class PortSlow(PortLost):
+    """It is there, and takes images more slowly than ticks make them. What its outputs are now is unknown too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,3 +100,11 @@ class Driver(Protocol):
 
     def close(self) -> None:
         """Gives the port back; the outputs are safe afterwards, where the port still answers."""
+
+
+@runtime_checkable
+class Telling(Protocol):
+    """A driver that has more to say of its port than what it was opened with."""
+
+    def facts(self) -> tuple[str, ...]:
+        """What it found there when it was opened, a line each."""

@@ -2,14 +2,14 @@
 
 import argparse
 import sys
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
-    from drillctl.generation.placing import Panel, Placing
-    from drillctl.generation.wishes import Wishes
+    from drillctl.generation.job import Job
+    from drillctl.generation.recipe import Recipe
+    from drillctl.machine import Machine
 
 
 def add_job(verb: argparse.ArgumentParser) -> None:
@@ -34,62 +34,42 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     drilling.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
 
 
-def wishes(arguments: argparse.Namespace) -> "Wishes":
-    """What was asked for. Raises JobError, PlacingError or AlignmentError."""
-    from drillctl.generation.drills import read_drills
-    from drillctl.generation.wishes import Wishes
+def recipe(arguments: argparse.Namespace) -> "Recipe":
+    """What was asked for, paths made absolute."""
+    from drillctl.generation.recipe import Recipe
 
-    drills = read_drills(arguments.drills) if arguments.drills else None
-    return Wishes(
-        _placing(arguments), arguments.order, arguments.skip_tools, drills, arguments.peck, arguments.spot
-    )
-
-
-AS_GIVEN = (
-    "machine", "tables", "tick_hz", "origin", "mirror", "rotate", "offset", "align", "panel", "order", "skip_tools",
-    "drills", "peck", "spot", "format",
-)  # fmt: skip
-PATHS = ("tables", "align", "drills")
-
-
-def as_given(arguments: argparse.Namespace) -> dict[str, Any]:
-    """The options that make a job, as plain values for its journal; paths are made absolute."""
-    told = {name: getattr(arguments, name) for name in AS_GIVEN}
-    told["skip_tools"] = sorted(told["skip_tools"])
-    if told["machine"].endswith(".toml"):
-        told["machine"] = str(Path(told["machine"]).resolve())
-    return {name: str(value.resolve()) if isinstance(value, Path) else value for name, value in told.items()}
-
-
-def given_again(told: Mapping[str, Any]) -> argparse.Namespace:
-    """The options of a journal as arguments. Raises JobError for a journal of another version."""
-    from drillctl.generation.errors import JobError
-
-    if set(told) != set(AS_GIVEN):
-        raise JobError(["the journal was written by another version of this program"])
-    arguments = argparse.Namespace(**told)
-    arguments.skip_tools = frozenset(told["skip_tools"])
-    arguments.offset, arguments.panel = tuple(told["offset"]), told["panel"] and tuple(told["panel"])
-    for name in PATHS:
-        setattr(arguments, name, Path(told[name]) if told[name] else None)
-    return arguments
-
-
-def _placing(arguments: argparse.Namespace) -> "Placing":
-    from drillctl.generation.alignment import load
-    from drillctl.generation.placing import Placing
-
-    alignment = load(arguments.align, mirrored=arguments.mirror is not None) if arguments.align else None
-    if alignment is not None:
-        _show_alignment(alignment)
-    return Placing(
+    machine = arguments.machine
+    return Recipe(
+        machine=str(Path(machine).resolve()) if machine.endswith(".toml") else machine,
+        tables=_absolute(arguments.tables),
+        tick_hz=arguments.tick_hz,
         origin=arguments.origin,
-        mirror=None if alignment else arguments.mirror,
-        rotate_deg=arguments.rotate,
-        offset_mm=arguments.offset,
-        panel=_panel_of(arguments.panel),
-        alignment=alignment.affine if alignment else None,
+        mirror=arguments.mirror,
+        rotate=arguments.rotate,
+        offset=arguments.offset,
+        align=_absolute(arguments.align),
+        panel=arguments.panel,
+        order=arguments.order,
+        skip_tools=tuple(sorted(arguments.skip_tools)),
+        drills=_absolute(arguments.drills),
+        peck=arguments.peck,
+        spot=arguments.spot,
+        format=arguments.format,
     )
+
+
+def _absolute(path: Path | None) -> str | None:
+    return None if path is None else str(path.resolve())
+
+
+def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
+    """The job of a recipe; what measured holes say is shown. Raises JobError, PlacingError or AlignmentError."""
+    from drillctl.generation.job import load_job
+
+    wishes = made.wishes(machine)
+    if aligned := made.alignment():
+        _show_alignment(aligned)
+    return load_job(file, machine, wishes, made.format)
 
 
 def _show_alignment(alignment: "Alignment") -> None:
@@ -106,12 +86,6 @@ def _show_alignment(alignment: "Alignment") -> None:
     )
     for warning in alignment.warnings:
         print(f"drillctl: warning: {warning}", file=sys.stderr)
-
-
-def _panel_of(given: "tuple[int, int, float, float] | None") -> "Panel | None":
-    from drillctl.generation.placing import Panel
-
-    return None if given is None else Panel(*given)
 
 
 def _pair(text: str) -> tuple[float, float]:

@@ -3,13 +3,14 @@
 import argparse
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from drillctl.machine import Library, Machine
-    from drillctl.wiring.desk import Run, ToolChange, Watcher
+    from drillctl.wiring.desk import Run
+    from drillctl.wiring.machinery import Running
     from drillctl.wiring.outputs import Output
 
 DEFAULT_MACHINE = "pcb-drill"
@@ -56,48 +57,71 @@ def whole_number(text: str, least: int, most: int) -> int:
 
 
 def add_running(verb: argparse.ArgumentParser) -> None:
-    """``--port`` and ``--pace``."""
-    where = "default: %(default)s; see drillctl ports"
-    verb.add_argument("--port", default="simulated", metavar="NAME[:ADDRESS]", help=where)
+    """``--port`` and ``--pace``; and of a simulated machine ``--plant``, ``--fault`` and ``--seed``."""
+    where = "see drillctl ports; default: simulated, or with mode REAL in the machine's file the port of its card"
+    verb.add_argument("--port", metavar="NAME[:ADDRESS]", help=where)
     pace = "real: by the clock, in a process of its own; default: as the port wants"
     verb.add_argument("--pace", choices=("free", "real"), help=pace)
+    plant = "of a simulated machine: motors that go where they are pulled, or with inertia and friction; default: ideal"
+    verb.add_argument("--plant", choices=("ideal", "dynamic"), default="ideal", help=plant)
+    wrong = "of the dynamic plant: what is wrong with the machine, e.g. blunt=20; --fault list names all"
+    verb.add_argument("--fault", action=_FaultAction, default=[], metavar="NAME=N", help=wrong)
+    scatter = "of the dynamic plant: where the scatter of its sensors comes from; default: %(default)s"
+    verb.add_argument("--seed", type=_seed, default=0, metavar="N", help=scatter)
 
 
-def add_tools(verb: argparse.ArgumentParser) -> None:
-    """``--tools``."""
+def add_engine(verb: argparse.ArgumentParser) -> None:
+    """``--engine``."""
+    engine = "tick: every tick by itself; fast: whole moves at once, the same to the byte; default: fast where it can"
+    verb.add_argument("--engine", choices=("tick", "fast"), help=engine)
+
+
+class _FaultAction(argparse.Action):
+    """One fault more; ``list`` prints those that there are."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: object, option: str | None = None
+    ) -> None:
+        if values == "list":
+            from drillctl.plant.faults import fault_lines
+
+            print("\n".join(fault_lines()))
+            parser.exit()
+        setattr(namespace, self.dest, [*getattr(namespace, self.dest), values])
+
+
+def _seed(text: str) -> int:
+    return whole_number(text, 0, 2**31 - 1)
+
+
+def port(arguments: argparse.Namespace, machine: "Machine") -> str:
+    """As asked for, else as the machine's mode has it. Raises PortRefused for a mode that can't be had."""
+    from drillctl.wiring.machinery import port_of_mode
+
+    return arguments.port or port_of_mode(machine)
+
+
+def running(arguments: argparse.Namespace, port: str, traced: bool = False, derived: bool = False) -> "Running":
+    """On this port, at which pace, before which plant."""
+    from drillctl.plant import PlantChoice
+    from drillctl.wiring.machinery import Running
+
+    plant = PlantChoice(arguments.plant, tuple(arguments.fault), arguments.seed)
+    return Running(port, arguments.pace, traced, derived, plant)
+
+
+def add_tools(verb: argparse.ArgumentParser, otherwise: str = "ask on a real port") -> None:
+    """``--tools``; ``otherwise`` says what holds without it."""
     verb.add_argument(
         "--tools", choices=("ask", "assume"),
-        help="at a tool change: ask on the terminal, or take it as made; default: ask on a real port",
+        help=f"at a tool change: ask the operator, or take it as made; default: {otherwise}",
     )  # fmt: skip
-
-
-def tool_change(arguments: argparse.Namespace) -> "ToolChange | None":
-    """What desk asks at a tool change. Raises JobError where it should ask and nobody sits at a terminal."""
-    from drillctl.generation.errors import JobError
-    from drillctl.portio.registry import select
-    from drillctl.ui.tools import on_terminal
-
-    port, _ = select(arguments.port)
-    if (arguments.tools or ("ask" if port.real else "assume")) == "assume":
-        return None
-    prompt = on_terminal()
-    if prompt is None:
-        raise JobError(["--tools ask: there is no terminal to ask at; say --tools assume if the right tool is in"])
-    return prompt
 
 
 def add_results(verb: argparse.ArgumentParser) -> None:
     """``--holes`` and ``--json``."""
     verb.add_argument("--holes", type=Path, metavar="F", help="write the holes as the plant made them (CSV)")
     verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
-
-
-def shown(run: "Callable[[Watcher], Run]") -> "Run":
-    """Runs with the progress on standard error."""
-    from drillctl.ui.progress import ProgressView
-
-    with ProgressView(sys.stderr) as view:
-        return run(view.show)
 
 
 def write_holes(done: "Run", output: "Output | None") -> None:

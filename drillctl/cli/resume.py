@@ -2,10 +2,11 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import jobs, options
+from drillctl.cli import operating, options
 
 if TYPE_CHECKING:
     from drillctl.generation.job import Job
@@ -19,6 +20,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     newest = "default: the newest in the user's state folder"
     verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help=newest)
     options.add_running(verb)
+    options.add_engine(verb)
     options.add_tools(verb)
     options.add_results(verb)
     verb.set_defaults(call=call)
@@ -34,28 +36,20 @@ def call(arguments: argparse.Namespace) -> int:
     session = _session(file, account, arguments)
     with reserved((arguments.holes,), (file, Path(account.head.job))) as (holes,):
         _tell(file, account, session.job)
-        done = options.shown(session.run)
+        done = operating.operated(session, arguments)
         options.write_holes(done, holes)
     return options.told(done, arguments.json)
 
 
 def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
-    from drillctl.generation.errors import JobError
-    from drillctl.generation.job import load_job
-    from drillctl.generation.journal import check_same, head_of
-    from drillctl.wiring.machinery import Running
-    from drillctl.wiring.session import Session
+    from drillctl.generation.recipe import Recipe
+    from drillctl.wiring.session import Session, rest_of
 
-    given = jobs.given_again(account.head.options)
-    wishes = jobs.wishes(given)
-    job_file = Path(account.head.job)
-    job = load_job(job_file, options.machine(given), wishes, given.format)
-    check_same(file, account.head, head_of(job_file, job, account.head.options))
-    if len(account.done) == job.holes_total:
-        raise JobError([f"{file}: all {job.holes_total} holes of {job_file.name} are drilled; nothing is left"])
-    left = job.without(account.done, wishes)
-    running = Running(arguments.port, arguments.pace)
-    return Session(left, running, file, account, options.tool_change(arguments))
+    recipe = Recipe.of_options(account.head.options)
+    tables = recipe.tables and Path(recipe.tables)
+    machine = options.machine(argparse.Namespace(machine=recipe.machine, tables=tables, tick_hz=recipe.tick_hz))
+    running = replace(options.running(arguments, options.port(arguments, machine)), engine=arguments.engine)
+    return Session(rest_of(file, account, machine).left, running, file, account)
 
 
 def _newest() -> Path:
@@ -75,7 +69,7 @@ def _tell(file: Path, account: "Account", left: "Job") -> None:
         print(f"drillctl: {file}: its last line is torn, and left out", file=sys.stderr)
     for warning in left.warnings:
         print(f"drillctl: warning: {warning}", file=sys.stderr)
-    if account.head.options["spot"] is not None and account.begun:
+    if account.head.options.get("spot") is not None and account.begun:
         spotted = "holes of the tool in hand may bear their spot already; they are marked again, in the same place"
         print(f"drillctl: {spotted}", file=sys.stderr)
     for number in account.open:

@@ -2,10 +2,11 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import jobs, options
+from drillctl.cli import jobs, operating, options
 
 if TYPE_CHECKING:
     from drillctl.generation.job import Job
@@ -19,10 +20,11 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("job", type=Path, metavar="JOB", help="a drill file, or a queue of KMD commands (.kmd)")
     options.add_machine(verb)
     options.add_running(verb)
+    options.add_engine(verb)
     options.add_tools(verb)
     where = "keep the job's journal here; default for paced runs: the user's state folder"
     verb.add_argument("--journal", type=Path, metavar="F", help=where)
-    verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay")
+    verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay; F.seg: small")
     verb.add_argument("--vcd", type=Path, metavar="F", help="write the run as VCD, for GTKWave or PulseView")
     options.add_results(verb)
     jobs.add_job(verb)
@@ -31,41 +33,44 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
-    from drillctl.generation.job import load_job
     from drillctl.machine import machine_hazards
-    from drillctl.wiring.machinery import Running, pace_of
+    from drillctl.wiring.machinery import pace_of
     from drillctl.wiring.outputs import reserved
     from drillctl.wiring.session import Session
+    from drillctl.wiring.trace_files import takes_segments
 
     machine = options.machine(arguments)
-    running = Running(arguments.port, arguments.pace, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
+    port = options.port(arguments, machine)
+    running = options.running(arguments, port, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
+    taped = arguments.trace is not None and takes_segments(arguments.trace, machine.cards)
+    running = replace(running, engine=arguments.engine, taped=taped and not arguments.vcd)
     paced = pace_of(running) == "real"
-    job = load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format)
+    recipe = jobs.recipe(arguments)
+    job = jobs.load(arguments.job, recipe, machine)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
     inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files))
     with reserved(wanted, inputs) as (trace, vcd, holes):
         for warning in (*machine_hazards(machine), *job.warnings):
             print(f"drillctl: warning: {warning}", file=sys.stderr)
-        session = Session(job, running, tool_change=options.tool_change(arguments))
+        session = Session(job, running)
         if job.work and (paced or arguments.journal):
-            session = session.journalled(arguments.job, arguments.journal, jobs.as_given(arguments))
-        done = options.shown(session.run)
+            session = session.journalled(arguments.job, arguments.journal, recipe)
+        done = operating.operated(session, arguments)
         _write(job, done, trace, vcd)
         options.write_holes(done, holes)
     return options.told(done, arguments.json)
 
 
 def _write(job: "Job", done: "Run", trace: "Output | None", vcd: "Output | None") -> None:
-    from dataclasses import replace
-
-    from drillctl.trace import write_text, write_vcd
+    from drillctl.trace import Segments, write_vcd
     from drillctl.wiring.sampler import vcd_layout
+    from drillctl.wiring.trace_files import write_record
 
     kept = done.trace
     if trace is not None and kept is not None:
         named = job.machine.reference_from(trace.path.parent)
-        header = [("machine", named), *kept.header[1:]]
-        trace.write(lambda file: write_text(replace(kept, header=tuple(header)), file))
+        write_record(kept.with_header([("machine", named), *kept.header[1:]]), trace)
     if vcd is not None and kept is not None:
+        assert not isinstance(kept, Segments), "derived signals are kept as changes"
         with_plant = any(signal.name.startswith("plant.") for signal in kept.signals)
         vcd.write(lambda file: write_vcd(kept, file, vcd_layout(job.machine, with_plant)))

@@ -9,12 +9,14 @@
     guard.py       sensors, ranges, times
     stops.py       requests and faults: hold, stop, emergency stop, return
     report.py      writes the status record
+    loading.py     edited tables for a machine that rests
 
 May import kmd, ports and machine.
 """
 
 from drillctl.execution.controller import Controller
+from drillctl.execution.loading import loaded
 from drillctl.execution.report import report
-from drillctl.execution.tick import tick
+from drillctl.execution.tick import look, spare, tick
 
-__all__ = ["Controller", "report", "tick"]
+__all__ = ["Controller", "loaded", "look", "report", "spare", "tick"]

@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from drillctl.machine import AxisTable
+from drillctl.ports import with_bits
 
 if TYPE_CHECKING:
     from drillctl.execution.line import Line
@@ -23,7 +24,7 @@ class Axis:
         "base", "bits", "braked", "clear_mask", "cold", "column", "columns_per_step", "cooling", "count", "counting",
         "cut", "direction", "drive", "floor", "held", "high", "interval", "led", "length", "limits", "line", "low",
         "made", "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target",
-        "travelled", "up", "wait",
+        "travelled", "up", "wait", "wires",
     )  # fmt: skip
 
     def __init__(self, table: AxisTable, limits: tuple[int, int, int], up: int = 0):
@@ -35,6 +36,7 @@ class Axis:
         self.low, self.high, self.span = table.low_steps, table.high_steps, table.span_steps
         self.limits = limits  # input bits of the end sensors: index 1 for +, -1 for - (0 unused)
         self.up = up  # where a head that is fed by a distance waits between holes
+        self.wires = sum(1 << bit for bit in table.wire_bits)
         self.shown = _patterns(table, forcing=True)
         self.resting = _patterns(table, forcing=False)
         self.column = self.length - 1  # so that the first step forward puts the first column out
@@ -122,6 +124,10 @@ class Axis:
         """Stop and take the current off all phases."""
         self.halt()
         self.bits = self.cold = 0
+
+    def set_wire(self, bit: int, on: int) -> None:
+        """One wire by hand, at rest: it stays so until the next column is put out."""
+        self.bits, self.cold = with_bits(self.bits, bit, on), with_bits(self.cold, bit, on)
 
     def zero(self) -> None:
         """This place is machine zero."""

@@ -12,6 +12,7 @@ from drillctl.execution.homing import begin_homing, carry_homing
 from drillctl.execution.stops import raise_fault
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
+from drillctl.ports import with_bits
 
 UP, DOWN = -1, 1
 
@@ -187,13 +188,13 @@ def _switch(m: Controller, command: Command) -> int:
     bit = 1 << (command.args[0] & 0xFF)
     if not bit & m.output_mask:
         return Fault.BAD_COMMAND
-    m.switched = m.switched | bit if command.args[1] else m.switched & ~bit
+    m.switched = with_bits(m.switched, bit, command.args[1])
     return Fault.NONE
 
 
 def _spindle(m: Controller, command: Command) -> int:
     """On a machine without a spindle output the drill's motor has a switch of its own."""
-    m.switched = m.switched | m.spindle_mask if command.args[0] > 0 else m.switched & ~m.spindle_mask
+    m.switched = with_bits(m.switched, m.spindle_mask, command.args[0] > 0)
     return Fault.NONE
 
 

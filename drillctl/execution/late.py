@@ -4,12 +4,11 @@ Rule: the gap is a stimulus (docs/SPEC.md 1.14): from the same gaps a replay mak
 """
 
 from drillctl.execution.controller import Controller
-from drillctl.execution.stops import hold, raise_fault
+from drillctl.execution.stops import SURVIVES_STATE, hold, raise_fault
 from drillctl.kmd import Fault
 
 HOLD_MS = 50
 FAULT_MS = 250
-SURVIVES_STATE = 1  # a rotor stops dead from states 0 and 1: the automaton itself stops from them
 
 
 def apply_gap(m: Controller) -> None:

@@ -1,4 +1,4 @@
-"""How the machine stops: hold, stop, emergency stop, faults and the return after some of them.
+"""Requests, and how the machine stops: hold, stop, emergency stop, faults and the return after some of them.
 
 Rule: whatever ends a job raises the epoch, so that commands already queued are never run; a fault is latched until
 it is acknowledged. Requests come from tick, faults from guard, commands and homing.
@@ -9,12 +9,14 @@ from collections.abc import Callable, Mapping
 from drillctl.execution.controller import Controller
 from drillctl.execution.homing import begin_homing, carry_homing
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
-from drillctl.kmd.queue import RequestBit
-from drillctl.ports import SAFE_IMAGE
+from drillctl.kmd.queue import RequestBit, bit_and_value
+from drillctl.ports import SAFE_IMAGE, with_bits
+
+SURVIVES_STATE = 1  # a rotor stops dead from states 0 and 1: the automaton itself stops from them
 
 
 def serve(m: Controller) -> None:
-    """The requests that wait, emergency stop first."""
+    """The requests that wait, in the order of the table below: what befell the motors, emergency stop, the rest."""
     for request, served in _SERVED.items():
         if m.served >> request & 1:
             served(m)
@@ -132,10 +134,33 @@ def _acknowledge(m: Controller) -> None:
         m.condition = Condition.READY
 
 
+def _set_output(m: Controller) -> None:
+    """At rest and outside a job, else nothing: a coil's wire moves its rotor, and the position is lost."""
+    if m.condition != Condition.READY or m.busy or m.job or m.moving:
+        return
+    place, on = bit_and_value(m.requests.hand)
+    bit = 1 << place
+    m.switched = with_bits(m.switched, bit & m.output_mask, on)
+    for axis in m.axes:
+        if axis.wires & bit:
+            axis.set_wire(bit, on)
+            m.position_known = False
+
+
+def _after_pause(m: Controller) -> None:
+    """While the ticks stood still the rotors of a real machine stopped: those at speed start anew, or were lost."""
+    for axis in m.axes:
+        if axis.led or (axis.counting and axis.state):
+            m.position_known = m.position_known and abs(axis.state) <= SURVIVES_STATE
+            axis.start_again()
+
+
 _SERVED: Mapping[int, Callable[[Controller], None]] = {
+    Request.PAUSE: _after_pause,
     Request.ESTOP: _emergency_stop,
     Request.STOP: _stop,
     Request.HOLD: hold,
     Request.RESUME: _resume,
     Request.ACK: _acknowledge,
+    Request.OUTPUT: _set_output,
 }

@@ -17,8 +17,7 @@ READY, LATCHED = Condition.READY.value, Condition.LATCHED.value
 
 def tick(m: Controller) -> None:
     """One interrupt. While a job's next command is missing and all rests, it is a wake and not a tick."""
-    m.inputs = m.port.latch()
-    m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
+    look(m)
     m.late = m.gap
     if m.late:
         apply_gap(m)
@@ -52,6 +51,20 @@ def tick(m: Controller) -> None:
             finish(m)
     _put_out(m)
     m.tick += 1
+
+
+def look(m: Controller) -> None:
+    """Latches the inputs. Between ticks it shows what the sensors say, and nothing acts on that."""
+    m.inputs = m.port.latch()
+    m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
+
+
+def spare(m: Controller) -> None:
+    """Puts out what is on without its forcing: the clock stands still, and windings must not keep their 24 V."""
+    image = m.switched
+    for axis in m.axes:
+        image |= axis.cold
+    m.port.flush(image)
 
 
 def _put_out(m: Controller) -> None:

@@ -1,8 +1,8 @@
-"""The doors as shared memory: queue, requests and status between desk and ticker, in one mapped file.
+"""The doors as shared memory: queue, requests, gate and status between desk and ticker, in one mapped file.
 
 Rule: every field has one writer, and nobody waits: counters only rise, the status is copied under a sequence lock and
 read again when it was torn. The file outlives both sides, so that what the ticker confirmed last can be read after a
-crash. Created by the wiring before it forks; a program in one process uses the plain Queue and Requests instead.
+crash. Created by the wiring before it forks; a program in one process uses the plain Queue, Requests and Gate instead.
 """
 
 import mmap
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.kmd.commands import RECORD, Command
-from drillctl.kmd.queue import CAPACITY, Request, Requests
+from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, RequestBit, Requests, hand_of
 from drillctl.kmd.status import STATUS
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
@@ -25,6 +25,12 @@ CHANNEL = np.dtype(
         ("desk_beat_ns", "<i8"),  # monotonic; written by desk
         ("written", "<u8"),  # records put; desk
         ("asked", "<u4", (len(Request),)),  # how often each request was asked; desk
+        ("hands", "<u2", (MOST_HANDS,)),  # outputs to be set by hand, a ring; desk
+        ("hands_asked", "<u4"),  # how many were put there; desk
+        ("hands_taken", "<u4"),  # how many were taken; ticker
+        ("paused", "<u4"),  # 1: only ticks that are granted; desk
+        ("granted", "<u8"),  # desk
+        ("passed", "<u8"),  # ticks of those granted that were run; ticker
         ("leave", "<u4"),  # 1: nothing more will come, the ticker may go; desk
         ("ticker_pid", "<i8"),  # desk
         ("ticker_beat_ns", "<i8"),  # ticker
@@ -123,18 +129,22 @@ class SharedQueue:
 class SharedRequests:
     """The mailbox of a channel: desk counts up what it asks, the ticker sees what has risen.
 
-    own  what the ticker asks of itself, beside the desk: a mailbox of the process that takes
+    own   what the ticker asks of itself, beside the desk: a mailbox of the process that takes
+    hand  what the last OUTPUT taken was about
     """
 
     def __init__(self, channel: Channel):
         self.own = Requests()
+        self.hand = 0
+        self._channel = channel
+        self._hands = channel.fields["hands"][0]
         self._asked = channel.fields["asked"][0]
         self._seen = self._asked.copy()
 
     @property
     def waiting(self) -> bool:
         """Whether a request waits to be taken."""
-        return self.own.pending != 0 or bool((self._asked != self._seen).any())
+        return self.own.waiting or bool((self._asked != self._seen).any()) or self._hands_waiting > 0
 
     def post(self, request: Request) -> None:
         """Asks for something; called by desk alone."""
@@ -147,4 +157,56 @@ class SharedRequests:
         asked = self._asked.copy()
         risen = np.flatnonzero(asked != self._seen).tolist()
         self._seen[:] = asked
-        return self.own.take() | sum(1 << request for request in risen)
+        return self.own.take() | sum(1 << request for request in risen) | self._take_hand()
+
+    def set_output(self, bit: int, value: int) -> bool:
+        """Asks for OUTPUT, in line; called by desk alone. False, and nothing asked, where too many wait."""
+        if self._hands_waiting == MOST_HANDS:
+            return False
+        asked = self._channel["hands_asked"]
+        self._hands[asked % MOST_HANDS] = hand_of(bit, value)
+        self._channel["hands_asked"] = asked + 1
+        return True
+
+    @property
+    def _hands_waiting(self) -> int:
+        return self._channel["hands_asked"] - self._channel["hands_taken"]
+
+    def _take_hand(self) -> int:
+        if not self._hands_waiting:
+            return 0
+        taken = self._channel["hands_taken"]
+        self.hand = int(self._hands[taken % MOST_HANDS])
+        self._channel["hands_taken"] = taken + 1
+        return RequestBit.OUTPUT.value
+
+
+class SharedGate:
+    """The Gate of a channel: desk shuts it and grants, the ticker counts what passed."""
+
+    def __init__(self, channel: Channel):
+        self._channel = channel
+
+    @property
+    def paused(self) -> bool:
+        """Only granted ticks pass."""
+        return self._channel["paused"] != 0
+
+    @property
+    def left(self) -> int:
+        """Granted ticks that have not passed yet."""
+        return max(0, self._channel["granted"] - self._channel["passed"]) if self.paused else 0
+
+    def grant(self, ticks: int) -> None:
+        """From now on only granted ticks pass, so many more; called by desk alone."""
+        before = self._channel["granted"] if self.paused else self._channel["passed"]
+        self._channel["granted"] = before + ticks
+        self._channel["paused"] = 1
+
+    def open(self) -> None:
+        """All ticks pass again; called by desk alone."""
+        self._channel["paused"] = 0
+
+    def passed(self, ticks: int) -> None:
+        """So many of those granted were run; called by the ticker alone."""
+        self._channel["passed"] += ticks

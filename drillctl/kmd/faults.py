@@ -39,6 +39,7 @@ class Fault(IntEnum):
     PORT_LOST = 15
     HEARTBEAT_LOST = 16
     TICKER_LOST = 17
+    PORT_SLOW = 18
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +69,7 @@ _ALL = (
     FaultSpec(Fault.PORT_LOST, Reaction.DROP, False),
     FaultSpec(Fault.HEARTBEAT_LOST, Reaction.DROP, False),
     FaultSpec(Fault.TICKER_LOST, Reaction.DROP, False),
+    FaultSpec(Fault.PORT_SLOW, Reaction.DROP, False),
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

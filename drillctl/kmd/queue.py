@@ -3,6 +3,7 @@
 Rule: neither grows nor waits. generation puts, execution alone takes; a full queue says so and takes nothing.
 """
 
+from collections import deque
 from enum import IntEnum, IntFlag
 from typing import Protocol
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from drillctl.kmd.commands import RECORD, Command
 
 CAPACITY = 256
+MOST_HANDS = 16  # outputs set by hand that may wait: one is served a tick
 
 
 class CommandQueue(Protocol):
@@ -32,22 +34,34 @@ class CommandQueue(Protocol):
 
 
 class Mailbox(Protocol):
-    """Requests on their way past the queue, in one process or between two."""
+    """Requests on their way past the queue, in one process or between two.
+
+    hand  what the last OUTPUT taken was about (``hand_of``)
+    """
+
+    hand: int
+
+    @property
+    def waiting(self) -> bool:
+        """Whether a request waits to be taken."""
 
     def post(self, request: "Request") -> None:
         """Asks for something; asked twice before the next tick is asked once."""
 
+    def set_output(self, bit: int, value: int) -> bool:
+        """Asks for OUTPUT; these wait in line. False, and nothing asked, where too many do."""
+
     def take(self) -> int:
-        """The requests asked since the last call, as bits."""
+        """The requests asked since the last call, as bits; of those for an output the oldest, told in ``hand``."""
 
 
 class Queue:
-    """A ring of 256 records, allocated once. One side puts, the other takes."""
+    """A ring of records, allocated once, 256 of them where a machine is run. One side puts, the other takes."""
 
     __slots__ = ("_ring", "_taken", "_written")
 
-    def __init__(self) -> None:
-        self._ring = np.zeros(CAPACITY, dtype=RECORD)
+    def __init__(self, capacity: int = CAPACITY) -> None:
+        self._ring = np.zeros(capacity, dtype=RECORD)
         self._written = 0
         self._taken = 0
 
@@ -57,12 +71,12 @@ class Queue:
     @property
     def room(self) -> int:
         """How many records may be put now."""
-        return CAPACITY - len(self)
+        return len(self._ring) - len(self)
 
     def put(self, records: NDArray[np.void]) -> int:
         """Takes as many of the records (shape (n,)) as there is room for; returns how many."""
         count = min(len(records), self.room)
-        slots = (self._written + np.arange(count)) % CAPACITY
+        slots = (self._written + np.arange(count)) % len(self._ring)
         self._ring[slots] = records[:count]
         self._written += count
         return count
@@ -71,9 +85,17 @@ class Queue:
         """Overwrites ``command`` with the oldest record; False where there is none."""
         if self._taken == self._written:
             return False
-        command.load(self._ring[self._taken % CAPACITY])
+        command.load(self._ring[self._taken % len(self._ring)])
         self._taken += 1
         return True
+
+    def waiting(self) -> NDArray[np.void]:
+        """A copy of all that waits, the oldest first."""
+        return self._ring[np.arange(self._taken, self._written) % len(self._ring)]
+
+    def drop(self, count: int) -> None:
+        """Takes so many of the oldest out; they have been carried out otherwise."""
+        self._taken += count
 
 
 class Request(IntEnum):
@@ -85,6 +107,9 @@ class Request(IntEnum):
     HOLD = 3
     RESUME = 4
     ACK = 5
+    OUTPUT = 6  # one output set by hand; which one and how: ``hand_of``
+    PAUSE = 7  # a real machine's clock stood still (kmd/gate.py) and goes on; asked by the ticker itself
+    LOAD = 8  # edited tables were taken before this tick; asked by the ticker itself
 
 
 class RequestBit(IntFlag):
@@ -95,21 +120,50 @@ class RequestBit(IntFlag):
     HOLD = 1 << Request.HOLD
     RESUME = 1 << Request.RESUME
     ACK = 1 << Request.ACK
+    OUTPUT = 1 << Request.OUTPUT
+    PAUSE = 1 << Request.PAUSE
+    LOAD = 1 << Request.LOAD
+
+
+def hand_of(bit: int, value: int) -> int:
+    """An output set by hand as one number, 0 being none; its trace signal is ``hand``."""
+    return 1 + 2 * bit + value
+
+
+def bit_and_value(hand: int) -> tuple[int, int]:
+    """``hand_of`` undone."""
+    return divmod(hand - 1, 2)
 
 
 class Requests:
     """The mailbox: ``post`` from above at any time, ``take`` by the tick alone."""
 
-    __slots__ = ("pending",)
+    __slots__ = ("_hands", "hand", "pending")
 
     def __init__(self) -> None:
-        self.pending = 0
+        self.pending = self.hand = 0
+        self._hands: deque[int] = deque(maxlen=MOST_HANDS)
+
+    @property
+    def waiting(self) -> bool:
+        """Whether a request waits to be taken."""
+        return self.pending != 0 or len(self._hands) > 0
 
     def post(self, request: Request) -> None:
         """Asks for something; asked twice before the next tick is asked once."""
         self.pending |= 1 << request
 
+    def set_output(self, bit: int, value: int) -> bool:
+        """Asks for OUTPUT, in line. False, and nothing asked, where too many wait."""
+        if len(self._hands) == MOST_HANDS:
+            return False
+        self._hands.append(hand_of(bit, value))
+        return True
+
     def take(self) -> int:
-        """The requests asked since the last call, as bits."""
+        """The requests asked since the last call, as bits; of those for an output the oldest, told in ``hand``."""
         pending, self.pending = self.pending, 0
+        if self._hands:
+            self.hand = self._hands.popleft()
+            pending |= RequestBit.OUTPUT.value
         return pending

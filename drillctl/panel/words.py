@@ -75,7 +75,7 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "grant real-time scheduling or free the computer (drillctl latency), acknowledge; initialise where lost",
     ),
     Fault.PORT_LOST: FaultWords(
-        "the port is gone or too slow; what its outputs are now can't be known, nor made safe by software",
+        "the port is gone; what its outputs are now can't be known, nor made safe by software",
         "cut the motors' supply, check cable and card, then start anew and initialise",
     ),
     Fault.HEARTBEAT_LOST: FaultWords(
@@ -85,6 +85,10 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
     Fault.TICKER_LOST: FaultWords(
         "the process that runs the ticks died or stood still; the guard has made the outputs safe",
         "see why it died, then resume the job from its journal",
+    ),
+    Fault.PORT_SLOW: FaultWords(
+        "the port takes outputs more slowly than the ticks make them; the motors may have missed some",
+        "lower tick_hz or use a faster line, and see that nothing else talks to the port; then initialise again",
     ),
 }
 

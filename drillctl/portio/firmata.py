@@ -10,7 +10,7 @@ from contextlib import suppress
 
 from drillctl.portio.firmata_line import LISTEN_S, FirmataLine
 from drillctl.portio.firmata_pins import Board, Pins
-from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport
+from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport, Firmware
 from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring
 
 BAUD = 57_600  # StandardFirmata's own; a sketch with another is told as DEVICE@BAUD
@@ -22,11 +22,16 @@ USABLE_PERCENT = 95
 class FirmataCard:
     """A driver (ports.Driver) over a line whose board has its pins ready."""
 
-    def __init__(self, line: FirmataLine, pins: Pins):
-        self._line, self._pins = line, pins
+    def __init__(self, line: FirmataLine, pins: Pins, firmware: Firmware):
+        self._line, self._pins, self._firmware = line, pins, firmware
         self._outputs = SAFE_IMAGE
         self._inputs = 0
         self._safe = b"".join(pins.messages(SAFE_IMAGE))
+
+    def facts(self) -> tuple[str, ...]:
+        """Who answered, and which pins are ready (ports.Telling)."""
+        version = "{}.{}".format(*self._firmware.version)
+        return (f"{self._firmware.name} {version} answers", *self._pins.facts())
 
     def latch(self) -> int:
         """The levels as far as reports have come; each change takes 0.5 ms on the wire. Raises PortLost."""
@@ -66,12 +71,12 @@ def open_firmata(board: Board, address: str, wiring: Wiring, listen_s: float = L
     pins = Pins(board, wiring, name)
     line = FirmataLine(name, device, baud)
     try:
-        line.greet(listen_s)
+        firmware = line.greet(listen_s)
         pins.prepare(line)
     except BaseException:
         line.close()
         raise
-    return FirmataCard(line, pins)
+    return FirmataCard(line, pins, firmware)
 
 
 def max_tick_hz(board: Board, address: str, wiring: Wiring, moving_axes: Iterable[int]) -> int | None:

@@ -1,6 +1,6 @@
 """A serial line with a Firmata board at its end: opened, greeted, spoken to in whole messages.
 
-Rule: every wait is bounded; a line that is gone or too slow is PortLost, never a retry. No thread: what has arrived
+Rule: every wait is bounded; a line that is gone is PortLost, one that is too slow PortSlow; never a retry. No thread: what has arrived
 is read when it is asked for. Opened by firmata.py, which alone uses it.
 """
 
@@ -13,7 +13,7 @@ from typing import TypeVar
 import serial
 
 from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, Decoder, Firmware, Message
-from drillctl.ports import LONGEST_WAIT_S, PortLost, PortRefused
+from drillctl.ports import LONGEST_WAIT_S, PortLost, PortRefused, PortSlow
 
 OLDEST_FIRMWARE = (2, 3)
 LISTEN_S = 3.0  # opening the line resets a Mega; its boot loader takes a byte sent too early for an upload
@@ -56,14 +56,14 @@ class FirmataLine:
         return firmware
 
     def send(self, data: bytes) -> None:
-        """All of it, within LONGEST_WAIT_S. Raises PortLost; then part of it may have gone out."""
+        """All of it, within LONGEST_WAIT_S. Raises PortLost, PortSlow; then part of it may have gone out."""
         try:
             self._serial.write(data)
             waiting = self._serial.out_waiting
         except OSError as error:
             raise self._lost(error) from error
         if waiting > MOST_WAITING_BYTES:
-            raise PortLost(self.name, f"too slow: {waiting} bytes wait to be sent; use fewer interrupts a second")
+            raise PortSlow(self.name, f"too slow: {waiting} bytes wait to be sent; use fewer interrupts a second")
 
     def send_first(self, data: bytes) -> None:
         """As ``send``, before anything that still waits in the kernel, which is dropped."""
@@ -112,5 +112,5 @@ class FirmataLine:
 
     def _lost(self, error: Exception) -> PortLost:
         if isinstance(error, serial.SerialTimeoutException):
-            return PortLost(self.name, "too slow: the line took no more; use fewer interrupts a second")
+            return PortSlow(self.name, "too slow: the line took no more; use fewer interrupts a second")
         return PortLost(self.name, f"the board is gone ({error}); check cable and power, then initialise again")

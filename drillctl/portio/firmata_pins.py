@@ -6,8 +6,8 @@ ground, against a pull-up. Used by firmata.py; docs/WIRING.md shows the pins.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from drillctl.portio.firmata_line import FirmataLine
 from drillctl.portio.firmata_protocol import (
     PORT_PINS,
     PORTS,
@@ -21,6 +21,9 @@ from drillctl.portio.firmata_protocol import (
     write_port,
 )
 from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring, bits_of
+
+if TYPE_CHECKING:  # its serial library is loaded when such a board is opened
+    from drillctl.portio.firmata_line import FirmataLine
 
 SERIAL_PINS = (0, 1)
 PORT_BYTE = (1 << PORT_PINS) - 1
@@ -68,6 +71,11 @@ class Pins:
             raise PortRefused(self._name, f"the machine uses bit {bit}, and D{pin} is the serial line's own")
         return pin
 
+    def facts(self) -> tuple[str, str]:
+        """The pins that a machine uses, in words."""
+        outputs, inputs = (" ".join(f"D{pin}" for pin in pins) for pins in (self._outputs, self._inputs))
+        return (f"outputs: {outputs}", f"inputs with pull-up: {inputs}")
+
     def messages(self, image: int, changed: int = ALL_CHANGED) -> Iterator[bytes]:
         """One message for each output port that has a changed bit.
 
@@ -85,7 +93,7 @@ class Pins:
         value = report.value & self._pull_ups[report.port]
         return inputs & ~(PORT_BYTE << shift) | value << shift
 
-    def prepare(self, line: FirmataLine) -> None:
+    def prepare(self, line: "FirmataLine") -> None:
         """Outputs low, inputs with pull-ups, reports on; every pin asked whether it is so. Raises PortError.
 
         The reset makes all digital pins outputs and low; so the inputs are freed first. The board then takes all

@@ -31,6 +31,10 @@ class Pcl720:
         self._bases = tuple(bases)
         self.safe()
 
+    def facts(self) -> tuple[str, ...]:
+        """Where its cards are (ports.Telling)."""
+        return tuple(f"card at 0x{base:X}: 32 outputs, 32 inputs" for base in self._bases)
+
     def latch(self) -> int:
         """All inputs of all cards. Raises OSError."""
         image = 0

@@ -116,6 +116,26 @@ PORTS = {
 }
 
 
+# Cards as machine files name them, and the ports that drive them; a port may stand there by its own name as well.
+CARD_PORTS = {"ZAR1": "pcl720", "PCL-720": "pcl720", "MEGA": "firmata", "UNO": "firmata-uno"}
+
+
+def port_of_card(card: str) -> str:
+    """The real port, ``NAME[:ADDRESS]``, that drives a card; empty where none does."""
+    spec = CARD_PORTS.get(card, card)
+    name = spec.partition(":")[0]
+    return spec if name in PORTS and PORTS[name].real else ""
+
+
+def rate_of(spec: str, wiring: Wiring) -> int | None:
+    """The most ticks a second that a port carries with all axes moving; None for more than any machine asks.
+
+    Raises PortRefused for an unknown name.
+    """
+    port, address = select(spec)
+    return port.max_tick_hz(address, wiring, range(len(wiring.axis_outputs)))
+
+
 def select(spec: str) -> tuple[Port, str]:
     """The port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
     name, _, address = spec.partition(":")
@@ -131,8 +151,8 @@ def open_port(spec: str, wiring: Wiring, card: Driver | None = None) -> Driver:
     meanwhile. Nothing has moved then.
     """
     port, address = select(spec)
-    axes = range(len(wiring.axis_outputs))
-    most_hz = port.max_tick_hz(address, wiring, axes)
+    axes = wiring.axis_outputs
+    most_hz = rate_of(spec, wiring)
     if most_hz is not None and wiring.tick_hz > most_hz:
         reason = f"{wiring.tick_hz} interrupts a second are too many for it with {len(axes)} axes moving"
         raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")

@@ -1,13 +1,13 @@
 """The simulated card: its wires end in a plant. 32 outputs and 32 inputs a card, as on a PCL-720."""
 
-from drillctl.plant import IdealPlant
+from drillctl.plant import Plant
 from drillctl.ports import SAFE_IMAGE
 
 
 class SimulatedCard:
     """A driver (ports.Driver) that can't fail: what is flushed moves the plant, what is latched is the plant's."""
 
-    def __init__(self, plant: IdealPlant):
+    def __init__(self, plant: Plant):
         self.plant = plant
 
     def latch(self) -> int:

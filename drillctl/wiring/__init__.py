@@ -5,6 +5,8 @@
     machinery opens a port, a ticker behind it   session   one run of a job, with its journal
     sampler   which number is which signal       replay    a recorded run again
     estimate  what a job will take               outputs   files reserved before anything moves
+    loading   edited tables into a running one   porttest  who answers at a port, before it is driven
+    interrupts what signals do                   terminal_keys  the operator's keys while a job runs
 
 Called by the verbs, by the screens' station and by the pytest plugin. Imports nothing by itself.
 """

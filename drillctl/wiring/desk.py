@@ -4,24 +4,40 @@ Rule: no layer is skipped; the desk knows a job, a link (queue, requests, status
 On every way out the outputs are safe. Called by the verbs.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import Job, MadeHole, names_of
 from drillctl.generation.journal import Journal, JournalError
 from drillctl.kmd import Condition, Fault, Request, to_text
 from drillctl.panel import Outcome, Progress, fault_report
-from drillctl.trace import Trace
+from drillctl.trace import Segments, Trace
 from drillctl.wiring.interrupts import caught
-from drillctl.wiring.link import Link, is_over
+from drillctl.wiring.link import Header, Link, is_over
+from drillctl.wiring.timeleft import TimeLeft
 
+BY_OPERATOR = "the operator stopped the job"
+BY_OTHERS = "the job was stopped before its end"  # by a signal to a process beside this one
 Watcher = Callable[[Progress], None]
 ToolChange = Callable[[int, float | None], bool]  # tool and diameter; asked again and again until it is True
+
+
+class Operator(Protocol):
+    """Somebody at the machine, asked at every turn."""
+
+    def requests(self) -> Iterable[Request]:
+        """Stops and emergency stops since the last call."""
+
+    @property
+    def held(self) -> bool:
+        """Whether the machine is to be held."""
 
 
 @dataclass(frozen=True)
@@ -30,9 +46,9 @@ class Run:
 
     outcome: Outcome
     holes: list[MadeHole]
-    trace: Trace | None
+    trace: Trace | Segments | None
     signal: int | None  # that stopped it
-    trouble: str | None = None  # of the journal
+    trouble: str | None = None  # what stopped it, but for faults and signals
     notices: tuple[str, ...] = ()  # of how it was paced
 
 
@@ -41,8 +57,8 @@ class Desk:
     """One job on one link: ``begin``, ``advance`` until it is over, ``end``; or ``run``, which does all three.
 
     watcher      is shown the progress; ``journal`` is kept where there is one. Both it and the link stay open.
-    total_ticks  what the job was foreseen to take, None where nobody knows: foreseeing may take longer than a link
-                 bears the desk's silence
+    foreseen     ticks that each command of the program takes, None where nobody knows: foreseeing may take longer than
+                 a link bears the desk's silence
     """
 
     job: Job
@@ -50,16 +66,19 @@ class Desk:
     watcher: Watcher
     journal: Journal | None = None
     done_before: int = 0
-    total_ticks: int | None = None
+    foreseen: NDArray[np.int64] | None = None
     holes: list[MadeHole] = field(default_factory=list)
     trouble: str | None = None
     tool_change: ToolChange | None = None  # None: taken as made
+    operator: Operator | None = None
     resumes_itself: bool = True  # after a hold for a gap in time; where nobody sits who could say go on
 
     def __post_init__(self) -> None:
         self.first = self.status = self.link.status()
         self.feeder = Feeder(self.job.program, self.link.queue)
         self.confirmed = 0
+        self._time_left = None if self.foreseen is None else TimeLeft(self.foreseen)
+        self._told_to_stop = False
 
     def run(self) -> Run:
         """Drills the job to its end. Ctrl-C, SIGTERM and a closed terminal stop it; a second one drops it."""
@@ -70,7 +89,7 @@ class Desk:
         return self.end(stopped[0] if stopped else None)
 
     def begin(self) -> None:
-        """The program is numbered on from what the ticker has done, so that nothing old counts as ours."""
+        """The program is numbered on from what the ticker has done, so that nothing old counts as ours; and sent."""
         self.first = self.link.status()
         program = self.job.program.copy()
         program["sequence"] += self.first["done"]
@@ -81,6 +100,7 @@ class Desk:
         if self.tool_change is not None:
             self.feeder.gate_tools()
         self.status = self.first
+        self._feed()
 
     def advance(self) -> bool:
         """Feeds the queue, lets the machine go on for a moment, and looks at what came of it. True: it is over."""
@@ -93,9 +113,13 @@ class Desk:
         self.watcher(self.progress())
         if self.link.lost() or is_over(status, self.last_sequence, int(self.first["epoch"])):
             return True
-        if self.resumes_itself and status["condition"] == Condition.HOLDING and not status["moving"]:
-            self.link.post(Request.RESUME)
+        self._hear_operator()
         return False
+
+    @property
+    def held(self) -> bool:
+        """Whether the operator has it held."""
+        return self.operator is not None and self.operator.held
 
     @property
     def last_sequence(self) -> int:
@@ -103,31 +127,49 @@ class Desk:
         return int(self.first["done"]) + len(self.job.program)
 
     def end(self, stopped_by: int | None = None) -> Run:
-        """How it ended, in the journal too."""
+        """How it ended, with all that was kept of it."""
         self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
-        outcome = self._outcome(self.status, stopped_by is not None)
-        self._end_journal(outcome)
-        trace = self.link.trace(trace_header(self.job))
+        outcome = self.settle(stopped_by is not None)
+        trace = self.link.trace(trace_header(self.job, self.link.plant_header))
         return Run(outcome, self.holes, trace, stopped_by, self.trouble, tuple(self.link.notices()))
+
+    def settle(self, interrupted: bool = False) -> Outcome:
+        """How it ended, in the journal too."""
+        outcome = self._outcome(self.status, interrupted)
+        self._end_journal(outcome)
+        return outcome
 
     def progress(self) -> Progress:
         """How far the job is."""
         hz, ticks = self.job.machine.tick_hz, int(self.status["tick"] - self.first["tick"])
-        left = None if self.total_ticks is None else max(0, self.total_ticks - ticks) / hz
+        commands = int(self.status["done"] - self.first["done"])
+        left = None if self._time_left is None else self._time_left.ticks(commands, ticks) / hz
         done = self.done_before + self.confirmed
         total = self.done_before + self.job.holes_total
-        return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left)
+        return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left, self.held)
 
     def _feed(self) -> None:
         """With a journal: a hole is written down before its commands may go, and only one is ahead."""
         wanted = min(self.confirmed + 1, self.feeder.holes)
-        if self.journal is not None and self.feeder.released_holes < wanted and not self.trouble:
+        stopping = self.trouble or self._told_to_stop
+        if self.journal is not None and self.feeder.released_holes < wanted and not stopping:
             try:
                 self.journal.begun(self.job.hole_number(wanted))
                 self.feeder.release(wanted)
             except JournalError as error:
                 self._stop_for(error)
         self.feeder.feed()
+
+    def _hear_operator(self) -> None:
+        """A hold, and its end, are asked for until they are so: a request may meet a gap's hold, or a command's end."""
+        for request in self.operator.requests() if self.operator else ():
+            self.link.post(request)
+            self._told_to_stop |= request == Request.STOP
+        condition = self.status["condition"]
+        if self.held and condition == Condition.READY and self.status["job"]:
+            self.link.post(Request.HOLD)
+        if not self.held and self.resumes_itself and condition == Condition.HOLDING and not self.status["moving"]:
+            self.link.post(Request.RESUME)
 
     def _change_tool(self) -> None:
         """At a gate, with everything before it done and at rest, the operator is asked."""
@@ -172,7 +214,7 @@ class Desk:
         code = self.link.lost() or int(status["fault"])
         complete = int(status["done"]) == self.last_sequence
         if not (code or complete or interrupted or self.trouble):
-            self.trouble = "the job was stopped before its end"  # by a signal to a process beside this one
+            self.trouble = BY_OPERATOR if self._told_to_stop else BY_OTHERS
         kept = bool(status["fault_kept"]) and not self.link.lost()
         by_axis = {name: status[name].tolist() for name in ("steps", "position", "lost")}
         return Outcome(
@@ -206,15 +248,12 @@ def _stopping(link: Link) -> Iterator[list[int]]:
         yield came
 
 
-def trace_header(job: Job) -> list[tuple[str, str]]:
-    """What a trace says of itself, enough to run it again; the machine is named by whoever writes the file."""
+def trace_header(job: Job, plant: Header) -> Iterator[tuple[str, str]]:
+    """What a trace says of itself, enough to run it again; the machine is named by whoever writes the file. Put into
+    words only where somebody wants it.
+    """
+    yield from [("machine", job.machine.name), ("digest", job.machine.digest), ("tick_hz", str(job.machine.tick_hz))]
+    yield from plant
     names = names_of(job.machine)
-    commands = [("command", f"{record['sequence']} {to_text(record, names)}") for record in job.program]
-    return [
-        ("machine", job.machine.name),
-        ("digest", job.machine.digest),
-        ("tick_hz", str(job.machine.tick_hz)),
-        ("plant", "ideal"),
-        ("seed", "0"),
-        *commands,
-    ]
+    for record in job.program:
+        yield "command", f"{record['sequence']} {to_text(record, names)}"

@@ -4,16 +4,26 @@ Called by the estimate verb.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drillctl.generation.job import Job
 from drillctl.kmd import Op
-from drillctl.lab import forecast
+from drillctl.lab import Forecast, forecast
 from drillctl.panel import Estimate, ToolEstimate, fault_report
 
 
-def estimate(job: Job) -> Estimate:
+def estimate(job: Job, engine: str | None = None) -> Estimate:
     """Exact on the ideal plant; the first tool's share begins with the initialisation, the last's ends at the end."""
-    told = forecast(job.program, job.machine)
+    return foresee(job, engine)[0]
+
+
+def foresee(job: Job, engine: str | None = None) -> tuple[Estimate, NDArray[np.int64]]:
+    """As ``estimate``, with the ticks of each command."""
+    told = forecast(job.program, job.machine, engine)
+    return _estimate(job, told), told.ticks
+
+
+def _estimate(job: Job, told: Forecast) -> Estimate:
     groups = job.work.groups if job.work else ()
     changes = np.flatnonzero(job.program["opcode"] == Op.NARZEDZIE).tolist()
     shares = [int(ticks.sum()) for ticks in np.split(told.ticks, changes[1:])]

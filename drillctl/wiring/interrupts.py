@@ -29,6 +29,19 @@ def leave(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt(number)
 
 
+@contextmanager
+def remembered() -> Iterator[list[int]]:
+    """As ``leave``, and noted too: an exception raised in the midst of foreign code may be lost there."""
+    came: list[int] = []
+
+    def handler(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+        leave(number, frame)
+
+    with caught(handler):
+        yield came
+
+
 def exit_code(number: int = signal.SIGINT) -> int:
     """130 for Ctrl-C, 143 for SIGTERM, 129 for a closed terminal, as shells have it."""
     return 128 + number

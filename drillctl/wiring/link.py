@@ -4,18 +4,19 @@ Rule: commands, requests and status go through the doors (kmd) and nothing else 
 them. Created by the verbs' wiring, used by desk.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from drillctl.kmd import CommandQueue, Condition, Request
+from drillctl.kmd import CommandQueue, Condition, Request, TickGate
 from drillctl.machine import Machine
-from drillctl.plant import IdealPlant
+from drillctl.plant import IdealPlant, Plant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver
-from drillctl.trace import Trace
+from drillctl.trace import Segments, Trace
+from drillctl.wiring.loading import take_tables
 from drillctl.wiring.ticker import Ticker
 
 Header = list[tuple[str, str]]
@@ -37,11 +38,25 @@ class Link(Protocol):
         """Whether a plant tells of lost steps."""
 
     @property
+    def plant_header(self) -> Header:
+        """What a trace says of the plant."""
+
+    @property
     def queue(self) -> CommandQueue:
         """Where commands go."""
 
+    @property
+    def gate(self) -> TickGate:
+        """Where ticks can be stopped and let through one by one."""
+
     def post(self, request: Request) -> None:
         """A request, overtaking the queue."""
+
+    def set_output(self, bit: int, value: int) -> bool:
+        """The request OUTPUT. False, and nothing asked, where too many of them wait."""
+
+    def load(self, text: str) -> str:
+        """Edited tables as a bundle (machine/bundle.py), at rest; the reason where they are refused. Takes a moment."""
 
     def turn(self) -> None:
         """Lets the machine go on for a moment; returns at once when it has nothing to do."""
@@ -55,7 +70,7 @@ class Link(Protocol):
     def lost(self) -> int:
         """The fault that took the ticker away (kmd.Fault), or 0."""
 
-    def trace(self, header: Header) -> Trace | None:
+    def trace(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
         """The record of the run, where one was kept. Called once, at the end."""
 
     def notices(self) -> list[str]:
@@ -85,17 +100,38 @@ class LocalLink:
         return self.ticker.plant is not None
 
     @property
+    def plant_header(self) -> Header:
+        """Of the ticker's plant."""
+        return header_of(self.ticker.plant)
+
+    @property
     def queue(self) -> CommandQueue:
         """The ticker's own."""
         return self.ticker.queue
+
+    @property
+    def gate(self) -> TickGate:
+        """The ticker's own."""
+        return self.ticker.gate
 
     def post(self, request: Request) -> None:
         """Into the ticker's mailbox."""
         self.ticker.requests.post(request)
 
+    def set_output(self, bit: int, value: int) -> bool:
+        """Into the ticker's mailbox."""
+        return self.ticker.requests.set_output(bit, value)
+
+    def load(self, text: str) -> str:
+        """Between two ticks."""
+        reason = take_tables(self.ticker, text)
+        if not reason:
+            self.ticker.requests.post(Request.LOAD)
+        return reason
+
     def turn(self) -> None:
-        """At most one command is taken a tick, so the queue can't run dry within."""
-        self.ticker.run(max(1, len(self.ticker.queue)), self.ticker.over)
+        """As far as the queue is sure to last."""
+        self.ticker.turn(self.ticker.over)
 
     def status(self) -> np.void:
         """Written now; a copy, so that it stays what it was."""
@@ -110,9 +146,9 @@ class LocalLink:
         """A ticker in this process can't be lost without us."""
         return 0
 
-    def trace(self, header: Header) -> Trace | None:
+    def trace(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
         """As the sampler kept it."""
-        return self.ticker.finished_trace(header)
+        return self.ticker.record(header)
 
     def notices(self) -> list[str]:
         """Nothing is paced."""
@@ -136,3 +172,6 @@ def is_over(status: np.void, last_sequence: int, first_epoch: int) -> bool:
     return bool(status["condition"] == Condition.READY and not status["job"] and ended)
 
 
+def header_of(plant: Plant | None) -> Header:
+    """What a trace says of the plant behind its port; none behind a real one."""
+    return [("plant", plant.described if plant else "none"), ("seed", str(plant.seed if plant else 0))]

@@ -4,29 +4,63 @@ Rule: everything that can be refused is refused here, before anything moves. Cal
 """
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from drillctl.kmd import Queue
 from drillctl.lab.capacity import most_ticks_hz
 from drillctl.machine import Machine
-from drillctl.plant import IdealPlant
-from drillctl.portio.registry import open_port, select
+from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice, PlantRefused
+from drillctl.portio.registry import open_port, port_of_card, select
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.ports import PortRefused, Wiring
+from drillctl.ports import Driver, PortRefused, Wiring
+from drillctl.trace.ring import RingRecorder
+from drillctl.wiring.fast_ticker import FAR_SIGHT, FAST, TICK, FastTicker
 from drillctl.wiring.link import Link, LocalLink
 from drillctl.wiring.ticker import Ticker
 
 FREE, REAL = "free", "real"
+SIMULATED = "simulated"
 
 
 @dataclass(frozen=True)
 class Running:
-    """How a machine is to be run: on which port, at which pace (None: as the port wants), and what is kept of it."""
+    """How a machine is to be run: on which port, at which pace (None: as the port wants), what is kept of it, and what
+    stands behind a simulated card."""
 
-    port: str = "simulated"
+    port: str = SIMULATED
     pace: str | None = None
     traced: bool = False
     derived: bool = False
+    plant: PlantChoice = IDEAL_PLANT
+    engine: str | None = None  # tick or fast; None: fast where it may
+    taped: bool = False  # where it goes fast, the record is kept in the segment form
+
+
+def port_of_mode(machine: Machine) -> str:
+    """The port that a machine's file asks for by its ``mode``. Raises PortRefused for a card that no port drives."""
+    if machine.configuration.mode == "SIMULATED":
+        return SIMULATED
+    port = port_of_card(machine.configuration.card)
+    if not port:
+        reason = f"mode REAL, and no port drives the card {machine.configuration.card!r}"
+        raise PortRefused(machine.name, f"{reason}; name a port as card (drillctl ports), or say --port")
+    return port
+
+
+def card_port(machine: Machine) -> str:
+    """The port of a machine's card, whatever its mode; empty where none drives it."""
+    return port_of_card(machine.configuration.card)
+
+
+def on_port(running: Running, port: str) -> Running:
+    """The same on another, real port."""
+    return replace(running, port=port, pace=REAL)
+
+
+def simulated(running: Running) -> Running:
+    """The same on a simulated card."""
+    return running if not select(running.port)[0].real else replace(running, port=SIMULATED)
 
 
 def pace_of(running: Running) -> str:
@@ -40,23 +74,52 @@ def pace_of(running: Running) -> str:
     return pace
 
 
-def start(machine: Machine, running: Running, status_file: Path) -> Link:
-    """A running ticker. Raises PortError for a port, a rate or a pace that is not to be had; nothing has moved then.
+def start(machine: Machine, running: Running, status_file: Path, keeper: RingRecorder | None = None) -> Link:
+    """A running ticker. Raises PortError for a port, a rate or a pace that is not to be had, or a plant;
+    nothing has moved then.
 
     status_file  the mapped file between the two processes of a paced run
+    keeper       takes every signal of the run, derived ones too, in place of a trace; whoever made it empties it
     """
     pace = pace_of(running)
     if pace == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
         reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
         raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
-    port, _ = select(running.port)
-    plant = None if port.real else IdealPlant(machine)
+    plant = plant_of(machine, running)
     driver = open_port(running.port, wiring_of(machine), SimulatedCard(plant) if plant else None)
+    if _goes_fast(running, pace, driver, plant, keeper):
+        return LocalLink(
+            FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
+        )
     if pace == FREE:
-        return LocalLink(Ticker(machine, driver, plant, running.traced, running.derived))
+        traced, derived = running.traced or keeper is not None, running.derived or keeper is not None
+        return LocalLink(Ticker(machine, driver, plant, traced, derived, keeper=keeper))
     from drillctl.wiring.paced import PacedLink
 
-    return PacedLink(machine, driver, plant, status_file, running.traced, running.derived)
+    return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper)
+
+
+def _goes_fast(running: Running, pace: str, driver: Driver, plant: Plant | None, keeper: RingRecorder | None) -> bool:
+    """Whether the fast engine may run it. Raises PortRefused where it was asked for and may not."""
+    foreseen = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
+    may = foreseen and pace == FREE and not running.derived and keeper is None
+    if running.engine == FAST and not may:
+        reason = "--engine fast foresees the ideal plant on a simulated card, running free and without --vcd"
+        raise PortRefused(running.port, f"{reason}; leave --engine out, or say --engine tick")
+    return may and running.engine != TICK
+
+
+def plant_of(machine: Machine, running: Running) -> Plant | None:
+    """What stands behind the card; None behind a real port. Raises PortRefused."""
+    port, _ = select(running.port)
+    if not port.real:
+        try:
+            return running.plant.build(machine)
+        except PlantRefused as error:
+            raise PortRefused(running.port, str(error)) from error
+    if running.plant != IDEAL_PLANT:
+        raise PortRefused(running.port, "a real machine is no plant; leave --plant, --fault and --seed out")
+    return None
 
 
 def wiring_of(machine: Machine) -> Wiring:

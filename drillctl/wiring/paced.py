@@ -9,21 +9,23 @@ the children, by their ids, with the outputs safe.
 
 import os
 import time
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 from drillctl.kmd import Fault, Request
-from drillctl.kmd.channel import Channel, SharedQueue, SharedRequests
+from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.machine import Machine
-from drillctl.plant import IdealPlant
+from drillctl.plant import Plant
 from drillctl.ports import Driver
 from drillctl.trace import Trace
 from drillctl.trace.ring import CHANGE, RingRecorder
 from drillctl.wiring.children import Child
 from drillctl.wiring.guard import SILENCE_NS, run_guard
-from drillctl.wiring.link import Header, Touch
+from drillctl.wiring.link import Touch, header_of
+from drillctl.wiring.loading import TableSlot
 from drillctl.wiring.paced_ticker import TOUCH, PacedTicker
 from drillctl.wiring.sampler import signals
 
@@ -31,18 +33,25 @@ GUARD_SILENCE_NS = 2 * SILENCE_NS
 START_NS = 5_000_000_000  # granted to the ticker before its first beat
 TURN_S = 0.01
 LEAVE_S = 3.0
+LOAD_S = 2.0  # granted to the ticker for checking edited tables
 UNGUARDED = "the guard's process was lost; the job was stopped"
 
 
 class PacedLink:
-    """A Link (link.Link) to a ticker in its own process. Raises OSError where it can't be started."""
+    """A Link (link.Link) to a ticker in its own process. Raises OSError where it can't be started.
 
-    def __init__(self, machine: Machine, port: Driver, plant: IdealPlant | None, file: Path,
-                 traced: bool, derived: bool):  # fmt: skip
+    keeper  takes the record in place of ``trace``; whoever made it empties it
+    """
+
+    def __init__(self, machine: Machine, port: Driver, plant: Plant | None, file: Path,
+                 traced: bool, derived: bool, keeper: RingRecorder | None = None):  # fmt: skip
         self.measured = plant is not None
+        self.plant_header = header_of(plant)
         self._channel = Channel(file, create=True)
         self._status = self._channel.status()
         self.queue = SharedQueue(self._channel)
+        self.gate = SharedGate(self._channel)
+        self._slot = TableSlot()
         self._requests = SharedRequests(self._channel)
         self._signals = signals(machine, plant is not None, derived) if traced else None
         self._ring = RingRecorder(len(self._signals)) if self._signals else None
@@ -56,8 +65,10 @@ class PacedLink:
         self._guard = Child(lambda: run_guard(self._channel, port, self._silence_ns))
         self._touched, touch_end = os.pipe()
         self._notices, notice_end = os.pipe()
-        os.set_blocking(self._touched, False)
-        body = PacedTicker(machine, port, plant, self._channel, self._ring, derived, touch_end, notice_end)
+        for end in (self._touched, self._notices):
+            os.set_blocking(end, False)
+        ring, derived = keeper or self._ring, derived or keeper is not None
+        body = PacedTicker(machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end)
         self._ticker = Child(body.run)
         self._channel["ticker_pid"] = self._ticker.pid
         os.close(touch_end)
@@ -66,6 +77,21 @@ class PacedLink:
     def post(self, request: Request) -> None:
         """Overtakes the queue."""
         self._requests.post(request)
+
+    def set_output(self, bit: int, value: int) -> bool:
+        """In line, overtaking the queue."""
+        return self._requests.set_output(bit, value)
+
+    def load(self, text: str) -> str:
+        """Down to the ticker's process, which answers."""
+        if not self._slot.offer(text):
+            return "the tables are too long"
+        until_s = time.monotonic() + LOAD_S
+        while self._slot.waiting:
+            if self._ticker.gone or time.monotonic() > until_s:
+                return "the ticker does not answer"
+            self.turn()
+        return self._slot.reply()
 
     def turn(self) -> None:
         """A moment of wall-clock time; says that the desk lives, and sees whether the children do."""
@@ -98,7 +124,7 @@ class PacedLink:
         """TICKER_LOST once the ticker has gone without a fault that says why."""
         return Fault.TICKER_LOST if self._ticker.gone and not self.status()["fault"] else Fault.NONE
 
-    def trace(self, header: Header) -> Trace | None:
+    def trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
         """What came through the ring, as far as the status goes. A trace with a hole says so, and replay refuses it."""
         if self._ring is None or self._signals is None:
             return None
@@ -112,11 +138,12 @@ class PacedLink:
         return Trace.of_changes([*header, *overrun], self._signals, *columns, int(status["tick"]), trailer)
 
     def notices(self) -> list[str]:
-        """What was refused of real-time running, once the ticker has said it."""
-        if self._refused is None:
-            lines = os.read(self._notices, 4096).decode().split("\n")[:-1]
-            self._refused = [f"not real-time: {line}" for line in lines]
-        return [*self._refused, UNGUARDED] if self._unguarded else self._refused
+        """What was refused of real-time running, from when the ticker has said it: before its first tick."""
+        with suppress(BlockingIOError):
+            if self._refused is None:
+                lines = os.read(self._notices, 4096).decode().split("\n")[:-1]
+                self._refused = [f"not real-time: {line}" for line in lines]
+        return [*(self._refused or ()), *([UNGUARDED] if self._unguarded else ())]
 
     def close(self) -> None:
         """Asks the ticker to leave; ends it where it does not; the guard follows it. The port is given back."""

@@ -1,7 +1,8 @@
 """Wiring: what the ticker's process runs: the tick, paced by the clock, with a beat, a status and an eye on the desk.
 
-Rule: a tick is run where there is something to do; every wake publishes a beat. Whatever this process does to the
-machine of its own accord, it asks for as a request, so that the trace has it. Forked by paced.
+Rule: a tick is run where there is something to do; else the inputs are looked at now and then, which is no tick. Every
+wake publishes a beat. Whatever this process does to the machine of its own accord, it asks for as a request, so that
+the trace has it. Forked by paced.
 """
 
 import os
@@ -10,20 +11,23 @@ import struct
 import time
 from contextlib import suppress
 
+from drillctl.execution import look, spare
 from drillctl.execution.clock import PacedClock
 from drillctl.execution.stops import raise_fault
 from drillctl.kmd import Condition, Fault, Request
-from drillctl.kmd.channel import Channel, SharedQueue, SharedRequests
+from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.kmd.commands import MOST_AXES
 from drillctl.machine import Machine
-from drillctl.plant import IdealPlant
-from drillctl.ports import Driver
+from drillctl.plant import Plant
+from drillctl.ports import Driver, PortSlow
 from drillctl.trace.ring import RingRecorder
+from drillctl.wiring.loading import TableSlot, take_tables
 from drillctl.wiring.realtime import become_punctual
 from drillctl.wiring.ticker import Ticker
 
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
+LOOK_NS = 20_000_000  # at rest the sensors are looked at so often
 DESK_IDLE_NS = 60_000_000_000  # at rest and without a job it may be busy so long: a large board is read and planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
@@ -32,14 +36,18 @@ IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they
 class PacedTicker:
     """The body of the ticker's process. Made by the desk, its parent; ``touches`` and ``notices`` are pipes' ends."""
 
-    def __init__(self, machine: Machine, port: Driver, plant: IdealPlant | None, channel: Channel,
+    def __init__(self, machine: Machine, port: Driver, plant: Plant | None, channel: Channel, slot: TableSlot,
                  ring: RingRecorder | None, derived: bool, touches: int, notices: int):  # fmt: skip
-        self.channel, self.port = channel, port
+        self.channel, self.port, self.slot = channel, port, slot
         self.touch_end, self.notice_end = touches, notices
         self.queue, self.requests = SharedQueue(channel), SharedRequests(channel)
+        self.gate = SharedGate(channel)
         self.ticker = Ticker(
-            machine, port, plant, ring is not None, derived, queue=self.queue, requests=self.requests, keeper=ring
-        )
+            machine, port, plant, ring is not None, derived,
+            queue=self.queue, requests=self.requests, gate=self.gate, keeper=ring,
+        )  # fmt: skip
+        self.looked_ns = 0
+        self.spared = False  # a real machine's clock stands still, and its forcing was taken off
         self.desk = os.getpid()
 
     def run(self) -> None:
@@ -57,25 +65,55 @@ class PacedTicker:
                 self.channel["ended"] = 1
 
     def _tick_on(self) -> None:
-        m = self.ticker.controller
-        clock = PacedClock(m.machine.tick_hz)
-        harmless = min(axis.interval[0] for axis in m.axes)  # a gap so short is no news to any motor
+        clock = PacedClock(self.ticker.machine.tick_hz)
         while not self.channel["leave"] and not self._desk_is_lost():
             gap = clock.wait()
-            if self._is_wanted():
-                m.gap = gap if gap > harmless else 0
-                self.ticker.late(clock.late, clock.worst_ns)
-                try:
-                    self.ticker.run(1)
-                except OSError:
-                    self._end_by(Fault.PORT_LOST)
-                    return
+            try:
+                if self.slot.waiting:
+                    self._load()
+                elif self._is_wanted():
+                    m = self.ticker.controller
+                    harmless = min(axis.interval[0] for axis in m.axes)  # a gap so short is no news to any motor
+                    m.gap = gap if gap > harmless else 0
+                    self.ticker.late(clock.late, clock.worst_ns)
+                    self._go_on()
+                    self.ticker.advance(1)
+                else:
+                    self._stand(clock.begun_ns)
+            except OSError as error:
+                self._end_by(Fault.PORT_SLOW if isinstance(error, PortSlow) else Fault.PORT_LOST)
+                return
             self._publish()
+
+    def _stand(self, now_ns: int) -> None:
+        """A wake that is no tick: the inputs are looked at now and then. The time of real motors can't be stopped."""
+        if self.ticker.waits and self.ticker.plant is None and not self.spared:
+            self.spared = True
+            spare(self.ticker.controller)
+        if now_ns - self.looked_ns >= LOOK_NS:
+            self.looked_ns = now_ns
+            look(self.ticker.controller)
 
     def _is_wanted(self) -> bool:
         """At rest, with nothing to do, the current is held and no tick is counted. What is latched takes no command."""
+        if self.ticker.waits:
+            return False
         takes = self.ticker.controller.condition != Condition.LATCHED
-        return not self.ticker.over() or self.requests.waiting or (takes and len(self.queue) > 0)
+        asked = self.requests.waiting or self.gate.left > 0
+        return not self.ticker.over() or asked or (takes and len(self.queue) > 0)
+
+    def _load(self) -> None:
+        """Edited tables; the next tick, which has nothing else to do, tells the trace of them."""
+        reason = take_tables(self.ticker, self.slot.text())
+        if not reason:
+            self.requests.own.post(Request.LOAD)
+        self.slot.answer(reason)
+
+    def _go_on(self) -> None:
+        """A clock that stood still goes on."""
+        if self.spared:
+            self.spared = False
+            self.requests.own.post(Request.PAUSE)
 
     def _publish(self) -> None:
         self.channel["ticker_beat_ns"] = time.monotonic_ns()

@@ -1,10 +1,10 @@
 """Wiring: a recorded run again, without plant, clock or process; and the plugin's re-recording.
 
 Rule: inputs, requests and gaps in time come from the trace, everything else from the tables at hand; two traces are
-compared by what they put out. Called by the replay verb and by the pytest plugin.
+compared by what they put out. Called by the replay verb, by the pytest plugin, and by the scope.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,15 +13,19 @@ from numpy.typing import NDArray
 
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import names_of
-from drillctl.kmd import KmdError, Request, parse_program
+from drillctl.kmd import KmdError, Request, RequestBit, parse_program
+from drillctl.kmd.queue import bit_and_value
 from drillctl.machine import Library, Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
+from drillctl.plant import PlantChoice, PlantRefused
 from drillctl.portio.playback import PlaybackCard
 from drillctl.ports import CARD_BITS
-from drillctl.trace import Difference, Trace, TraceError, first_difference, read_text, render, write_text
+from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
+from drillctl.wiring.fast_ticker import TICK, FastTicker
 from drillctl.wiring.outputs import Output
-from drillctl.wiring.sampler import REQUEST_WORDS
+from drillctl.wiring.sampler import HAND_WORDS, REQUEST_WORDS, Keeper
 from drillctl.wiring.ticker import Ticker
+from drillctl.wiring.trace_files import read_record, read_trace, takes_segments, write_record
 
 MOST_TICKS = 100_000_000
 
@@ -52,18 +56,66 @@ class Verdict:
         return render(self.difference)
 
 
-def replay(file: Path, library: Library) -> Verdict:
-    """Runs a trace again. Raises TraceError for a file that is no trace or can't be run, TableError for its machine."""
-    recorded = _read(file)
-    machine = machine_of(recorded, file, library)
-    if recorded.end > MOST_TICKS:
-        raise TraceError(str(file), None, f"{recorded.end} ticks; replay takes at most {MOST_TICKS}")
-    if recorded.header_values("overrun"):
-        raise TraceError(str(file), None, "changes are missing (overrun): the recording fell behind; record it again")
-    card = PlaybackCard(*_inputs(recorded, machine, file))
-    actual = _run(Ticker(machine, card, traced=True), recorded, program_of(recorded, machine, file), file)
+def replay(file: Path, library: Library, engine: str | None = None) -> Verdict:
+    """Runs a trace again, by this engine (None: fast where it can). Raises TraceError for a file that is no trace or
+    can't be run, TableError for its machine.
+    """
+    kept = read_record(file)
+    head = kept.rest if isinstance(kept, Segments) else kept
+    machine = machine_of(head, file, library)
+    if isinstance(kept, Segments) and engine != TICK and taped_again(head, machine, file).like(kept):
+        return Verdict(machine, head, head, None, same_tables(head, machine, file))
+    recorded = kept.trace() if isinstance(kept, Segments) else kept
+    actual = _actual(recorded, machine, file, engine)
     difference = first_difference(recorded, actual)
-    return Verdict(machine, recorded, actual, difference, _header(recorded, "digest", file) == machine.digest)
+    return Verdict(machine, recorded, actual, difference, same_tables(recorded, machine, file))
+
+
+def in_form_of(file: Path, trace: Trace, machine: Machine) -> Trace | Segments:
+    """A trace as a file of this name keeps it: as few segments as may be, where it asks for segments."""
+    if not takes_segments(file, machine.cards):
+        return trace
+    taped = taped_again(trace, machine, file)
+    return taped if taped.trace() == trace else Segments.of_trace(trace)
+
+
+def taped_again(recorded: Trace, machine: Machine, file: Path) -> Segments:
+    """A run's commands, requests and gaps on the ideal plant, in the segment form. Raises TraceError."""
+    ticker = FastTicker.ideal(machine, taped=True)
+    for _tick in _steps(ticker, recorded, program_of(recorded, machine, file), file):
+        pass
+    segments = ticker.record(recorded.header)
+    assert isinstance(segments, Segments)
+    return segments
+
+
+def _actual(recorded: Trace, machine: Machine, file: Path, engine: str | None) -> Trace:
+    """What the tables at hand make of the recorded inputs. Where the ideal plant gives just these, it may answer."""
+    card, program = _playback(recorded, machine, file), program_of(recorded, machine, file)
+    if engine != TICK:
+        actual = _run(FastTicker.ideal(machine, traced=True), recorded, program, file)
+        if all(_same_changes(recorded, actual, f"in.{number}") for number in range(machine.cards)):
+            return actual
+    return _run(Ticker(machine, card, traced=True), recorded, program, file)
+
+
+def _same_changes(first: Trace, second: Trace, name: str) -> bool:
+    return all(map(np.array_equal, first.changes_of(name), second.changes_of(name)))
+
+
+def rerun(recorded: Trace, machine: Machine, file: Path, keeper: Keeper) -> Iterator[int]:
+    """Runs a trace again a little at a time; every signal, derived ones too, goes into ``keeper``.
+
+    The iterator runs at most a queue's length of ticks a turn, and gives how many were run so far. Raises TraceError
+    before the first of them.
+    """
+    ticker = Ticker(machine, _playback(recorded, machine, file), traced=True, derived=True, keeper=keeper)
+    return _steps(ticker, recorded, program_of(recorded, machine, file), file)
+
+
+def same_tables(trace: Trace, machine: Machine, file: Path) -> bool:
+    """Whether a trace was recorded with the tables that ``machine`` has now."""
+    return _header(trace, "digest", file) == machine.digest
 
 
 def machine_of(trace: Trace, file: Path, library: Library) -> Machine:
@@ -92,32 +144,50 @@ def program_of(trace: Trace, machine: Machine, file: Path) -> NDArray[np.void]:
 
 def record_again(file: Path, library: Library) -> None:
     """Runs a trace's commands and requests on its simulated machine and writes the file anew. Raises as replay."""
-    old = _read(file)
+    old = read_trace(file)
     machine = machine_of(old, file, library)
-    ticker = Ticker.simulated(machine, traced=True)
+    try:
+        choice = PlantChoice.of_header(_header(old, "plant", file), _header(old, "seed", file))
+        ticker = Ticker.simulated(machine, traced=True, plant_choice=choice)
+    except PlantRefused as error:
+        raise TraceError(str(file), None, str(error)) from error
     recorded = _run(ticker, old, program_of(old, machine, file), file)
     header = [(key, machine.digest if key == "digest" else value) for key, value in old.header]
-    Output(file).write(lambda target: write_text(replace(recorded, header=tuple(header)), target))
+    write_record(in_form_of(file, replace(recorded, header=tuple(header)), machine), Output(file))
 
 
 def _run(ticker: Ticker, recorded: Trace, program: NDArray[np.void], file: Path) -> Trace:
+    """To the end, and what came of it."""
+    for _tick in _steps(ticker, recorded, program, file):
+        pass
+    trace = ticker.finished_trace(recorded.header)
+    assert trace is not None
+    return trace
+
+
+def _steps(ticker: Ticker, recorded: Trace, program: NDArray[np.void], file: Path) -> Iterator[int]:
     """The program, the recorded requests and gaps, to the recorded end; where the job outlasts it, to the job's end."""
     feeder = Feeder(program, ticker.queue)
-    requests = _Stimulus(*_requests(recorded, file), recorded.end)
+    requests = _Stimulus(*_worded(recorded, "request", REQUEST_WORDS, file), recorded.end)
+    hands = _Stimulus(*_worded(recorded, "hand", HAND_WORDS, file), recorded.end)
     gaps = _Stimulus(*_changes(recorded, "late"), recorded.end)
     while (now := ticker.controller.tick) < recorded.end:
         feeder.feed()
         ticker.controller.gap = gaps.at(now)
-        asked = requests.at(now)
-        for request in Request:
-            if asked >> request & 1:
-                ticker.requests.post(request)
+        _ask(ticker, requests.at(now) << 1, hands.at(now))
         upcoming = min(requests.next_tick, gaps.next_tick)
-        if not ticker.run(min(max(1, len(ticker.queue)), upcoming - now)):
+        if not ticker.turn(before=upcoming):
             break
-    trace = ticker.finished_trace(recorded.header)
-    assert trace is not None
-    return trace
+        yield ticker.controller.tick
+
+
+def _ask(ticker: Ticker, asked: int, hand: int) -> None:
+    """What was asked in a tick: requests as bits of the mailbox, and the output that was set by hand."""
+    for request in Request:
+        if request != Request.OUTPUT and asked >> request & 1:
+            ticker.requests.post(request)
+    if hand and asked & RequestBit.OUTPUT:
+        ticker.requests.set_output(*bit_and_value(hand))
 
 
 class _Stimulus:
@@ -140,6 +210,26 @@ class _Stimulus:
         return self._value
 
 
+def _playback(recorded: Trace, machine: Machine, file: Path) -> PlaybackCard:
+    """The recorded inputs as a card. Raises TraceError for a trace that can't be run."""
+    if recorded.end > MOST_TICKS:
+        raise TraceError(str(file), None, f"{recorded.end} ticks; replay takes at most {MOST_TICKS}")
+    if recorded.header_values("overrun"):
+        raise TraceError(str(file), None, "changes are missing (overrun): the recording fell behind; record it again")
+    if (tick := _tables_edited(recorded)) is not None:
+        reason = f"tables were edited at tick {tick} (LOAD): what came after can't be told from one set of them"
+        raise TraceError(str(file), None, reason)
+    return PlaybackCard(*_inputs(recorded, machine, file))
+
+
+def _tables_edited(recorded: Trace) -> int | None:
+    """The first tick of a run that had other tables than those it began with."""
+    ticks, values = _changes(recorded, "request")
+    signal = recorded.signals[recorded.index_of("request")] if ticks else None
+    loads = (tick for tick, value in zip(ticks, values, strict=True) if signal and "LOAD" in signal.show(value))
+    return next(loads, None)
+
+
 def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list[int]]:
     """The input image from each tick at which a card's word changes."""
     changes: dict[int, dict[int, int]] = {}
@@ -158,16 +248,16 @@ def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list
     return ticks, images
 
 
-def _requests(trace: Trace, file: Path) -> tuple[list[int], list[int]]:
-    """Ticks at which the requests served change, and what they are from there on, as bits of the mailbox."""
-    ticks, values = _changes(trace, "request")
-    masks = []
+def _worded(trace: Trace, name: str, words: Sequence[str], file: Path) -> tuple[list[int], list[int]]:
+    """Ticks at which a signal of words changes, and the places of its words among ours: a file numbers its own."""
+    ticks, values = _changes(trace, name)
+    places = []
     for value in values:
-        word = trace.signals[trace.index_of("request")].show(value)
-        if word not in REQUEST_WORDS:
-            raise TraceError(str(file), None, f"request {word!r} is not known")
-        masks.append(REQUEST_WORDS.index(word) << 1)
-    return ticks, masks
+        word = trace.signals[trace.index_of(name)].show(value)
+        if word not in words:
+            raise TraceError(str(file), None, f"{name} {word!r} is not known")
+        places.append(words.index(word))
+    return ticks, places
 
 
 def _changes(trace: Trace, name: str) -> tuple[list[int], list[int]]:
@@ -176,13 +266,6 @@ def _changes(trace: Trace, name: str) -> tuple[list[int], list[int]]:
         return [], []
     ticks, values = trace.changes_of(name)
     return ticks.tolist(), values.tolist()
-
-
-def _read(file: Path) -> Trace:
-    try:
-        return read_text(file)
-    except OSError as error:
-        raise TraceError(str(file), None, f"can't be read: {error.strerror}") from error
 
 
 def _header(trace: Trace, key: str, file: Path) -> str:

@@ -6,14 +6,20 @@ Called by ticker after each tick, and by replay.
 
 from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drillctl.execution import Controller
-from drillctl.kmd import Fault, Op, Request
+from drillctl.execution.fastforward import Course
+from drillctl.kmd import Fault, Op, Request, RequestBit
 from drillctl.kmd.commands import BY_OP
 from drillctl.machine import Machine
-from drillctl.plant import IdealPlant
-from drillctl.ports import CARD_BITS, word
+from drillctl.machine.shape import MOST_CARDS
+from drillctl.plant import Plant
+from drillctl.ports import CARD_BITS, CARD_MASK, word
 from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
+HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
 _REQUESTS = [request.name for request in Request if request]
 REQUEST_WORDS = tuple(
     "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
@@ -34,14 +40,18 @@ class Sampler:
     """Fills a Recorder from one controller; with ``derived`` also columns, positions, states and rotors."""
 
     def __init__(
-        self, controller: Controller, plant: IdealPlant | None, derived: bool, recorder: Keeper | None = None
+        self, controller: Controller, plant: Plant | None, derived: bool, recorder: Keeper | None = None
     ):
         self._m = controller
         self._cards = range(controller.machine.cards)
         self._plant = plant
         self._derived = derived
         self.signals = signals(controller.machine, plant is not None, derived)
-        self.recorder = recorder or Recorder(self.signals)
+        self.recorder = Recorder(self.signals) if recorder is None else recorder
+
+    def follow(self, controller: Controller) -> None:
+        """From now on this one, of the same axes and wires."""
+        self._m = controller
 
     def sample(self) -> None:
         """After a tick: its index is one below the controller's count."""
@@ -54,10 +64,30 @@ class Sampler:
             index += 2
         put(index, tick, pack_command(m.running, m.command.opcode) if m.running else 0)
         put(index + 1, tick, m.served >> 1)
-        put(index + 2, tick, m.late)
-        put(index + 3, tick, m.fault)
+        put(index + 2, tick, m.requests.hand if m.served & RequestBit.OUTPUT else 0)
+        put(index + 3, tick, m.late)
+        put(index + 4, tick, m.fault)
         if self._derived:
-            self._sample_axes(index + 4, tick)
+            self._sample_axes(index + 5, tick)
+
+    def sample_course(self, course: Course, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
+        """After a course that began at tick ``first``; into a Recorder, nothing derived. Without its ``images``
+        (ticks,) the outputs are kept elsewhere.
+        """
+        assert isinstance(self.recorder, Recorder) and not self._derived
+        index = 0
+        input_ticks, inputs = course.inputs()
+        for card in self._cards:
+            self.recorder.extend(index, first + input_ticks, inputs >> CARD_BITS * card & CARD_MASK)
+            if images is not None:
+                put_out = images >> np.array(CARD_BITS * card, images.dtype) & np.array(CARD_MASK, images.dtype)
+                changes = np.flatnonzero(np.append(True, put_out[1:] != put_out[:-1]))
+                self.recorder.extend(index + 1, first + changes, put_out[changes].astype(np.int64))
+            index += 2
+        running = pack_command(course.commands["sequence"].astype(np.int64), course.commands["opcode"])
+        self.recorder.extend(index, first + course.starts[:-1], running)
+        for quiet in range(index + 1, len(self.signals)):
+            self.recorder.set(quiet, first, 0)
 
     def _sample_axes(self, index: int, tick: int) -> None:
         put = self.recorder.set
@@ -79,6 +109,7 @@ def signals(machine: Machine, with_plant: bool, derived: bool) -> list[Signal]:
     found += [
         Signal("kmd", "command", False, names=_COMMAND_WORDS),
         Signal("request", "name", True, names=REQUEST_WORDS),
+        Signal("hand", "name", True, names=HAND_WORDS),
         Signal("late", "count", True),
         Signal("fault", "name", False, names=_FAULT_WORDS),
     ]

@@ -2,16 +2,18 @@
 
 import hashlib
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-from drillctl.generation.job import Job
-from drillctl.generation.journal import Account, Head, Journal, head_of
+from drillctl.generation.errors import JobError
+from drillctl.generation.job import Job, load_job
+from drillctl.generation.journal import Account, Head, Journal, check_same, head_of
+from drillctl.generation.recipe import Recipe
 from drillctl.lab import forecast
-from drillctl.wiring.desk import Desk, Run, ToolChange, Watcher
+from drillctl.machine import Machine
+from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
 from drillctl.wiring.machinery import Running, start
 
 
@@ -24,15 +26,16 @@ class Session:
     journal: Path | None = None
     known: Head | Account | None = None
     tool_change: ToolChange | None = None
+    operator: Operator | None = None
 
-    def journalled(self, file: Path, journal: Path | None, options: Mapping[str, Any]) -> "Session":
+    def journalled(self, file: Path, journal: Path | None, recipe: Recipe) -> "Session":
         """With a journal for a job made from ``file``; in the user's state folder where no place is given."""
-        return replace(self, journal=journal or default_journal(file), known=head_of(file, self.job, options))
+        return replace(self, journal=journal or default_journal(file), known=head_of(file, self.job, recipe.options()))
 
     def run(self, watcher: Watcher) -> Run:
         """Raises JournalError or PortError before anything moves."""
         # A queue written by hand can only be foreseen by running it; nobody wants to wait for that twice.
-        total_ticks = forecast(self.job.program, self.job.machine).total_ticks if self.job.work else None
+        foreseen = forecast(self.job.program, self.job.machine).ticks if self.job.work else None
         done_before = len(self.known.done) if isinstance(self.known, Account) else 0
         with ExitStack() as opened:
             journal = None
@@ -40,8 +43,32 @@ class Session:
                 journal = opened.enter_context(closing(Journal(self.journal, self.known)))
             status_file = opened.enter_context(_status_file(self.journal))
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
-            desk = Desk(self.job, link, watcher, journal, done_before, total_ticks, tool_change=self.tool_change)
+            desk = Desk(
+                self.job, link, watcher, journal, done_before, foreseen,
+                tool_change=self.tool_change, operator=self.operator,
+            )  # fmt: skip
             return desk.run()
+
+
+@dataclass(frozen=True, eq=False)
+class Rest:
+    """A journalled job made again: the whole of it, and what is left."""
+
+    recipe: Recipe
+    whole: Job
+    left: Job
+
+
+def rest_of(journal: Path, account: Account, machine: Machine) -> Rest:
+    """Refused unless it is the same job. Raises JobError, JournalError, PlacingError or AlignmentError."""
+    recipe = Recipe.of_options(account.head.options)
+    file = Path(account.head.job)
+    wishes = recipe.wishes(machine)
+    job = load_job(file, machine, wishes, recipe.format)
+    check_same(journal, account.head, head_of(file, job, account.head.options))
+    if len(account.done) == job.holes_total:
+        raise JobError([f"{journal}: all {job.holes_total} holes of {file.name} are drilled; nothing is left"])
+    return Rest(recipe, job, job.without(account.done, wishes))
 
 
 def default_journal(file: Path) -> Path:

@@ -9,14 +9,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from drillctl.execution import Controller, report, tick
-from drillctl.kmd import STATUS, CommandQueue, Condition, Mailbox, Queue, Requests
+from drillctl.execution import Controller, loaded, look, report, tick
+from drillctl.kmd import STATUS, CommandQueue, Condition, Gate, Mailbox, Queue, Requests, TickGate
 from drillctl.machine import Machine
-from drillctl.plant import IdealPlant
+from drillctl.plant import IDEAL_PLANT, Plant, PlantChoice
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver
-from drillctl.trace import Recorder, Trace
+from drillctl.trace import Recorder, Segments, Trace
 from drillctl.wiring.sampler import Keeper, Sampler
+
+NEVER = 1 << 62  # a tick that doesn't come
 
 
 @dataclass
@@ -26,11 +28,12 @@ class Ticker:
 
     machine: Machine
     port: Driver
-    plant: IdealPlant | None = None
+    plant: Plant | None = None
     traced: bool = False
     derived: bool = False
     queue: CommandQueue = field(default_factory=Queue)
     requests: Mailbox = field(default_factory=Requests)
+    gate: TickGate = field(default_factory=Gate)
     keeper: Keeper | None = None
 
     def __post_init__(self) -> None:
@@ -42,9 +45,10 @@ class Ticker:
         self.sampler = Sampler(self.controller, self.plant, self.derived, self.keeper) if self.traced else None
 
     @classmethod
-    def simulated(cls, machine: Machine, traced: bool = False, derived: bool = False) -> "Ticker":
-        """The machine on the simulated card, with the ideal plant behind it."""
-        plant = IdealPlant(machine)
+    def simulated(cls, machine: Machine, traced: bool = False, derived: bool = False,
+                  plant_choice: PlantChoice = IDEAL_PLANT) -> "Ticker":  # fmt: skip
+        """The machine on the simulated card, with a plant behind it. Raises PlantRefused."""
+        plant = plant_choice.build(machine)
         return cls(machine, SimulatedCard(plant), plant, traced, derived)
 
     def run(self, ticks: int, until: Callable[[], bool] | None = None) -> int:
@@ -58,10 +62,43 @@ class Ticker:
                 sampler.sample()
             if plant is not None and plant.touches != self._touches:
                 self._touches = plant.touches
-                self._touch()
+                self.touch(m.tool, m.hole_begun, self.places())
             if until is not None and until():
                 break
         return m.tick - first
+
+    def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:
+        """``run`` as far as the gate lets; where it is shut the inputs alone are looked at."""
+        if not self.gate.paused:
+            return self.run(wakes, until)
+        if self.waits:
+            look(self.controller)
+            return 0
+        ticks = self.run(1)
+        self.gate.passed(ticks)
+        return ticks
+
+    def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
+        """As many ticks as the queue is sure to last for (a tick takes one command at most), up to tick ``before``."""
+        return self.advance(min(max(1, len(self.queue)), before - self.controller.tick), until)
+
+    @property
+    def waits(self) -> bool:
+        """The gate is shut. What was asked, and a machine that brakes or returns, are never kept waiting."""
+        shut = self.gate.paused and not self.gate.left
+        return shut and not self.requests.waiting and self.controller.condition == Condition.READY
+
+    @property
+    def resting(self) -> bool:
+        """Outside a job, nothing moves and no command waits."""
+        m = self.controller
+        return m.condition == Condition.READY and not (m.busy or m.job or m.moving) and len(self.queue) == 0
+
+    def load(self, machine: Machine) -> None:
+        """The same machine with other phase and ramp tables (wiring/loading.py checks that), at rest."""
+        self.machine, self.controller = machine, loaded(machine, self.controller)
+        if self.sampler is not None:
+            self.sampler.follow(self.controller)
 
     def over(self) -> bool:
         """The job has ended, and everything rests: at KMD_KONIEC, by a stop, or latched by a fault."""
@@ -82,26 +119,29 @@ class Ticker:
         """How punctual the ticks were so far, for the status record."""
         self.status["late"], self.status["late_worst_ns"] = count, worst_ns
 
+    def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
+        """The record of the run so far, in the form in which it is kept."""
+        return self.finished_trace(header)
+
     def finished_trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
         """The record of the run so far, where it is kept in this process."""
         if self.sampler is None or not isinstance(self.sampler.recorder, Recorder):
             return None
         return self.sampler.recorder.finish(self.controller.tick, header)
 
-    def _touch(self) -> None:
+    def touch(self, tool: int, tag: int, places: tuple[float, ...]) -> None:
         """The bit meets the board; a hole that is come to again (a peck after a peck) is counted once."""
-        tag = self.controller.hole_begun
         if tag == 0 or tag not in self._tags:
             self._tags.add(tag)
-            self.touched.append((self.controller.tool, tag, self.places()))
+            self.touched.append((tool, tag, places))
 
     def lost_steps(self) -> tuple[float, ...]:
         """By axis: how far the plant is behind the controller, in steps. Needs a plant."""
         assert self.plant is not None
-        pairs = zip(self.plant.rotors, self.controller.axes, strict=True)
-        return tuple(r.columns_lost(a.travelled * a.sense) * a.sense / a.columns_per_step for r, a in pairs)
+        return tuple(self.plant.lost_steps(i, axis.travelled) for i, axis in enumerate(self.controller.axes))
 
     def places(self) -> tuple[float, ...]:
         """By axis: where the plant stands, in the controller's steps from machine zero. Needs a plant."""
-        positions = (axis.position for axis in self.controller.axes)
-        return tuple(p - lost for p, lost in zip(positions, self.lost_steps(), strict=True))
+        assert self.plant is not None
+        axes = enumerate(self.controller.axes)
+        return tuple(axis.position - self.plant.behind_steps(i, axis.travelled) for i, axis in axes)

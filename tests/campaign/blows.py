@@ -10,7 +10,7 @@ from signal import Signals
 from typing import Any
 
 Z_TOP, Z_BOTTOM, X_MIN, Y_MIN = 4, 5, 0, 2  # input bits of pcb-drill
-HOMED_FLUSHES = 1400  # by then initialisation is over: a sensor that lies before it sets a wrong zero, unseen
+HOMED_FLUSHES = 1400  # by then initialisation is over: a sensor that begins to lie within it sets a wrong zero, unseen
 # A sensor that answers wrongly for just as long as the head takes to brake, and is well again before the head meets
 # the other one, is believed: nothing that software has could tell. So a lie is shorter than that, or stays.
 LIE_FLUSHES = (1, 3, 1_000_000)
@@ -50,6 +50,12 @@ def _sensor(name: str, bit: int, fails: str, level: int = 0) -> Make:
     return made
 
 
+def _dead(name: str, bit: int, level: int) -> Make:
+    """Stuck since before the machine was switched on: initialisation itself must see it, or the first hole."""
+    plan = {"fails": "stuck", "bit": bit, "level": level, "from_flush": 0, "flushes": LIE_FLUSHES[-1]}
+    return lambda rng, last_flush: Blow(name, plan=plan)
+
+
 def _pulled(rng: Random, last_flush: int) -> Blow:
     first, flushes = rng.randrange(1, last_flush), rng.choice((1, 1_000_000))
     return Blow("port pulled", plan={"fails": "pulled", "from_flush": first, "flushes": flushes})
@@ -68,6 +74,7 @@ _SENSORS = {"z_top": Z_TOP, "z_bottom": Z_BOTTOM, "x_min": X_MIN, "y_min": Y_MIN
 BLOWS: tuple[Make, ...] = (
     *(_signalled(target, number) for target in TARGETS for number in SIGNALS),
     *(_sensor(f"{name} stuck at {level}", bit, "stuck", level) for name, bit in _SENSORS.items() for level in (0, 1)),
+    *(_dead(f"{name} dead, at {level}", bit, level) for name, bit in _SENSORS.items() for level in (0, 1)),
     *(_sensor(f"{name} bouncing", bit, "bouncing") for name, bit in _SENSORS.items()),
     _pulled,
     _disk,

@@ -20,6 +20,7 @@ FEW = [
     *(f"SIG{signal} to {target}" for target in ("desk", "ticker", "guard") for signal in ("KILL", "STOP")),
     *(f"SIG{signal} to desk" for signal in ("TERM", "INT", "HUP")), "SIGTERM to ticker", "SIGTERM to guard",
     "z_top stuck at 1", "z_bottom stuck at 0", "z_bottom stuck at 1", "x_min stuck at 1", "z_top bouncing",
+    "z_top dead, at 0", "y_min dead, at 1",
     "port pulled", "disk full under the journal", "disk full under the trace",
 ]  # fmt: skip
 

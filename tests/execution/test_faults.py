@@ -123,6 +123,7 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.PORT_LOST: from_the_wiring(Fault.PORT_LOST),
     Fault.HEARTBEAT_LOST: from_the_wiring(Fault.HEARTBEAT_LOST),
     Fault.TICKER_LOST: from_the_wiring(Fault.TICKER_LOST),
+    Fault.PORT_SLOW: from_the_wiring(Fault.PORT_SLOW),
 }
 every_fault = pytest.mark.parametrize("fault", PROVOKED, ids=lambda fault: fault.name)
 

@@ -65,11 +65,11 @@ def build(folder: Path) -> Path:
     return host
 
 
-def wait_until(holds: Callable[[], bool], what: str) -> None:
+def wait_until(holds: Callable[[], bool], what: str, longest_s: float = LONGEST_WAIT_S) -> None:
     """Looks again and again, for a few seconds at most."""
-    ends = time.monotonic() + LONGEST_WAIT_S
+    ends = time.monotonic() + longest_s
     while not holds():
-        assert time.monotonic() < ends, f"{what}: not within {LONGEST_WAIT_S} s"
+        assert time.monotonic() < ends, f"{what}: not within {longest_s} s"
         time.sleep(0.005)
 
 
@@ -79,6 +79,7 @@ class SimulatedBoard:
     def __init__(self, host: Path, kind: Kind, folder: Path):
         self.device = str(folder / "tty")
         self._log = folder / "pins.txt"
+        self._read = 0  # of it, by new_changes
         self._by_pin = kind.pins
         self._by_name = {name: pin for pin, name in kind.pins.items()}
         command = [str(host), str(CACHE / f"{kind.name}.hex"), kind.mcu, self.device, str(self._log)]
@@ -94,10 +95,20 @@ class SimulatedBoard:
 
     def changes(self) -> list[tuple[int, int, int]]:
         """Each change so far of a pin that has a number: (cycle, pin, level)."""
+        return self._rows(self._log.read_text())
+
+    def new_changes(self) -> list[tuple[int, int, int]]:
+        """Those that came since the last call."""
+        with self._log.open() as log:
+            log.seek(self._read)
+            text = log.read()
+        self._read += text.rfind("\n") + 1
+        return self._rows(text)
+
+    def _rows(self, text: str) -> list[tuple[int, int, int]]:
+        """Of the log's whole lines; the last one may be in the making."""
         rows = []
-        for line in self._log.read_text().splitlines(keepends=True):
-            if not line.endswith("\n"):
-                break  # still being written
+        for line in text[: text.rfind("\n") + 1].splitlines():
             cycle, letter, bit, level = line.split()
             if (pin := self._by_name.get(letter + bit)) is not None:
                 rows.append((int(cycle), pin, int(level)))
@@ -108,6 +119,10 @@ class SimulatedBoard:
         now = dict.fromkeys(self._by_pin, 0)
         now.update({pin: level for _, pin, level in self.changes()})
         return now
+
+    def wait_for_low(self, pins: Iterable[int]) -> None:
+        """Until all of them are: what a program sent last may still be on the wire when it has ended."""
+        wait_until(lambda: not any(map(self.levels().get, pins)), "all low")
 
     def port_updates(self, pins: Iterable[int], since: int) -> list[tuple[int, int]]:
         """(Firmata port, value) after each message that changed some of these pins, from that change on.

@@ -8,12 +8,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from drillctl.kmd import CAPACITY, RECORD, STATUS, Command, Queue, Request, Requests
-from drillctl.kmd.channel import CHANNEL, Channel, SharedQueue, SharedRequests
+from drillctl.kmd import CAPACITY, RECORD, STATUS, Command, Gate, Queue, Request, Requests
+from drillctl.kmd.channel import CHANNEL, Channel, SharedGate, SharedQueue, SharedRequests
+from drillctl.kmd.queue import MOST_HANDS, bit_and_value, hand_of
 from drillctl.wiring.children import Child
 
 PUBLISHED = 20_000
-ASKED = [request for request in Request if request]
+ASKED = [request for request in Request if request not in (Request.NONE, Request.OUTPUT)]
 FRESH_FOLDER = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
@@ -40,6 +41,54 @@ def test_the_shared_queue_is_the_queue(tmp_path: Path, doings: list[int | str]) 
             assert shared.take(its) == plain.take(mine)
             assert (its.sequence, its.tag) == (mine.sequence, mine.tag)
         assert (len(shared), shared.room) == (len(plain), plain.room)
+
+
+@given(st.lists(st.one_of(st.tuples(st.integers(0, 127), st.integers(0, 1)), st.just("take")), max_size=60))
+@FRESH_FOLDER
+def test_outputs_by_hand_stand_in_line_on_both_sides(tmp_path: Path, doings: list[tuple[int, int] | str]) -> None:
+    """One a take, the oldest first; a full line takes nothing."""
+    channel = Channel(tmp_path / "c", create=True)
+    desk, ticker, plain = SharedRequests(channel), SharedRequests(channel), Requests()
+    waiting: list[tuple[int, int]] = []
+    for doing in [*doings, *["take"] * (MOST_HANDS + 1)]:
+        if isinstance(doing, tuple):
+            assert desk.set_output(*doing) == plain.set_output(*doing) == (len(waiting) < MOST_HANDS)
+            waiting += [doing] * (len(waiting) < MOST_HANDS)
+        else:
+            bits = ticker.take()
+            assert bits == plain.take() == (1 << Request.OUTPUT if waiting else 0)
+            if waiting:
+                assert bit_and_value(ticker.hand) == bit_and_value(plain.hand) == waiting.pop(0)
+        assert ticker.waiting == plain.waiting == bool(waiting)
+
+
+def test_an_output_by_hand_is_one_number() -> None:
+    told = {hand_of(bit, value): (bit, value) for bit in range(128) for value in (0, 1)}
+    assert len(told) == 256 and 0 not in told
+    assert all(bit_and_value(hand) == what for hand, what in told.items())
+
+
+@given(st.lists(st.one_of(st.integers(0, 5), st.sampled_from(["open", "pass"])), max_size=60))
+@FRESH_FOLDER
+def test_the_shared_gate_is_the_gate(tmp_path: Path, doings: list[int | str]) -> None:
+    """A number grants so many ticks; one passes while there are any left. ``left`` is counted by hand beside it."""
+    channel = Channel(tmp_path / "c", create=True)
+    desk, ticker, plain = SharedGate(channel), SharedGate(channel), Gate()
+    paused, left = False, 0
+    for doing in doings:
+        if isinstance(doing, int):
+            desk.grant(doing)
+            plain.grant(doing)
+            paused, left = True, left + doing
+        elif doing == "open":
+            desk.open()
+            plain.open()
+            paused, left = False, 0
+        elif left:
+            ticker.passed(1)
+            plain.passed(1)
+            left -= 1
+        assert (ticker.paused, ticker.left) == (plain.paused, plain.left) == (paused, left)
 
 
 @given(st.lists(st.one_of(st.sampled_from(ASKED), st.just("take")), max_size=60), st.data())

@@ -9,7 +9,7 @@ import pytest
 from drillctl.portio import firmata_line
 from drillctl.portio.firmata import FirmataCard, max_tick_hz, open_firmata, usb_devices
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
-from drillctl.ports import LONGEST_WAIT_S, PortError, PortLost, PortRefused, Wiring
+from drillctl.ports import LONGEST_WAIT_S, PortError, PortLost, PortRefused, PortSlow, Wiring
 from tests.portio.conformance import MOTOR, WIRING
 from tests.portio.firmata_stand_in import Faults, StandIn
 
@@ -112,7 +112,7 @@ def test_a_line_that_takes_no_more_is_lost_within_its_time(stand_in: Callable[..
     card = opened(board)
     board.stop()
     slowest_s, images = 0.0, 0
-    with pytest.raises(PortLost, match="too slow"):
+    with pytest.raises(PortSlow, match="too slow"):
         for images in range(100_000):
             began = time.monotonic()
             try:

@@ -134,6 +134,9 @@ def test_a_gap_in_time_is_counted_held_or_a_fault_and_replays(gap_s: float, faul
         assert told["holes_done"] == 2 and told["position_known"] and not any(told["lost_steps"].values())
     else:
         assert (told["fault"]["position"] == "kept") == told["position_known"]
+        call = [sys.executable, "-m", "drillctl", "resume", "j", "--json"]
+        resumed = subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+        assert resumed.returncode == 0 and json.loads(resumed.stdout)["holes_done"] == 2
     text = (folder / "t.trace").read_text()
     assert has_gaps(folder / "t.trace") and ("RESUME" in text) >= (gap_s == 0.08)
     assert not replay(folder / "t.trace", LIBRARY).failed(same_tables_wanted=True)

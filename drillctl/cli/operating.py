@@ -1,0 +1,51 @@
+"""The operator at the terminal while a job runs: sees how far it is, changes tools, has keys. For run and resume."""
+
+import argparse
+import sys
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from drillctl.wiring.desk import Run
+    from drillctl.wiring.session import Session
+
+
+def operated(session: "Session", arguments: argparse.Namespace) -> "Run":
+    """Runs it, with the progress on standard error, and with keys where somebody sits at a terminal.
+
+    Raises JobError where tools are to be asked for and nobody does; what ``Session.run`` raises.
+    """
+    from drillctl.ui.progress import ProgressView
+    from drillctl.ui.tools import ToolPrompt
+    from drillctl.wiring.machinery import REAL, pace_of
+    from drillctl.wiring.terminal_keys import HELP, TerminalKeys
+
+    asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
+    with ProgressView(sys.stderr) as view:
+        if not asks and not (paced and _watched(arguments)):
+            return session.run(view.show)
+        if paced:
+            print(f"drillctl: {HELP}", file=sys.stderr)
+        with TerminalKeys(sys.stdin) as keys:
+            prompt = ToolPrompt(keys.entered, sys.stderr) if asks else None
+            return replace(session, tool_change=prompt, operator=keys if paced else None).run(view.show)
+
+
+def _asks(arguments: argparse.Namespace, spec: str) -> bool:
+    """Whether a tool change waits for the operator."""
+    from drillctl.generation.errors import JobError
+    from drillctl.portio.registry import select
+    from drillctl.wiring.terminal_keys import has_keys
+
+    port, _ = select(spec)
+    asks = (arguments.tools or ("ask" if port.real else "assume")) == "ask"
+    if asks and not has_keys(sys.stdin):
+        raise JobError(["--tools ask: there is no terminal to ask at; say --tools assume if the right tool is in"])
+    return asks
+
+
+def _watched(arguments: argparse.Namespace) -> bool:
+    """Whether a person started it, and not a program that reads its JSON."""
+    from drillctl.wiring.terminal_keys import has_keys
+
+    return not arguments.json and sys.stderr.isatty() and has_keys(sys.stdin)

@@ -1,0 +1,128 @@
+"""Wiring: a ticker that goes through its queue as fast as may be, on the ideal plant, with the same result to the byte.
+
+Rule: what execution/fastforward foresees is taken over whole, everything else is ticked by ``tick``, a command at a
+time. Holes, trace and status come out as if all had been ticked. Created by link and by the lab where nothing live is
+attached.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution.fastforward import Course, Engine
+from drillctl.kmd import Condition, Queue
+from drillctl.machine import Machine
+from drillctl.plant import IdealPlant
+from drillctl.plant.foreseen import ForeseenPlant
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.trace import Segments, Trace
+from drillctl.trace.tapes import Images, Tape, images
+from drillctl.wiring.sampler import Sampler, signals
+from drillctl.wiring.tape_recorder import TapeRecorder
+from drillctl.wiring.ticker import NEVER, Ticker
+
+FAST, TICK = "fast", "tick"
+FAR_SIGHT = 4096  # commands that may wait: a look ahead costs the same for few as for many
+
+Records = NDArray[np.void]
+
+
+@dataclass
+class FastTicker(Ticker):
+    """As Ticker, with a simulated card and the ideal plant behind it, and nothing derived in its trace.
+
+    foresees  False: every command is ticked through
+    taped     the record is kept in the segment form, in place of a trace
+    """
+
+    foresees: bool = True
+    taped: bool = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        assert isinstance(self.plant, IdealPlant) and isinstance(self.queue, Queue) and not self.derived
+        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant))
+        if self.taped:
+            kept = signals(self.machine, with_plant=True, derived=False)
+            recorder = TapeRecorder(kept, self.engine.reel, len(self.machine.axes) + 1)
+            self.sampler = Sampler(self.controller, self.plant, False, recorder)
+
+    def load(self, machine: Machine) -> None:
+        """What was foreseen was by the old tables."""
+        super().load(machine)
+        assert isinstance(self.plant, IdealPlant)
+        self.engine = Engine(self.controller, ForeseenPlant(machine, self.plant), self.engine.reel)
+
+    @classmethod
+    def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,
+              taped: bool = False) -> "FastTicker":  # fmt: skip
+        """The machine on the simulated card, with the ideal plant behind it, and a queue of this capacity."""
+        plant = IdealPlant(machine)
+        queue = Queue(capacity)
+        return cls(machine, SimulatedCard(plant), plant, traced, queue=queue, foresees=foresees, taped=taped)
+
+    def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
+        """Through all that waits in the queue; where nothing can be foreseen, as many ticks as it is sure to last."""
+        first = self.controller.tick
+        for _ in self.courses(before):
+            if until is not None and until():
+                break
+        return self.controller.tick - first or super().turn(until, before)
+
+    def courses(self, before: int = NEVER) -> Iterator[Course | None]:
+        """Carries out what waits, while nothing else is going on: each course, or None after a ticked command."""
+        assert isinstance(self.queue, Queue)
+        while len(self.queue) and not self.gate.paused and self.engine.between:
+            waiting, left = self.queue.waiting(), before - self.controller.tick
+            course = self.engine.course(waiting) if self.foresees else None
+            if course is not None and course.end > left:
+                course = self.engine.course(waiting[: np.searchsorted(course.starts, left, side="right") - 1])
+            if course is not None:
+                self.queue.drop(len(course.commands))
+                self._pass(course)
+            elif left > 0:
+                self._tick_through(waiting[:1], before)
+            else:
+                return
+            yield course
+
+    def _pass(self, course: Course) -> None:
+        """A course as if ticked: its record, its holes, and where it leaves the machine."""
+        first, tapes = self.controller.tick, course.tapes(self.engine.reel) if self.sampler is not None else []
+        if self.sampler is not None:
+            self.sampler.sample_course(course, None if self.taped else self._images(course, tapes), first)
+        touches = course.touches()
+        for touch in touches:
+            self.touch(*touch)
+        self._touches += len(touches)
+        self.engine.leave(course)
+        if self.sampler is not None and isinstance(self.sampler.recorder, TapeRecorder):
+            self.sampler.recorder.lay(first, tapes, self.controller.tick, self.controller.image)
+
+    def _images(self, course: Course, tapes: list[Tape]) -> Images:
+        reel = self.engine.reel.images
+        return images(reel, tapes, np.empty(course.end, reel.dtype))
+
+    def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
+        """As Ticker; segments where it was taped."""
+        if self.sampler is None or not isinstance(self.sampler.recorder, TapeRecorder):
+            return super().record(header)
+        return self.sampler.recorder.segments(self.controller.tick, header)
+
+    def _tick_through(self, command: Records, before: int) -> None:
+        """One command by tick, noted where it may come again."""
+        m, plant = self.controller, self.plant
+        assert plant is not None
+        recording = self.engine.recording(command)
+        going_on, undisturbed = True, True
+        while going_on:
+            touches = plant.touches
+            self.run(1)
+            if recording is not None:
+                recording.note(self.places() if plant.touches != touches else None)
+            undisturbed = m.condition == Condition.READY and not (m.served or m.late)
+            going_on = m.busy and undisturbed and m.tick < before
+        if recording is not None and undisturbed and not m.busy:
+            recording.end()

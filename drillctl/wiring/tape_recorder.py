@@ -1,0 +1,63 @@
+"""Wiring: records a run in the segment form: outputs as tapes, everything else as changes.
+
+Rule: a course comes with its tapes; of what was ticked in between, each stretch becomes one strip. Written to by
+fast_ticker and by its sampler.
+"""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from drillctl.ports import CARD_BITS
+from drillctl.trace import Recorder, Segments, Signal
+from drillctl.trace.segments import OUTPUT, without_outputs
+from drillctl.trace.tapes import DARK, Reel, Tape
+
+
+class TapeRecorder(Recorder):
+    """A Recorder whose outputs go onto ``tapes`` tapes of a reel."""
+
+    def __init__(self, signals: Sequence[Signal], reel: Reel, tapes: int) -> None:
+        super().__init__(signals)
+        self._cards = {n: int(m[1]) for n, s in enumerate(signals) if (m := OUTPUT.fullmatch(s.name))}
+        self._reel = reel
+        self._tapes: list[list[Tape]] = [[] for _ in range(tapes)]
+        self._until = 0  # what comes before is on the tapes
+        self._images = [0]  # of the ticked stretch since then, and the ticks they begin at
+        self._begins = [0]
+
+    def set(self, index: int, tick: int, value: int) -> None:
+        """As a Recorder does; a card's outputs are put into the image of the tick."""
+        if index not in self._cards:
+            super().set(index, tick, value)
+            return
+        shift, image = CARD_BITS * self._cards[index], self._images[-1]
+        changed = image ^ (value ^ (image >> shift & (1 << CARD_BITS) - 1)) << shift
+        if changed != image:
+            self._images.append(changed)
+            self._begins.append(tick)
+
+    def lay(self, first: int, tapes: Sequence[Tape], end: int, image: int) -> None:
+        """A course's tapes, from tick ``first`` up to ``end``, which leaves this image standing."""
+        self._wind(first)
+        for kept, tape in zip(self._tapes, tapes, strict=True):
+            kept.append(tape)
+        self._until, self._images, self._begins = end, [image], [end]
+
+    def segments(self, end: int, header: Iterable[tuple[str, str]]) -> Segments:
+        """The run of ``end`` ticks."""
+        self._wind(end)
+        rest = without_outputs(self.finish(end, header))
+        reel = self._reel.images.copy()
+        return Segments(rest, self.signals, reel, tuple(map(Tape.joined, self._tapes)))
+
+    def _wind(self, end: int) -> None:
+        """What was ticked up to ``end``, as one strip on the first tape."""
+        ticks = end - self._until
+        if not ticks:
+            return
+        shown_for = np.diff(np.array([*self._begins, end]))
+        start = self._reel.add(np.repeat(np.array(self._images, np.uint64), shown_for))
+        for number, tape in enumerate(self._tapes):
+            tape.append(Tape.steady(self._reel.steady(DARK), ticks) if number else Tape.whole(start, ticks))
+        self._until, self._images, self._begins = end, self._images[-1:], [end]

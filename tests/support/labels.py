@@ -1,0 +1,34 @@
+"""What the operator reads and presses, in the language that is spoken: words of the catalogue, letters of the menus.
+
+Rule: a word that the catalogue does not have is a mistake of the caller, not a word that happens to stay English.
+Used by tests/ui and by the pictures in docs.
+"""
+
+from drillctl.ui import words
+from drillctl.ui.menus import MENUS, Item, hot_letter
+
+POLISH = words.catalogue((words.LOCALE / "pl" / "LC_MESSAGES" / "drillctl.po").read_text("utf-8"))
+
+
+def word(message: str) -> str:
+    """A message as the screen says it."""
+    assert message in POLISH, f"the screen does not say {message!r}"
+    return words._(message)
+
+
+def menu(screen: str, method: str = "", argument: str | None = None) -> tuple[str, ...]:
+    """The letters that lead to an entry of the menus: Alt with the first, then the others."""
+    path = _path(MENUS, (screen, method, argument))
+    assert path, f"no menu leads to {screen} {method} {argument}"
+    first, *others = map(hot_letter, path)
+    return (f"\x1b{first}", *others)
+
+
+def _path(items: tuple[Item, ...], wanted: tuple[str, str, str | None]) -> tuple[Item, ...]:
+    """From the bar down to the first entry that calls this; empty where there is none."""
+    for item in items:
+        if not item.items and (item.screen, item.method, item.argument) == wanted:
+            return (item,)
+        if found := _path(item.items, wanted):
+            return (item, *found)
+    return ()

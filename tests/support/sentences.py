@@ -1,0 +1,55 @@
+"""The sentences that rooms below the screen tell people, found in their source: with ``{}`` where a value stands."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import drillctl
+
+PACKAGE = Path(drillctl.__file__).parent
+FIELD = re.compile(r"\{[^{}]*\}")
+ERRORS = {"JobError", "PlacingError", "AlignmentError", "JournalError"}
+
+
+def form_of(sentence: str) -> str:
+    """A catalogue's sentence with its fields left nameless."""
+    return FIELD.sub("{}", sentence)
+
+
+def texts(node: ast.AST) -> Iterator[str]:
+    """Every string below a node, an f-string as its form; not the pieces of one."""
+    if isinstance(node, ast.JoinedStr):
+        parts = (part.value if isinstance(part, ast.Constant) else "{}" for part in node.values)
+        yield "".join(map(str, parts))
+    elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    if not isinstance(node, ast.JoinedStr):
+        for child in ast.iter_child_nodes(node):
+            yield from texts(child)
+
+
+def trees(*rooms: str) -> Iterator[ast.Module]:
+    for room in rooms:
+        for file in sorted((PACKAGE / room).rglob("*.py")):
+            yield ast.parse(file.read_text("utf-8"))
+
+
+def all_forms() -> set[str]:
+    """Every string below the screen that might be told."""
+    rooms = trees("generation", "station", "wiring", "machine", "kmd")
+    return {without_place(text) for tree in rooms for text in texts(tree)}
+
+
+def refusals() -> set[str]:
+    """What generation raises and warns of, without the ``{}: `` of a place before it."""
+    nodes = [node for tree in trees("generation") for node in ast.walk(tree)]
+    raised = [node for node in nodes if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ERRORS]
+    yielded = [node for node in nodes if isinstance(node, ast.Yield)]
+    found = {text for node in [*raised, *yielded] for text in texts(node)}
+    return {bare for text in found if len(re.findall(r"[a-z]{2,}", bare := without_place(text))) >= 3 and " " in bare}
+
+
+def without_place(text: str) -> str:
+    """What follows the place that a sentence begins with."""
+    return re.sub(r"^(\{\}(:\{\}|:1)*: )+", "", text)

@@ -1,0 +1,74 @@
+"""Two tickers on one program and the same disturbances: one ticks, one goes as fast as may be. Used by tests/execution.
+
+Rule: everything that either of them remembers is compared, and every tick's image by way of the trace.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution.axis import Axis
+from drillctl.kmd import Request
+from drillctl.machine import Machine
+from drillctl.trace import Trace
+from drillctl.wiring.fast_ticker import FastTicker
+from drillctl.wiring.ticker import Ticker
+
+Disturbances = Mapping[int, int]  # by tick: requests as bits of the mailbox, or below 0 a gap of so many periods
+
+
+def ran(ticker: Ticker, program: NDArray[np.void], disturbances: Disturbances, ticks: int) -> Ticker:
+    """The program fed as a desk does, disturbed at these ticks; to where nothing goes on, or for so many ticks."""
+    m, put, times = ticker.controller, 0, sorted(disturbances)
+    going_on = True
+    while going_on and m.tick < ticks:
+        put += ticker.queue.put(program[put:][: ticker.queue.room])
+        if times and times[0] == m.tick:
+            disturb(ticker, disturbances[times.pop(0)])
+        before = m.tick
+        ticker.turn(ticker.over, min([ticks, *times[:1]]))
+        idle = ticker.over() and not times and (m.fault or not len(ticker.queue))
+        going_on = m.tick > before and not idle
+    return ticker
+
+
+def disturb(ticker: Ticker, what: int) -> None:
+    """Requests or a gap, before the next tick."""
+    if what < 0:
+        ticker.controller.gap = -what
+    for request in Request:
+        if what > 0 and what >> request & 1:
+            ticker.requests.post(request)
+
+
+def twins(machine: Machine, program: NDArray[np.void], disturbances: Disturbances, ticks: int
+          ) -> tuple[Ticker, FastTicker]:  # fmt: skip
+    """The law and the fast one, after the same."""
+    slow, fast = Ticker.simulated(machine, traced=True), FastTicker.ideal(machine, traced=True)
+    return ran(slow, program, disturbances, ticks), ran(fast, program, disturbances, ticks)
+
+
+def trace(ticker: Ticker) -> Trace:
+    """The record of a ticker."""
+    finished = ticker.finished_trace([])
+    assert finished is not None
+    return finished
+
+
+def remembered(ticker: Ticker) -> dict[str, Any]:
+    """All that a ticker, its controller and its plant would go on from."""
+    m, plant = ticker.controller, ticker.plant
+    assert plant is not None
+    told = {name: value for name, value in vars(m).items() if isinstance(value, int)}
+    told |= {f"command.{slot}": getattr(m.command, slot) for slot in m.command.__slots__}
+    told |= {f"line.{slot}": getattr(m.line, slot) for slot in ("lead_reach", "reach", "error", "joins")}
+    for number, axis in enumerate(m.axes):
+        told |= {f"{number}.{slot}": getattr(axis, slot) for slot in Axis.__slots__ if slot not in ("ramp", "line")}
+        told[f"{number}.led by"] = axis.line is not None
+        told[f"{number}.rotor"] = {k: v for k, v in vars(plant.rotors[number]).items() if k != "equilibrium"}
+        told[f"{number}.sensors"] = [dict(vars(sensor)) for sensor in plant.carriages[number].sensors]
+    told |= {name: value for name, value in vars(plant).items() if isinstance(value, int)}
+    told |= {"holes": ticker.touched, "status": ticker.report().tobytes(), "waiting": len(ticker.queue)}
+    return told
