@@ -6,7 +6,9 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
     inspect.py  what a drill file says           convert.py   a clean file, or a queue, from it
     replay.py   traces again                     tables.py    machines, and checking tables
     latency.py  how punctual this computer is    options.py   machine and tables
-    jobs.py     the options of a job         screen.py    work at the machine; what no verb means
+    jobs.py     the options of a job         operating.py the operator at the terminal while a job runs
+    screen.py   work at the machine; what no verb means      scope.py    a trace on the screen
+    benches.py  the screens that edit and look
 """
 
 import argparse
@@ -16,12 +18,12 @@ from collections.abc import Sequence
 from typing import NoReturn, TextIO
 
 from drillctl import __version__
-from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, screen, tables
+from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, scope, screen, tables
 from drillctl.wiring.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen)
+VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "

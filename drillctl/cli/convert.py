@@ -1,4 +1,6 @@
-"""``drillctl convert FILE --to OUT``: a clean Excellon file, or a ``.kmd`` queue, from whatever was read."""
+"""``drillctl convert FILE --to OUT``: a clean Excellon file, or a ``.kmd`` queue, from whatever was read; or a trace in
+its other form.
+"""
 
 import argparse
 import sys
@@ -6,12 +8,15 @@ from pathlib import Path
 
 from drillctl.cli import jobs, options
 
+TRACES = (".trace", ".seg")
+
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("convert", help="write a clean Excellon file or a queue", description=__doc__)
-    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program")
-    verb.add_argument("--to", type=Path, required=True, metavar="OUT", help="OUT.kmd: a queue; else an Excellon file")
+    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program; a trace")
+    to = "OUT.kmd: a queue; OUT.trace, OUT.seg: a trace as text, in segments; else an Excellon file"
+    verb.add_argument("--to", type=Path, required=True, metavar="OUT", help=to)
     verb.add_argument("--style", default="mm,decimal", metavar="F", help="of the Excellon file; default: %(default)s")
     options.add_machine(verb)
     jobs.add_job(verb)
@@ -22,6 +27,8 @@ def call(arguments: argparse.Namespace) -> int:
     """The whole text is made first; then the file is written, or nothing is."""
     from drillctl.wiring.outputs import reserved
 
+    if arguments.to.suffix.lower() in TRACES:
+        return _trace(arguments)
     text, warnings = _queue(arguments) if arguments.to.suffix.lower() == ".kmd" else _excellon(arguments)
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         for warning in warnings:
@@ -31,10 +38,24 @@ def call(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
-    from drillctl.generation.job import load_job, queue_text
+def _trace(arguments: argparse.Namespace) -> int:
+    """Segments as small as the tables at hand let them be."""
+    from drillctl.wiring.outputs import reserved
+    from drillctl.wiring.replay import in_form_of, machine_of
+    from drillctl.wiring.trace_files import read_trace, write_record
 
-    job = load_job(arguments.file, options.machine(arguments), jobs.wishes(arguments), arguments.format)
+    trace = read_trace(arguments.file)
+    machine = machine_of(trace, arguments.file, options.library(arguments))
+    with reserved([arguments.to], inputs=[arguments.file]) as (output,):
+        assert output is not None
+        write_record(in_form_of(arguments.to, trace, machine), output)
+    return 0
+
+
+def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
+    from drillctl.generation.job import queue_text
+
+    job = jobs.load(arguments.file, jobs.recipe(arguments), options.machine(arguments))
     return queue_text(job), list(job.warnings)
 
 

@@ -12,6 +12,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb = verbs.add_parser("estimate", help="say how long a job will take", description=__doc__)
     verb.add_argument("job", type=Path, metavar="FILE", help="a drill file, or a queue of KMD commands (.kmd)")
     options.add_machine(verb)
+    options.add_engine(verb)
     verb.add_argument("--json", action="store_true", help="print one JSON object")
     jobs.add_job(verb)
     verb.set_defaults(call=call)
@@ -19,11 +20,10 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Everything that ``run`` would refuse is refused here too; a job that would end in a fault is told so (exit 1)."""
-    from drillctl.generation.job import load_job
     from drillctl.ui.summary import estimate_lines
     from drillctl.wiring.estimate import estimate
 
     machine = options.machine(arguments)
-    told = estimate(load_job(arguments.job, machine, jobs.wishes(arguments), arguments.format))
+    told = estimate(jobs.load(arguments.job, jobs.recipe(arguments), machine), arguments.engine)
     print(json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(estimate_lines(told)))
     return 1 if told.fault else 0

@@ -11,6 +11,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb = verbs.add_parser("replay", help="run traces again and compare", description=__doc__)
     verb.add_argument("traces", nargs="+", type=Path, metavar="TRACE", help="what run --trace wrote")
     options.add_tables(verb)
+    options.add_engine(verb)
     verb.add_argument("--same-tables", action="store_true", help="other tables than the recorded ones are a failure")
     verb.set_defaults(call=call)
 
@@ -22,7 +23,7 @@ def call(arguments: argparse.Namespace) -> int:
     library = options.library(arguments)
     differing = 0
     for file in arguments.traces:
-        verdict = replay(file, library)
+        verdict = replay(file, library, arguments.engine)
         failed = verdict.failed(arguments.same_tables)
         differing += failed
         print(f"{file}: {'DIFFERS' if failed else 'same'}, {verdict.remark()}")

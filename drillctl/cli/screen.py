@@ -2,14 +2,14 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options
+from drillctl.cli.benches import Benches
 
 if TYPE_CHECKING:
-    from drillctl.machine import Library
-    from drillctl.station.station import Station
-    from drillctl.ui.app import Maker
+    from drillctl.panel.scope import ScopeSource
 
 
 class ScreenError(Exception):
@@ -19,47 +19,56 @@ class ScreenError(Exception):
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("screen", help="work on the screen; no verb means this", description=__doc__)
-    options.add_machine(verb)
-    options.add_running(verb)
-    verb.add_argument("--lang", choices=("en", "pl"), help="default: as LANG says")
-    verb.add_argument("--theme", choices=("colour", "light", "mono"), default="colour", help="default: %(default)s")
+    add_options(verb)
     verb.set_defaults(call=call)
 
 
+def add_options(verb: argparse.ArgumentParser) -> None:
+    """Which machine, how it is run, how it is drawn."""
+    options.add_machine(verb)
+    options.add_running(verb)
+    options.add_tools(verb, "ask on a real port, and where the machine's file says MANUAL")
+    verb.add_argument("--lang", choices=("en", "pl"), help="default: as LANG says")
+    verb.add_argument("--theme", choices=("colour", "light", "mono"), default="colour", help="default: %(default)s")
+
+
 def call(arguments: argparse.Namespace) -> int:
-    """Every way out closes the console: the outputs are safe, and what was started has ended."""
+    """Until the operator leaves."""
+    check_terminal()
+    return work(arguments)
+
+
+def check_terminal() -> None:
+    """Raises ScreenError where there is none."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise ScreenError("the screen needs a terminal; for a pipe or a script there are verbs: drillctl --help")
+
+
+def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int:
+    """Every way out closes the console: the outputs are safe, and what was started has ended.
+
+    run  is what the scope shows, which then is the screen in front
+    """
     from drillctl.station.station import Station
     from drillctl.ui import words
     from drillctl.ui.app import App
-    from drillctl.wiring.machinery import Running
+    from drillctl.wiring.interrupts import remembered
+    from drillctl.wiring.machinery import SIMULATED
 
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
     words.use(arguments.lang or words.language_of(), plain)
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
     library = options.library(arguments)
-    station = Station(library, options.machine(arguments), Running(arguments.port, pace))
+    running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace)
+    station = Station(
+        library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)
+    )
     try:
-        App(station, arguments.theme, plain, _benches(library, station, plain)).run()
+        app = App(station, arguments.theme, plain, Benches(library, station, plain, run).makers())
+        if run is not None:
+            app.show("scope")
+        with remembered() as interrupts:
+            app.run(interrupts)
     finally:
         station.close()
     return 0
-
-
-def _benches(library: "Library", station: "Station", plain: bool) -> "dict[str, Maker]":
-    """The screens that edit, by their names in the menus."""
-    from drillctl.machine.library import user_tables
-    from drillctl.station.queuebench import QueueBench
-    from drillctl.station.workbench import Workbench
-    from drillctl.ui.screens.queue_editor import QueueEditor
-    from drillctl.ui.screens.table_list import TableList
-
-    tables = Workbench(library, user_tables())
-    queues = QueueBench(lambda: station.machine)
-    return {
-        "phase_editor": lambda console, shell: TableList(console, shell, tables, "phase", plain),
-        "ramp_editor": lambda console, shell: TableList(console, shell, tables, "ramp", plain),
-        "configuration": lambda console, shell: TableList(console, shell, tables, "machines", plain),
-        "queue_editor": lambda console, shell: QueueEditor(console, shell, queues),
-    }

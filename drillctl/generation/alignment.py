@@ -62,7 +62,8 @@ class Parts:
 class Alignment:
     """What the measured holes say. `kind` is a key of HOLES_NEEDED; `residual_mm` (n,) is each hole's
     distance from where the map puts it; `length_ratio` is measured over file size along the holes' main
-    direction; `span_mm` is the size of the box around them in the file, corner to corner."""
+    direction; `span_mm` is the size of the box around them in the file, corner to corner; `rejected` are the
+    warnings that no measurement of this board can call forth."""
 
     affine: Affine
     kind: str
@@ -70,6 +71,7 @@ class Alignment:
     length_ratio: float
     span_mm: float
     warnings: tuple[str, ...]
+    rejected: tuple[str, ...] = ()
 
     @property
     def rms_mm(self) -> float:
@@ -160,7 +162,8 @@ def fit(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike, *, mirrored: bool = Fal
         span_mm=span_mm,
         warnings=(),
     )
-    return replace(alignment, warnings=tuple(_doubts(alignment, mirrored)))
+    rejected = tuple(_contradictions(alignment, mirrored))
+    return replace(alignment, warnings=(*_hints(alignment), *rejected), rejected=rejected)
 
 
 def decompose(affine: Affine) -> Parts:
@@ -229,13 +232,17 @@ def _fit_affine(file_mm: Millimetres, machine_mm: Millimetres) -> Affine:
     return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
 
 
-def _doubts(alignment: Alignment, mirrored: bool) -> Iterator[str]:
-    """Whatever makes the measurement implausible, a sentence each."""
-    parts = decompose(alignment.affine)
+def _hints(alignment: Alignment) -> Iterator[str]:
+    """How the measurement could be better, a sentence each."""
     if alignment.kind == "rigid" and alignment.spare_holes > 0:
         yield "the holes lie on one line, so only shift and turn were fitted; for scale measure one beside it"
     if alignment.span_mm < SHORT_SPAN_MM:
         yield f"the holes lie within {alignment.span_mm:.1f} mm: the turn is uncertain; take holes far apart"
+
+
+def _contradictions(alignment: Alignment, mirrored: bool) -> Iterator[str]:
+    """Whatever makes the measurement implausible, a sentence each."""
+    parts = decompose(alignment.affine)
     scales = {"along the holes": alignment.length_ratio}
     if alignment.kind == "affine":
         scales = {"in x": parts.scale_x, "in y": parts.scale_y}

@@ -4,6 +4,7 @@ Rule: whatever is wrong with the input is found here, before a queue or a port e
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -49,15 +50,21 @@ class Job:
 
     def made_hole(self, tool: int, tag: int, places: tuple[float, ...]) -> MadeHole:
         """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis."""
-        board_mm = [self._place_mm("x", places), self._place_mm("y", places)]
         group, placed = self._hole(tag)
-        x_mm, y_mm = placed.inverse().apply([board_mm])[0].tolist()
+        x_mm, y_mm = placed.inverse().apply_one(self._place_mm("x", places), self._place_mm("y", places))
         return MadeHole(group.number if group else tool, group.diameter_mm if group else None, x_mm, y_mm)
 
     def _place_mm(self, name: str, places: tuple[float, ...]) -> float:
         """From machine zero; 0 on a machine without such an axis, which a queue may run on."""
-        axis = self.machine.axis_index(name)
-        return 0.0 if axis is None else places[axis] / self.machine.axes[axis].steps_per_mm
+        axis, steps_per_mm = self._scales[name]
+        return 0.0 if axis is None else places[axis] / steps_per_mm
+
+    @cached_property
+    def _scales(self) -> dict[str, tuple[int | None, float]]:
+        """Axis and scale of X and Y, which are asked for at every hole."""
+        indexes = {name: self.machine.axis_index(name) for name in ("x", "y")}
+        axes = self.machine.axes
+        return {name: (i, 1.0 if i is None else axes[i].steps_per_mm) for name, i in indexes.items()}
 
     def hole_number(self, drilled: int) -> int:
         """The number in the whole job of the hole that this program drills as its ``drilled``-th, from 1."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,12 +65,25 @@ class Affine:
         points_mm = np.asarray(xy_mm, np.float64).reshape(-1, 2)
         return points_mm @ self.linear.T + self.shift_mm
 
+    def apply_one(self, x_mm: float, y_mm: float) -> tuple[float, float]:
+        """Map one point: for many that come one by one."""
+        a, b, c, d, e, f = self._numbers
+        return a * x_mm + b * y_mm + c, d * x_mm + e * y_mm + f
+
+    @cached_property
+    def _numbers(self) -> list[float]:
+        return self.matrix.ravel().tolist()
+
     def then(self, after: Affine) -> Affine:
         """This map first, `after` on its result."""
         return Affine.of(after.linear @ self.linear, after.linear @ self.shift_mm + after.shift_mm)
 
     def inverse(self) -> Affine:
         """The way back. Raises PlacingError if the map flattens the plane, so that there is none."""
+        return self._inverse
+
+    @cached_property
+    def _inverse(self) -> Affine:
         if abs(np.linalg.det(self.linear)) < 1e-12:
             raise PlacingError("the map presses the board flat onto a line; there is no way back from it")
         back = np.linalg.inv(self.linear)

@@ -1,4 +1,4 @@
-"""A work list as a program of KMD records: initialise, then tool by tool, hole by hole: go, down, up.
+"""A work list as a program of KMD records: initialise, take the base, then tool by tool, hole by hole: go, down, up.
 
 Rule: built with numpy, a record's ``tag`` is its hole's number from 1; where there is backlash, a hole is always
 come to from below. Called by job.py.
@@ -16,14 +16,15 @@ from drillctl.machine import Machine
 
 
 def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
-    """The program of a job, dtype RECORD: the base is machine zero; at the end the head is up and back at it."""
+    """The program of a job, dtype RECORD; at the end the head is up and back at the working base."""
     spindle = dict(machine.outputs).get("spindle")
     drill = drill_stroke(machine, wishes.peck_mm)
     passes = [drill] if wishes.spot_mm is None else [spot_stroke(machine, wishes.spot_mm), drill]
-    parts = [record(Op.INICJALIZACJA), *_switch(spindle, 1), *_spin_up(machine, spindle)]
+    parts = [record(Op.INICJALIZACJA), *_base(wishes, machine)]
     here = np.zeros(2, np.int64)
     for group in work.groups:
-        parts.append(record(Op.NARZEDZIE, [group.number]))
+        parts += [*_switch(spindle, 0), record(Op.NARZEDZIE, [group.number])]  # hands are at the chuck meanwhile
+        parts += [*_switch(spindle, 1), *_spin_up(machine, spindle)]
         for stroke in passes:
             parts.append(_holes(work, group, stroke, here, machine))
             here = work.steps[group.stop - 1]
@@ -31,6 +32,13 @@ def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
     program = np.concatenate(parts)
     program["sequence"] = np.arange(1, len(program) + 1)
     return program
+
+
+def _base(wishes: Wishes, machine: Machine) -> list[Records]:
+    """Initialisation leaves the base at machine zero; one elsewhere is gone to and taken again."""
+    if not any(wishes.base_steps):
+        return []
+    return [_gotos(np.array([wishes.base_steps], np.int64), machine), record(Op.BAZA)]
 
 
 def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:

@@ -17,6 +17,8 @@ LEAST_PECK_MM = 0.05
 class Wishes:
     """Order is 'file', 'nearest' or 'optimised'; peck and spot are depths below the board's surface, None = none.
 
+    base_steps  the working base that the job is drilled from: X and Y from machine zero
+
     Raises JobError for a depth that would never come to an end.
     """
 
@@ -26,6 +28,7 @@ class Wishes:
     drills: DrillTable | None = None
     peck_mm: float | None = None
     spot_mm: float | None = None
+    base_steps: tuple[int, int] = (0, 0)
 
     def __post_init__(self) -> None:
         for name, depth_mm in (("--peck", self.peck_mm), ("--spot", self.spot_mm)):

@@ -82,7 +82,7 @@ def build(drill_file: DrillFile, wishes: Wishes, machine: Machine) -> WorkList:
     for board, placed in enumerate(maps):
         placed_mm[hits.board == board] = placed.apply(hits.xy_mm[hits.board == board])
     steps = np.rint(placed_mm * scale).astype(np.int64)
-    _check_reach(drill_file, hits, steps, machine, axes)
+    _check_reach(drill_file, hits, steps, wishes.base_steps, machine)
     groups = _groups(drill_file, hits, wishes)
     order = _order(groups, steps, wishes.order, machine, axes)
     return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1))
@@ -168,9 +168,10 @@ def _travel(machine: Machine, axis: int, longest_steps: int) -> Integers:
 
 
 def _check_reach(
-    drill_file: DrillFile, hits: Hits, steps: Integers, machine: Machine, axes: tuple[int, int]
+    drill_file: DrillFile, hits: Hits, steps: Integers, base_steps: tuple[int, int], machine: Machine
 ) -> None:
-    reach = np.array([_reach(machine, axis) for axis in axes])
+    """``steps`` and what is told of them count from the working base."""
+    reach = np.array([_reach(machine, axis) for axis in positioning_axes(machine)]) - np.array([base_steps]).T
     outside = (steps < reach[:, 0]) | (steps > reach[:, 1])
     problems = []
     for hole in np.flatnonzero(outside.any(axis=1)).tolist():

@@ -2,13 +2,16 @@
 
     model.py    a machine as everyone else sees it
     phase.py    phase tables         ramp.py   the automaton and its one rule       motor.py   what pulls a rotor
+    dynamics.py what the dynamic plant must know of a motor and its load
     config.py   machine files        shape.py   what may stand in one       parts.py   the tables that one names
     library.py  where all these are found                                   hazards.py valid but dangerous
     travel.py   what follows from a ramp alone             settings.py   what the configuration screen shows
-    edit.py     values changed in a table's text, comments kept
+    edit.py     values changed in a table's text, comments kept     edit_ramp.py   a ramp's states added, taken away
+    bundle.py   a machine with its tables as one text
     source.py   a TOML file that can say on which line a fault stands               errors.py  TableError
 """
 
+from drillctl.machine.dynamics import Dynamics
 from drillctl.machine.errors import TableError
 from drillctl.machine.library import Library, machine_hazards, shipped_tables
 from drillctl.machine.model import AxisTable, HomingStep, Machine, Sensor
@@ -18,6 +21,6 @@ from drillctl.machine.ramp import RampTable
 from drillctl.machine.travel import intervals, travel_table, travel_ticks
 
 __all__ = [
-    "AxisTable", "HomingStep", "Library", "Machine", "Motor", "PhaseTable", "RampTable", "Sensor", "TableError",
-    "intervals", "machine_hazards", "shipped_tables", "travel_table", "travel_ticks",
+    "AxisTable", "Dynamics", "HomingStep", "Library", "Machine", "Motor", "PhaseTable", "RampTable", "Sensor",
+    "TableError", "intervals", "machine_hazards", "shipped_tables", "travel_table", "travel_ticks",
 ]  # fmt: skip

@@ -8,14 +8,15 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
-from drillctl.machine.model import AxisTable, Configuration, HomingStep, Machine, Sensor
+from drillctl.machine.model import AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
+from drillctl.machine.settings import settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
 
 # Names that a trace gives to its own signals and scopes: an axis of such a name could not be told from them.
-TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "late", "fault", "sensors", "plant"})
+TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "sensors", "plant"})
 
 
 def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
@@ -26,6 +27,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     axes = tuple(_axis(source, raw, index, wiring, parts) for index in range(len(raw.axis)))
     _check_wiring(source, wiring, outputs, axes)
     _check_inputs(source, raw)
+    _check_locked(source, raw)
     names = [axis.name for axis in axes]
     sensors = tuple(_sensor(source, raw, index, axes) for index in range(len(raw.sensor)))
     drill = raw.drill or DrillPart(axes=[names[-1]])
@@ -46,6 +48,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         board_surface=_surfaces(source, raw.plant.board_surface, names),
         files=tuple(map(str, parts.files)),
         shipped=shipped,
+        surroundings=Surroundings(raw.plant.scatter_mm, raw.plant.thrust_n, raw.plant.thrust_growth),
     )
 
 
@@ -68,6 +71,7 @@ def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int
     phase = parts.phase(row.phase, source, ("axis", index, "phase"))
     ramp = parts.ramp(row.ramp, source, ("axis", index, "ramp"))
     motor = parts.motor(row.motor, phase, source, ("axis", index, "motor"))
+    dynamics = parts.dynamics(row.dynamics, motor, phase, source, ("axis", index, "dynamics"))
     low, high = row.range
     if low > 0 or high <= 0:
         reason = f"axis {row.name}: range {low}..{high} must reach from 0 or below to above 0"
@@ -81,7 +85,7 @@ def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int
     bits = tuple(_wire_bit(source, wiring, f"{row.name}.{wire}") for wire in phase.wire_names())
     return AxisTable(
         row.name, phase, ramp, motor, row.columns_per_step, row.columns_per_inch,
-        low, high, row.start, row.invert, bits, row.backlash,
+        low, high, row.start, row.invert, bits, row.backlash, dynamics,
     )  # fmt: skip
 
 
@@ -113,6 +117,15 @@ def _check_inputs(source: Source, raw: MachineFile) -> None:
             reason = f"sensor {sensor.name}: input bit {sensor.bit} is {taken[sensor.bit]}'s already"
             raise source.error(reason, "sensor", index, "bit")
         taken[sensor.bit] = sensor.name
+
+
+def _check_locked(source: Source, raw: MachineFile) -> None:
+    if not raw.locked:
+        return
+    known = frozenset(name for setting in settings_of(raw) for name in setting.names)
+    for name in raw.locked:
+        if name not in known:
+            raise source.error(f"locked: no setting is named {name!r}; there are {', '.join(sorted(known))}", "locked")
 
 
 def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -> None:

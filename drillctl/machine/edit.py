@@ -12,9 +12,8 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Integer
 
 from drillctl.machine.errors import TableError
+from drillctl.machine.source import Place, Value
 
-Place = tuple[str | int, ...]
-Value = str | int | float
 UNSAVED = "table"  # what errors call a text that has no file yet
 
 
@@ -23,7 +22,7 @@ def set_value(text: str, place: Place, value: Value) -> str:
 
     A key that is not written yet is added to its table, and so is a table of the first level.
     """
-    document = _opened(text)
+    document = opened(text)
     if isinstance(place[0], str) and len(place) > 1 and place[0] not in document:
         document[place[0]] = tomlkit.table()
     inner = _inside(document, place[:-1])
@@ -40,14 +39,14 @@ def set_pattern(text: str, wire: str, pattern: str) -> str:
 
 def set_reverse(text: str, patterns: Mapping[str, str]) -> str:
     """The patterns of motion backwards, by wire; none take the ``[[reverse]]`` rows away."""
-    document = _opened(text)
+    document = opened(text)
     rows = document.get("reverse", ())
     if list(patterns) == [row["name"] for row in rows]:
         for row in rows:
             row["pattern"] = patterns[row["name"]]
         return tomlkit.dumps(document)
     if document.pop("reverse", None) is not None:
-        document = _opened(tomlkit.dumps(document).rstrip() + "\n")  # without the empty line that stood above
+        document = opened(tomlkit.dumps(document).rstrip() + "\n")  # without the empty line that stood above
     if patterns:
         document["reverse"] = _reverse_rows(patterns)
     return tomlkit.dumps(document)
@@ -66,7 +65,8 @@ def _reverse_rows(patterns: Mapping[str, str]) -> AoT:
     return rows
 
 
-def _opened(text: str) -> tomlkit.TOMLDocument:
+def opened(text: str) -> tomlkit.TOMLDocument:
+    """A text to be changed. Raises TableError for what is not TOML."""
     try:
         return tomlkit.parse(text)
     except TOMLKitError as error:
@@ -97,7 +97,7 @@ def _as_written(inner: Any, key: str | int, value: Value) -> Any:
 
 
 def _row_of(text: str, rows: str, key: str, wanted: str | int) -> int:
-    for index, row in enumerate(_opened(text).get(rows, ())):
+    for index, row in enumerate(opened(text).get(rows, ())):
         if row.get(key) == wanted:
             return index
     raise TableError(UNSAVED, f"no [[{rows}]] has {key} {wanted}")

@@ -1,9 +1,11 @@
 """Valid tables that are dangerous: loaded with a warning, since trying that in simulation is what the lab is for.
 
-Rule: never raises; says which columns, counted from 1 as the paper does. Called by library.check and the editors.
+Rule: never raises; says which columns, counted from 1 as the paper does; rows of their own for motion backwards are
+looked at as well. Called by library.check and the editors.
 """
 
 from collections.abc import Iterator
+from itertools import compress
 
 from drillctl.machine.motor import Motor
 from drillctl.machine.phase import PhaseTable
@@ -13,17 +15,23 @@ def phase_hazards(table: PhaseTable, motor: Motor) -> list[str]:
     """One sentence for each hazard of a phase table on a motor; empty for a sound one or a pulse drive."""
     if motor.pulse:
         return []
-    patterns = [_on(table, column) for column in range(table.columns)]
+    forward = _patterns(table, [wire.forward for wire in table.wires])
+    backward = _patterns(table, [wire.backward for wire in table.wires])
+    own = _dangers(table, motor, backward) if backward != forward else ()
     return [
-        *_both_halves(motor, patterns),
-        *_forcing_alone(table, patterns),
-        *_bad_jumps(motor, patterns),
-        *_wrong_length(table, motor),
-    ]
+        *_dangers(table, motor, forward), *_wrong_length(table, motor), *(f"backwards, {danger}" for danger in own)
+    ]  # fmt: skip
 
 
-def _on(table: PhaseTable, column: int) -> frozenset[str]:
-    return frozenset(wire.name for wire in table.wires if wire.forward[column])
+def _patterns(table: PhaseTable, rows: list[tuple[bool, ...]]) -> list[frozenset[str]]:
+    """The wires that are on, column by column."""
+    names = table.wire_names()
+    return [frozenset(compress(names, column)) for column in zip(*rows, strict=True)]
+
+
+def _dangers(table: PhaseTable, motor: Motor, patterns: list[frozenset[str]]) -> list[str]:
+    """Of the columns in one direction of motion; a jump is as long whichever way it is gone."""
+    return [*_both_halves(motor, patterns), *_forcing_alone(table, patterns), *_bad_jumps(motor, patterns)]
 
 
 def _both_halves(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[str]:

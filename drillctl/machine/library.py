@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drillctl.machine.config import parse_machine
+from drillctl.machine.dynamics import parse_dynamics
 from drillctl.machine.errors import TableError
 from drillctl.machine.hazards import phase_hazards
 from drillctl.machine.model import Machine
@@ -35,7 +36,7 @@ def user_tables() -> Path:
 
 @dataclass(frozen=True)
 class Library:
-    """The folders that are searched, first to last; each may hold phase/, ramp/, motor/ and machines/."""
+    """The folders that are searched, first to last; each may hold phase/, ramp/, motor/, dynamics/ and machines/."""
 
     folders: tuple[Path, ...]
 
@@ -54,7 +55,7 @@ class Library:
         return self.names("machines")
 
     def names(self, kind: str) -> list[str]:
-        """The names of all tables of a kind (phase, ramp, motor, machines) that can be found, sorted."""
+        """The names of all tables of a kind (phase, ramp, motor, dynamics, machines) that can be found, sorted."""
         return sorted({file.stem for folder in self.folders for file in (folder / kind).glob("*.toml")})
 
     def find(self, kind: str, name: str) -> Path | None:
@@ -82,7 +83,7 @@ class Library:
             if key in written:
                 return hazards(self, source)
         kinds = "a phase table has [[wire]], a ramp [[state]], a motor [windings], a machine [[axis]]"
-        raise TableError(source.file, f"no table of this program: {kinds}")
+        raise TableError(source.file, f"no table of this program: {kinds}, dynamics have inertia_kgm2")
 
     def _machine_of(self, source: Source) -> Machine:
         """A machine given by its file: the tables beside it come first."""
@@ -107,6 +108,10 @@ class Library:
         parse_motor(source)
         return []
 
+    def _dynamics_hazards(self, source: Source) -> list[str]:
+        parse_dynamics(source)
+        return []
+
 
 # What a table is, by a key that only its kind has.
 _KINDS: Mapping[str, Callable[[Library, Source], list[str]]] = {
@@ -115,6 +120,7 @@ _KINDS: Mapping[str, Callable[[Library, Source], list[str]]] = {
     "axis": Library._machine_hazards,
     "windings": Library._motor_hazards,
     "pulse": Library._motor_hazards,
+    "inertia_kgm2": Library._dynamics_hazards,
 }
 
 

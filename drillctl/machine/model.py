@@ -6,9 +6,10 @@ Positions, ranges and edges are steps from machine zero; ``columns`` are columns
 
 import hashlib
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from drillctl.machine.dynamics import Dynamics
 from drillctl.machine.motor import Motor
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
@@ -33,6 +34,7 @@ class AxisTable:
     invert: bool
     wire_bits: tuple[int, ...]
     backlash_steps: int = 0
+    dynamics: Dynamics | None = field(default=None, repr=False)  # the plant's alone: not told in the digest
 
     @property
     def steps_per_mm(self) -> float:
@@ -81,6 +83,20 @@ class Configuration:
 
 
 @dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What the dynamic plant meets beside its motors.
+
+    scatter_mm       standard deviation of where a sensor answers
+    thrust_n         what a sharp drill needs to advance in the board
+    thrust_growth    by how much of that it grows with each metre of board drilled
+    """
+
+    scatter_mm: float = 0.0
+    thrust_n: float = 0.0
+    thrust_growth: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Machine:
     """Everything a machine's file says, with its phase, ramp and motor tables in place of their names."""
 
@@ -98,6 +114,7 @@ class Machine:
     board_surface: tuple[int | None, ...]  # by axis: where a drilling axis meets the board
     files: tuple[str, ...]  # that it was read from, its own first
     shipped: bool
+    surroundings: Surroundings = field(default=Surroundings(), repr=False)  # the plant's: not in the digest
 
     @property
     def file(self) -> str:

@@ -5,9 +5,10 @@ file, asked by config.py.
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from drillctl.machine.dynamics import Dynamics, misfit, parse_dynamics
 from drillctl.machine.motor import Motor, parse_motor
 from drillctl.machine.phase import PhaseTable, parse_phase
 from drillctl.machine.ramp import RampTable, parse_ramp
@@ -17,7 +18,7 @@ Place = tuple[str | int, ...]
 
 
 def find_table(folders: Sequence[Path], kind: str, name: str) -> Path | None:
-    """The file of a table in the first folder that has it, or None; ``kind`` is phase, ramp, motor or machines."""
+    """The file of a table in the first folder that has it, or None; ``kind`` is the folder's name."""
     if Path(name).name != name:
         return None
     files = (folder / kind / f"{name}.toml" for folder in folders)
@@ -53,18 +54,36 @@ class Parts:
             raise source.error(f"motor {name} needs wires {needs}; table {table.name} has none", *place)
         return motor
 
+    def dynamics(
+        self, name: str | None, motor: Motor, table: PhaseTable, source: Source, place: Place
+    ) -> Dynamics | None:
+        """The dynamics named, which must fit the motor and its wires; None where none is."""
+        if name is None:
+            return None
+        dynamics = parse_dynamics(self._open("dynamics", name, source, place))
+        if reason := misfit(dynamics, motor, table):
+            raise source.error(reason, *place)
+        return dynamics
+
     def _motor_for(self, wires: set[str], source: Source, place: Place) -> Motor:
-        for folder in self._folders:
-            for file in sorted((folder / "motor").glob("*.toml")):
-                motor = parse_motor(Source.read(file))
-                if motor.wire_names() == wires:
-                    self.files.append(file)
-                    return motor
+        for found in self._motors():
+            motor = parse_motor(found)
+            if motor.wire_names() == wires:
+                self.files.append(found.file)
+                return motor
         raise source.error(f"no motor has just the wires {', '.join(sorted(wires))}; name one", *place)
 
     def _open(self, kind: str, name: str, source: Source, place: Place) -> Source:
-        file = find_table(self._folders, kind, name)
-        if file is None:
+        found = self._find(kind, name)
+        if found is None:
             raise source.error(f"no {kind} table is named {name[:60]!r}", *place)
-        self.files.append(file)
-        return Source.read(file)
+        self.files.append(found.file)
+        return found
+
+    def _find(self, kind: str, name: str) -> Source | None:
+        file = find_table(self._folders, kind, name)
+        return Source.read(file) if file else None
+
+    def _motors(self) -> Iterator[Source]:
+        files = (file for folder in self._folders for file in sorted((folder / "motor").glob("*.toml")))
+        return map(Source.read, files)

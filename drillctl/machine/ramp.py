@@ -159,6 +159,13 @@ def ramp_rows(source: Source) -> list[tuple[int, int, int, int]]:
     return sorted((row.state, row.accelerate, row.brake, row.interval) for row in rows)
 
 
+def proposals(top_row: tuple[int, int, int, int]) -> Iterator[tuple[int, int, int, int]]:
+    """Rows for the state above the top one, for an editor to try: as fast as that one, braking ever earlier."""
+    state, accelerate, brake, interval = top_row
+    for further in range(1, 2 * state + 2):
+        yield state + 1, accelerate + 1, brake + further, interval
+
+
 def _rows_by_state(source: Source, raw: _File) -> dict[int, int]:
     """The index of each state's row; every state from -n to n must have just one."""
     rows: dict[int, int] = {}

@@ -1,18 +1,18 @@
 """The values of a machine's file that the configuration screen shows (the paper's Fig. 4), with what each may be.
 
-Rule: types and bounds come from shape.py, which holds files to them too; no bound is written twice.
-Called by the workbench, which turns these into what screens draw.
+Rule: types and bounds come from shape.py, which holds files to them too; no bound is written twice. What ``locked``
+names, by its key or as AXIS.KEY, is shown and not changed. Called by the workbench, which turns these into what screens
+draw, and by config.py for the names.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import msgspec
 from msgspec.inspect import FloatType, IntType, LiteralType, StructType, TupleType, Type, type_info
 
-from drillctl.machine.edit import Place, Value
 from drillctl.machine.shape import MachineFile
-from drillctl.machine.source import Source
+from drillctl.machine.source import Place, Source, Value
 
 # In the paper's order; those of an axis stand once for each.
 CARD_PLACES: tuple[Place, ...] = (
@@ -42,6 +42,17 @@ class Setting:
     least: float | None = None
     greatest: float | None = None
     above: float | None = None  # must be greater than this
+    locked: bool = False
+
+    @property
+    def key(self) -> str:
+        """What the file calls it; the two ends of a range are one key."""
+        return next(part for part in reversed(self.place) if isinstance(part, str))
+
+    @property
+    def names(self) -> frozenset[str]:
+        """What ``locked`` may call it."""
+        return frozenset({self.key, f"{self.axis}.{self.key}"} if self.axis else {self.key})
 
     def parsed(self, typed: str) -> Value:
         """What was typed, as the file will hold it. Raises ValueError, in words, where it can't be that."""
@@ -68,12 +79,17 @@ class Setting:
 
 def settings(source: Source) -> tuple[Setting, ...]:
     """All settings of a machine's text, in the order of the screen. Raises TableError for a text of wrong shape."""
-    raw = source.records(MachineFile)
+    return settings_of(source.records(MachineFile))
+
+
+def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
+    """As ``settings``, for a file whose shape was checked."""
     axes: list[tuple[Place, str]] = [
         (("axis", index, *place), row.name) for index, row in enumerate(raw.axis) for place in AXIS_PLACES
     ]
     places = [*((place, "") for place in CARD_PLACES), *axes, *((place, "") for place in OTHER_PLACES)]
-    return tuple(_setting(raw, place, axis) for place, axis in places)
+    found = (_setting(raw, place, axis) for place, axis in places)
+    return tuple(replace(setting, locked=bool(setting.names & set(raw.locked))) for setting in found)
 
 
 def _setting(raw: MachineFile, place: Place, axis: str) -> Setting:

@@ -35,6 +35,7 @@ class AxisRow(Strict, frozen=True):
     start: Steps = 0
     invert: bool = False
     motor: str | None = None
+    dynamics: str | None = None
     backlash: Annotated[int, msgspec.Meta(ge=0, le=100_000)] = 0
 
 
@@ -81,6 +82,9 @@ class PlantPart(Strict, frozen=True):
     """``[plant]``: what a simulation must know beyond the ports."""
 
     board_surface: dict[str, Any] = {}  # of Steps
+    scatter_mm: Annotated[float, msgspec.Meta(ge=0, le=1)] = 0
+    thrust_n: Annotated[float, msgspec.Meta(ge=0, le=10_000)] = 0
+    thrust_growth: Annotated[float, msgspec.Meta(ge=0, le=1000)] = 0
 
 
 class MachineFile(Strict, frozen=True):
@@ -92,6 +96,7 @@ class MachineFile(Strict, frozen=True):
     wiring: dict[str, Any]  # of Bit
     description: str = ""
     emergency_stop: Literal["drop", "hold"] = "drop"
+    locked: list[str] = []  # names of settings that the configuration screen may not change
     configuration: ConfigurationPart = ConfigurationPart()
     sensor: list[SensorRow] = []
     outputs: dict[str, Any] = {}  # of Bit

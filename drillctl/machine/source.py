@@ -16,6 +16,8 @@ import msgspec
 from drillctl.machine.errors import TableError
 
 LARGEST_TABLE_BYTES = 256 * 1024
+Place = tuple[str | int, ...]  # of a value in a file, such as ("axis", 0, "range", 1)
+Value = str | int | float
 RecordT = TypeVar("RecordT", bound=msgspec.Struct)
 
 _HEADER = re.compile(r"\s*\[\[?\s*([^\]]+?)\s*\]")

@@ -1,6 +1,8 @@
 """The door between what a person sees and generation: progress and outcome up, with words for every code.
 
     records.py   Estimate before a job, Progress while it runs, Outcome when it is over
+    jobs.py      what is asked of a board; recent and unfinished jobs
+    handwork.py  signals, outputs by hand, single ticks       ports.py  the port in use and a test of it
     words.py     cause and remedy of every fault
     latency.py   LatencyReport: how punctual ticks are here
 

@@ -11,6 +11,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
 from drillctl.panel.records import Estimate, FaultReport, Progress
 
 Problems = tuple[str, ...]
@@ -29,6 +30,16 @@ class AxisView:
     top_state: int
     column: int  # from 1
     wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table in x and ., lit now
+    steps_per_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class ToolWanted:
+    """A tool that the job waits for, the machine at rest; ``drill_mm``: the drill at hand that serves it."""
+
+    number: int
+    diameter_mm: float | None
+    drill_mm: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +64,9 @@ class MachineView:
     late_worst_ms: float
     fault: FaultReport | None
     notices: tuple[str, ...]
+    tool_wanted: ToolWanted | None = None
+    real_wanted: str = ""  # the port that the machine's file asks for (mode REAL) while a simulated one is in use
+    paused: bool = False  # ticks come only as they are granted (panel/handwork.py)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,30 +80,23 @@ class ToolView:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BoardView:
-    """The board that is loaded, in drilling order: xy_mm (n, 2) from the working base, tool (n,) index into tools."""
+    """The board that is loaded, in drilling order: xy_mm (n, 2) from the working base, file_xy_mm (n, 2) as its file
+    has them, tool (n,) index into tools. ``format`` is how its digits are read, ``dialect`` what such a file is called.
+    """
 
     name: str
+    file: str
     xy_mm: NDArray[np.float64]
+    file_xy_mm: NDArray[np.float64]
     tool: NDArray[np.int64]
     tools: tuple[ToolView, ...]
     format: str
+    dialect: str
     confidence: float
     reason: str
     runner_up: str
     warnings: tuple[str, ...]
     estimate: Estimate
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """How a board is to be placed and drilled: what the Files menu offers."""
-
-    format: str | None = None
-    origin: str = "base"
-    mirror: str | None = None
-    rotate_deg: float = 0.0
-    offset_mm: tuple[float, float] = (0.0, 0.0)
-    order: str = "file"
 
 
 class Console(Protocol):
@@ -113,8 +120,26 @@ class Console(Protocol):
     def choose_machine(self, name: str) -> Problems:
         """Another machine, from its start position. Refused while something moves."""
 
+    def go_real(self) -> Problems:
+        """The machine on the port that its file asks for. Refused while something moves."""
+
     def load(self, file: str, asked: Asked) -> Problems:
         """Reads a drill file and plans it. Refused with its reasons; the board loaded before then stays."""
+
+    def align(self, measured: tuple[Measured, ...], face_down: bool) -> tuple[Alignment | None, Problems]:
+        """What measured holes say of where the board lies; nothing is changed."""
+
+    def recent(self) -> Sequence[RecentJob]:
+        """The drill files opened last, with their settings; the newest first."""
+
+    def unfinished(self) -> Sequence[UnfinishedJob]:
+        """Jobs that were cut off, the newest first. Looks on the disk."""
+
+    def go_on(self, journal: str) -> Problems:
+        """Initialises, goes to the same base and drills what is left. Refused where anything is not the same."""
+
+    def give_up(self, journal: str) -> Problems:
+        """An unfinished job is not gone on with: its journal goes."""
 
     def start(self, dry: bool) -> Problems:
         """Drills the board; ``dry``: goes to every hole with the drill up."""
@@ -126,13 +151,18 @@ class Console(Protocol):
         """Head up, then X=0, Y=0 by the limit sensors."""
 
     def jog(self, axis: str, steps: int) -> Problems:
-        """So many steps from here, with ramps; one jog at a time."""
+        """So many steps from here, with ramps; one further step waits. Asked as fast as a key held down repeats, it
+        is one move, until the asking ends.
+        """
 
     def go_to(self, x_mm: float, y_mm: float) -> Problems:
         """To a place from the working base, the drill up."""
 
     def set_base(self) -> Problems:
         """This place is the working base."""
+
+    def tool_changed(self) -> Problems:
+        """The tool that the job waits for is in."""
 
     def hold(self) -> Problems:
         """Brakes; the job stays."""

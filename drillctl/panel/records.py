@@ -15,6 +15,7 @@ class Progress:
     ticks: int
     machine_seconds: float
     seconds_left: float | None
+    held: bool = False  # by the operator
 
 
 @dataclass(frozen=True, slots=True)

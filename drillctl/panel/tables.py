@@ -16,10 +16,14 @@ Place = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True)
 class TableEntry:
-    """A table that can be opened. ``origin``: shipped, yours (a copy that wins), or other (a folder named first)."""
+    """A table that can be opened. ``origin``: shipped, yours (a copy that wins), or other (a folder named first).
+
+    ``ships``: one of this name comes with the program, to go back to.
+    """
 
     name: str
     origin: str
+    ships: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +86,7 @@ class FieldView:
     value: str
     choices: tuple[str, ...] = ()
     bounds: str = ""  # such as "1..100000"
+    locked: bool = False  # in the file, by whoever keeps it
 
 
 class TableDesk(Protocol):
@@ -102,6 +107,9 @@ class TableDesk(Protocol):
     def reset(self, kind: Kind, name: str) -> Problems:
         """The user's copy goes; the shipped table is in force again."""
 
+    def delete(self, kind: Kind, name: str) -> Problems:
+        """A table of the user's own that does not come with the program goes for good."""
+
     def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
         """The lines of a unified difference from the shipped table to this text; none where they are the same."""
 
@@ -119,6 +127,11 @@ class TableDesk(Protocol):
 
     def with_state(self, text: str, state: int, field: str, value: int) -> str:
         """The text with one number of a state changed: accelerate, brake or interval."""
+
+    def with_top(self, text: str, higher: bool) -> str:
+        """The text with a pair of states more, numbers proposed, or with its outermost pair less; a ramp keeps three
+        states. The same text where that can't be.
+        """
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
         """What can be configured in a machine's text; none for a text that is no machine."""

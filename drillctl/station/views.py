@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from drillctl.generation.drillfile import read
 from drillctl.generation.job import Job, names_of
 from drillctl.kmd import Condition, to_text
-from drillctl.machine import AxisTable, Machine
+from drillctl.machine import AxisTable, Library, Machine, TableError
 from drillctl.panel import fault_report
 from drillctl.panel.console import AxisView, BoardView, MachineView, ToolView
 from drillctl.panel.records import Estimate
@@ -21,6 +21,17 @@ CONDITIONS = {
     Condition.RETURNING: "returning",
     Condition.LATCHED: "latched",
 }
+
+
+def machine_list(library: Library) -> list[tuple[str, str]]:
+    """Name and description of every machine, or why it can't be loaded."""
+    found = []
+    for name in library.machine_names():
+        try:
+            found.append((name, library.machine(name).description))
+        except TableError as error:
+            found.append((name, str(error)))
+    return found
 
 
 def machine_view(
@@ -51,6 +62,7 @@ def machine_view(
         late_worst_ms=int(status["late_worst_ns"]) / 1e6,
         fault=fault_report(code, bool(status["fault_kept"])) if code else None,
         notices=tuple(link.notices()),
+        paused=link.gate.paused,
     )
 
 
@@ -70,6 +82,7 @@ def _axis_view(axis: AxisTable, index: int, status: np.void, image: int, base_st
         top_state=axis.ramp.top,
         column=int(status["column"][index]),
         wires=wires,
+        steps_per_mm=axis.steps_per_mm,
     )
 
 
@@ -90,10 +103,13 @@ def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None) -> Boa
     tool = np.concatenate([np.full(group.stop - group.start, i) for i, group in enumerate(work.groups)])
     return BoardView(
         name=file.name,
+        file=str(file.resolve()),
         xy_mm=work.steps / scale,
+        file_xy_mm=work.hits.xy_mm,
         tool=tool.astype(np.int64),
         tools=tuple(ToolView(g.number, g.diameter_mm, g.stop - g.start) for g in work.groups),
         format=str(drill_file.format),
+        dialect=drill_file.format.dialect,
         confidence=drill_file.confidence,
         reason=drill_file.reason,
         runner_up=str(drill_file.runner_up or ""),

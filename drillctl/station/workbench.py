@@ -9,11 +9,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drillctl.machine import Library, TableError, intervals, shipped_tables
-from drillctl.machine.edit import UNSAVED, Place, set_pattern, set_reverse, set_state_row, set_value
+from drillctl.machine.edit import UNSAVED, set_pattern, set_reverse, set_state_row, set_value
+from drillctl.machine.edit_ramp import with_states, without_states
 from drillctl.machine.phase import NAME, phase_rows
-from drillctl.machine.ramp import parse_ramp, ramp_rows
+from drillctl.machine.ramp import MOST_STATES, parse_ramp, proposals, ramp_rows
 from drillctl.machine.settings import Setting, settings
-from drillctl.machine.source import Source
+from drillctl.machine.source import Place, Source
 from drillctl.machine.travel import stopping
 from drillctl.panel.console import Problems
 from drillctl.panel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
@@ -37,7 +38,8 @@ class Workbench:
 
     def tables(self, kind: Kind) -> list[TableEntry]:
         """By name."""
-        return [TableEntry(name, self._origin(kind, name)) for name in self._library.names(kind)]
+        names = self._library.names(kind)
+        return [TableEntry(name, self._origin(kind, name), self._shipped(kind, name).is_file()) for name in names]
 
     def read(self, kind: Kind, name: str) -> str:
         """From the first folder that has it."""
@@ -68,11 +70,15 @@ class Workbench:
             return ("there is no copy of your own to take away",)
         if not self._shipped(kind, name).is_file():
             return (f"{name} does not come with the program; there is nothing to go back to",)
-        try:
-            own.unlink()
-        except OSError as error:
-            return (f"{own}: can't be taken away: {error.strerror}",)
-        return ()
+        return _unlinked(own)
+
+    def delete(self, kind: Kind, name: str) -> Problems:
+        """One that comes with the program is never deleted, and reset goes back to it."""
+        if self._shipped(kind, name).is_file():
+            return (f"{name} comes with the program and stays; your own copy goes by a reset",)
+        if self._origin(kind, name) != "yours":
+            return (f"{self._library.find(kind, name)}: not in your own folder; it is not deleted from here",)
+        return _unlinked(self._own(kind, name))
 
     def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
         """From an empty file for a table that does not come with the program."""
@@ -123,6 +129,20 @@ class Workbench:
         """Comments and layout stay."""
         return set_state_row(text, state, field, value)
 
+    def with_top(self, text: str, higher: bool) -> str:
+        """Numbers are tried until every move lands exactly; where none does, the editor shows what is wrong."""
+        try:
+            rows = ramp_rows(_source(text))
+        except TableError:
+            return text
+        top = rows[-1][0]
+        if not higher:
+            return without_states(text, top) if top > 1 else text
+        if top >= MOST_STATES:
+            return text
+        tried = [with_states(text, *row) for row in proposals(rows[-1])]
+        return next((changed for changed in tried if not self.check("ramp", changed).problems), tried[0])
+
     def fields(self, text: str) -> tuple[FieldView, ...]:
         """In the order of the paper's screen."""
         try:
@@ -134,6 +154,8 @@ class Workbench:
         """Comments and layout stay, and an address in hexadecimal stays so."""
         try:
             setting = next(setting for setting in settings(_source(text)) if setting.place == place)
+            if setting.locked:
+                return text, (_locked(_source(text), setting),)
             return set_value(text, place, setting.parsed(typed)), ()
         except (TableError, ValueError) as error:
             return text, (str(error),)
@@ -163,8 +185,23 @@ def _source(text: str) -> Source:
     return Source(Path(UNSAVED), text)
 
 
+def _unlinked(own: Path) -> Problems:
+    try:
+        own.unlink()
+    except OSError as error:
+        return (f"{own}: can't be taken away: {error.strerror}",)
+    return ()
+
+
+def _locked(source: Source, setting: Setting) -> str:
+    line = source.line_of("locked")
+    return f"{setting.key} is locked in line {line} of the machine's file; whoever keeps the file opens it there"
+
+
 def _field_view(setting: Setting) -> FieldView:
-    return FieldView(setting.place, setting.axis, _shown(setting), setting.choices, _bounds(setting))
+    return FieldView(
+        setting.place, setting.axis, _shown(setting), setting.choices, _bounds(setting), setting.locked
+    )
 
 
 def _shown(setting: Setting) -> str:

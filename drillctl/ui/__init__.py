@@ -12,9 +12,14 @@ The program on the screen, in urwid:
     layers.py    dialogs and menus over the frame
     frame.py     menu bar, the line on the machine, the key line
     menus.py     the menus as a table       keys.py    the keys as tables
+    real.py      a question before a real machine is touched
+    alerts.py    faults, tool changes, mode REAL, told wherever the operator is
     dialogs.py   tell, ask, ask for text    pick.py    a line that can be chosen
+    forms.py     several fields, choices    formats.py the drill files' formats by name
+    unfinished.py  jobs that were cut off   told.py    sentences from below, translated
     shell.py     what a screen is offered   lines.py   lines of marked text in a box
     themes.py    colours by meaning         words.py   the operator's language
+    wave.py      waves in characters        phase_lines.py   a motor's phases
     screens/     Files, Drilling, and the editors
 
 May import panel.

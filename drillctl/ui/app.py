@@ -9,19 +9,24 @@ from collections.abc import Callable, Mapping, Sequence
 
 import urwid
 
-from drillctl.panel.console import Console, MachineView
+from drillctl.panel.console import Console, Problems
 from drillctl.ui import dialogs
+from drillctl.ui.alerts import Alerts
+from drillctl.ui.forms import Choice, Field, Form, offer
 from drillctl.ui.frame import MainFrame, screen_keys
-from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, called, help_lines
+from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
 from drillctl.ui.layers import Layers
 from drillctl.ui.menus import MENUS, Item, PullDown
 from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import Files
-from drillctl.ui.shell import Live, Shell
+from drillctl.ui.shell import Live, Shell, unsaved
 from drillctl.ui.themes import palette
+from drillctl.ui.told import told
+from drillctl.ui.unfinished import offer_unfinished
 from drillctl.ui.words import _
 
 BEAT_S = 0.05
+FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off
 # Of each beat, the console is given so long: a machine that runs free gets on in it, a paced one has its queue filled.
 TURNING_S = 0.01
 
@@ -43,21 +48,23 @@ class App:
             **(makers or {}),
         }
         self._made: dict[str, urwid.Widget] = {}
-        self._fault_told = 0
         first = self._screen("drilling")
         assert first is not None
         self.screens = [first]
         self.frame = MainFrame(self.screens[0])
         terminal = terminal or urwid.display.raw.Screen()
         self.layers = Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows)
+        self._alerts = Alerts(console, self.layers)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
         )
         self._refresh_top()
 
-    def run(self) -> None:
-        """Until the operator leaves."""
+    def run(self, interrupts: Sequence[int] = ()) -> None:
+        """Until the operator leaves. ``interrupts``: signals that came; one whose exception was lost ends it too."""
+        self._interrupts = interrupts
         self.loop.set_alarm_in(0, self._beat)
+        self.loop.set_alarm_in(FIRST_LOOK_S, lambda _loop, _data: offer_unfinished(self._console, self))
         self.loop.run()
 
     def turn(self) -> None:
@@ -69,15 +76,16 @@ class App:
         self.frame.show_machine(view)
         if isinstance(self.screens[-1], Live):
             self.screens[-1].refresh(view)
-        self._tell_fault(view)
+        self._alerts.show(view)
 
     def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
         """Before any widget: the emergency stop, and a new size of the terminal."""
-        if any(key in EMERGENCY.names for key in keys):
+        stops = {*EMERGENCY.names} - ({TYPED_STOP} if TYPED_STOP in keys and self._typing_at_rest() else set())
+        if stops.intersection(keys):
             self.emergency_stop()
         if "window resize" in keys:
             self.layers.restack()
-        return [key for key in keys if key not in EMERGENCY.names]
+        return [key for key in keys if key not in stops]
 
     def unhandled(self, pressed: Pressed) -> bool:
         """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""
@@ -98,6 +106,18 @@ class App:
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
         """See Shell."""
         self.layers.push_dialog(dialogs.entry(title, prompt, text, accept, self.layers.pop))
+
+    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(Form(title, fields, accept, self.layers.pop))
+
+    def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(Choice(title, lines, chosen, self.layers.pop))
+
+    def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(offer(title, lines, ways, self.layers.pop))
 
     def open(self, screen: urwid.Widget) -> None:
         """See Shell. A screen that is open already comes to the top."""
@@ -132,14 +152,23 @@ class App:
         screen = self.screens[-1]
         self.message(_("Keys"), help_lines([*screen_keys(screen), *FRAME_KEYS]))
 
+    def notices(self) -> None:
+        """What the second line has no room for."""
+        told = self._console.view().notices
+        self.message(_("Notices"), [_(notice) for notice in told] or [_("There is nothing to be said.")])
+
     def about(self) -> None:
         """What this is."""
         self.message(_("About"), [_("drillctl drives and simulates stepper-motor drilling machines.")])
 
     def leave(self) -> None:
-        """At once from a machine at rest, after a question from one at work."""
-        if self._console.view().moving:
-            self.ask(_("The machine is moving. Stop it and leave?"), _leave)
+        """At once from a machine at rest with nothing unsaved, else after a question."""
+        reasons = [_("The machine is moving. Stop it and leave?")] if self._console.view().moving else []
+        lost = {_(getattr(screen, "title", "")) for screen in [*self.screens, *self._made.values()] if unsaved(screen)}
+        if lost:
+            reasons.append(_("Not saved: {screens}. Leave without saving?").format(screens=", ".join(sorted(lost))))
+        if reasons:
+            self.ask("\n".join(reasons), _leave)
         else:
             _leave()
 
@@ -156,27 +185,22 @@ class App:
     def take_machine(self, name: str) -> None:
         """Another machine, from its start position."""
         if problems := self._console.choose_machine(name):
-            self.message(_("Refused"), [_(problem) for problem in problems])
+            self.message(_("Refused"), [told(problem) for problem in problems])
         else:
             self._refresh_top()
 
+    def _typing_at_rest(self) -> bool:
+        """A text field has the cursor, and nothing moves or is going to."""
+        view = self._console.view()
+        idle = not (view.moving or view.command or view.queued)
+        return idle and self.layers.typing
+
     def _beat(self, loop: urwid.MainLoop, _data: object = None) -> None:
-        self.turn()
+        """The next one is due a beat after this one, not after its work."""
+        if self._interrupts:
+            raise KeyboardInterrupt(self._interrupts[0])
         loop.set_alarm_in(BEAT_S, self._beat)
-
-    def _tell_fault(self, view: MachineView) -> None:
-        """Once a fault."""
-        fault = view.fault
-        code = fault.code if fault and view.condition != "returning" else 0
-        if fault and code and code != self._fault_told:
-            position = _("position kept") if fault.position == "kept" else _("position lost: initialise again")
-            lines = [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]
-            title = f"{_('FAULT')} {fault.name}"
-            self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop, self._acknowledge))
-        self._fault_told = code
-
-    def _acknowledge(self) -> None:
-        self._console.acknowledge()
+        self.turn()
 
     def _screen(self, name: str) -> urwid.Widget | None:
         if name not in self._made and name in self._makers:

@@ -5,6 +5,7 @@ Rule: a dialog is closed by every way out of it, before its answer is acted upon
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import urwid
 
@@ -13,8 +14,8 @@ from drillctl.ui.words import _
 
 WIDEST = 72
 
-Act = Callable[[], None]
-Part = urwid.Text | urwid.AttrMap[urwid.Edit]
+Act = Callable[[], object]
+Part = urwid.Text | urwid.AttrMap[Any]  # text, or a field or a line to be picked, in its colours
 
 
 class Dialog(urwid.WidgetWrap[urwid.Widget]):
@@ -23,8 +24,8 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act):
         self._closing = closing
         self._first = self._closed_by(buttons[0][1])
-        row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
-        self._parts: list[Part | urwid.Divider | urwid.GridFlow] = [*body, urwid.Divider(), row]
+        self._row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
+        self._parts: list[Part | urwid.Divider | urwid.GridFlow] = [*body, urwid.Divider(), self._row]
         self._list = urwid.ListBox(urwid.SimpleFocusListWalker(self._parts))
         self._list.set_focus(_first_selectable(body, len(body) + 1))
         self._title = title
@@ -32,11 +33,14 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         super().__init__(urwid.AttrMap(self._frame, "body"))
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """Nothing passes a dialog."""
+        """Nothing passes a dialog. Who comes down to the buttons comes to the first, wherever the cursor stood."""
+        above = self._list.focus is not self._row
         if key == "esc":
             self._closing()
         elif super().keypress(size, key) == "enter":
             self._first()
+        elif above and self._list.focus is self._row:
+            self._row.focus_position = 0
         return None
 
     def from_the_top(self) -> None:
@@ -112,11 +116,19 @@ def _first_selectable(body: Sequence[Part], otherwise: int) -> int:
 
 def pair_mm(text: str) -> tuple[float, float] | None:
     """Two finite numbers apart by a space or a semicolon, with point or comma; None for anything else."""
+    numbers = [number(part) for part in text.replace(";", " ").split()]
+    if len(numbers) != 2 or numbers[0] is None or numbers[1] is None:
+        return None
+    return numbers[0], numbers[1]
+
+
+def number(text: str) -> float | None:
+    """A finite number, with point or comma; None for anything else."""
     try:
-        first, second = (float(part.replace(",", ".")) for part in text.replace(";", " ").split())
+        value = float(text.replace(",", "."))
     except ValueError:
         return None
-    return (first, second) if math.isfinite(first) and math.isfinite(second) else None
+    return value if math.isfinite(value) else None
 
 
 def over(dialog: Dialog, below: urwid.Widget, columns: int, rows: int) -> urwid.Widget:

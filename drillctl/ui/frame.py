@@ -23,6 +23,7 @@ CONDITIONS = {
     "returning": ("warning", N_("RETURNING")),
     "latched": ("danger", N_("FAULT")),
 }
+PAUSED = ("warning", N_("CLOCK STOPPED"))
 
 
 class MenuBar(urwid.Text):
@@ -89,6 +90,8 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
     def show_machine(self, view: MachineView) -> None:
         """The line on the machine."""
         attribute, word = CONDITIONS[view.condition]
+        if view.paused:
+            attribute, word = PAUSED
         moving = _("moving") if view.moving else _("at rest")
         known = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
         place = f" {view.machine} | {view.port} | "
@@ -96,7 +99,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
         markup: Line = [title, place, shown, f" {moving} | ", known]
         if view.notices:
-            markup += [" | ", ("warning", view.notices[-1])]
+            markup += [" | ", ("warning", _(view.notices[-1]))]
         if markup != self._shown:
             self._shown = markup
             self._machine.set_text(list(markup))

@@ -24,8 +24,13 @@ class Key(NamedTuple):
     argument: str | int | None = None
 
 
-# Live everywhere, in dialogs, menus and fields too: looked at before anything else.
-EMERGENCY = Key(("f10", "!"), "F10 !", "emergency_stop", N_("emergency stop, at once; works everywhere"), N_("E-STOP"))
+# Live everywhere, in dialogs, menus and fields too: looked at before anything else. F10 always; the key that can also
+# be typed is a character only in a text field, while nothing moves.
+TYPED_STOP = "!"
+EMERGENCY = Key(
+    ("f10", TYPED_STOP), "F10 !", "emergency_stop",
+    N_("emergency stop, always; ! is typed in fields at rest"), N_("E-STOP"),
+)  # fmt: skip
 
 FRAME_KEYS = (
     EMERGENCY,

@@ -34,6 +34,14 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         """The box that gets the keys; None where the screen does."""
         return self._layers[-1].box if self._layers else None
 
+    @property
+    def typing(self) -> bool:
+        """Whether a text field has the cursor."""
+        widget: urwid.Widget | None = self
+        while widget is not None and not isinstance(widget, urwid.Edit):
+            widget = _within(widget)
+        return widget is not None
+
     def push_dialog(self, dialog: dialogs.Dialog) -> None:
         """In the middle."""
         self._push(Layer(dialog, lambda below, columns, rows: dialogs.over(dialog, below, columns, rows)))
@@ -45,6 +53,11 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
     def pop(self) -> None:
         """Takes the topmost away."""
         del self._layers[-1:]
+        self.restack()
+
+    def drop(self, box: urwid.Widget) -> None:
+        """Takes a box away wherever it lies; one that is gone already is none."""
+        self._layers = [layer for layer in self._layers if layer.box is not box]
         self.restack()
 
     def close_menus(self) -> None:
@@ -62,6 +75,15 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
     def _push(self, layer: Layer) -> None:
         self._layers.append(layer)
         self.restack()
+
+
+def _within(widget: urwid.Widget) -> urwid.Widget | None:
+    """What of a widget has the focus, one layer deeper; None at the bottom."""
+    if isinstance(widget, urwid.WidgetWrap):
+        return widget._w
+    if isinstance(widget, urwid.WidgetDecoration):
+        return widget.original_widget
+    return getattr(widget, "focus", None)
 
 
 def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: int, rows: int) -> urwid.Widget:

@@ -16,6 +16,12 @@ def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
     return canvas
 
 
+def around(cursor: int, count: int, room: int) -> range:
+    """Which of ``count`` things are shown where there is room for fewer: those about the cursor."""
+    first = min(max(cursor - room // 2, 0), max(count - room, 0))
+    return range(first, min(first + room, count))
+
+
 def packed(parts: Sequence[Line], columns: int) -> list[Line]:
     """Parts side by side, none of them broken, in as many lines as they need."""
     lines: list[Line] = [[]]

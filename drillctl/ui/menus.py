@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import urwid
 
+from drillctl.ui.formats import FORMATS
 from drillctl.ui.lines import Line, Size
 from drillctl.ui.pick import Pick
 from drillctl.ui.words import N_, _
@@ -25,18 +26,16 @@ class Item(NamedTuple):
 
 
 FORMAT_ITEMS = (
-    Item(N_("&Recognised"), "files", "set_format", ""),
-    Item(N_("EXCELLON &decimal, inch"), "files", "set_format", "inch,decimal"),
-    Item(N_("EXCELLON &adding zeros, inch"), "files", "set_format", "inch,2:4,trailing"),
-    Item(N_("EXCELLON &leading zeros left out, inch"), "files", "set_format", "inch,2:4,leading"),
-    Item(N_("EXCELLON &metric, decimal"), "files", "set_format", "mm,decimal"),
-    Item(N_("EXCELLON metric, adding &zeros"), "files", "set_format", "mm,3:3,trailing"),
+    *(Item(entry.name, "files", "set_format", entry.option) for entry in FORMATS),
+    Item(N_("&Typed..."), "files", "type_format"),
 )
 PLACING_ITEMS = (
     Item(N_("&Mirror"), "files", "cycle", "mirror"),
     Item(N_("&Turn"), "files", "cycle", "rotate_deg"),
     Item(N_("&Origin"), "files", "cycle", "origin"),
     Item(N_("O&ffset..."), "files", "offset"),
+    Item(N_("&Panel..."), "files", "panel"),
+    Item(N_("Measured &holes..."), "files", "align"),
 )
 BASING_ITEMS = (
     Item(N_("Type &X and Y..."), "drilling", "type_place"),
@@ -46,9 +45,12 @@ BASING_ITEMS = (
 MENUS = (
     Item(N_("&Files"), items=(
         Item(N_("&Open..."), "files"),
+        Item(N_("R&ecent..."), "files", "recent"),
+        Item(N_("&Interrupted jobs..."), "files", "unfinished"),
         Item(N_("&Format"), items=FORMAT_ITEMS),
         Item(N_("&Placing"), items=PLACING_ITEMS),
         Item(N_("O&rder of the holes"), "files", "cycle", "order"),
+        Item(N_("How to &drill..."), "files", "how_to_drill"),
         Item(N_("&Quit"), "", "leave"),
     )),
     Item(N_("&Drilling"), items=(
@@ -64,10 +66,16 @@ MENUS = (
         Item(N_("&Phase tables"), "phase_editor"),
         Item(N_("&Ramp tables"), "ramp_editor"),
         Item(N_("&Queue of commands"), "queue_editor"),
+        Item(N_("&Signals"), "signals"),
+        Item(N_("S&cope"), items=(
+            Item(N_("&The machine's run"), "scope", "show_machine"),
+            Item(N_("&Open a trace..."), "scope", "open_file"),
+        )),
     )),
     Item(N_("&Configuration"), items=(
         Item(N_("&Parameters"), "configuration"),
         Item(N_("&Machine..."), "", "choose_machine"),
+        Item(N_("P&ort"), "port"),
         Item(N_("&Colours"), items=(
             Item(N_("&Colour"), "", "set_theme", "colour"),
             Item(N_("&Light"), "", "set_theme", "light"),
@@ -76,6 +84,7 @@ MENUS = (
     )),
     Item(N_("&Help"), items=(
         Item(N_("&Keys"), "", "help"),
+        Item(N_("&Notices"), "", "notices"),
         Item(N_("&About"), "", "about"),
     )),
 )  # fmt: skip

@@ -12,7 +12,7 @@ class Pick(urwid.Text):
 
     _selectable = True
 
-    def __init__(self, text: str | Line, chosen: Callable[[], None], *keys: str):
+    def __init__(self, text: str | Line, chosen: Callable[[], object], *keys: str):
         self._chosen, self._keys = chosen, ("enter", *keys)
         super().__init__(text, wrap="ellipsis")
 

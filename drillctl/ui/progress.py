@@ -5,11 +5,12 @@ Rule: writes to one stream, never to standard output. Called by the run verb for
 
 import time
 from types import TracebackType
-from typing import NoReturn, TextIO
-
-from tqdm import tqdm
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from drillctl.panel import Progress
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 PLAIN_EVERY_S = 10.0
 DRAWN_EVERY_S = 0.1
@@ -47,6 +48,8 @@ class ProgressView:
             print(_line(progress), file=self._stream, flush=True)
 
     def _draw(self, progress: Progress) -> None:
+        from tqdm import tqdm
+
         bar = self._bar or tqdm(file=self._stream, bar_format=BAR, leave=False, total=progress.holes_total, delay=1e9)
         bar.n = progress.holes_done
         bar.set_postfix_str(_left(progress), refresh=False)
@@ -64,7 +67,8 @@ def clock(seconds: float) -> str:
 def _left(progress: Progress) -> str:
     tool = f"tool {progress.tool}, " if progress.tool else ""
     left = "" if progress.seconds_left is None else f", {clock(progress.seconds_left)} left"
-    return f"{tool}machine time {clock(progress.machine_seconds)}{left}"
+    held = "held (Space goes on), " if progress.held else ""
+    return f"{held}{tool}machine time {clock(progress.machine_seconds)}{left}"
 
 
 def _line(progress: Progress) -> str:

@@ -9,7 +9,8 @@ from typing import Protocol, runtime_checkable
 
 import urwid
 
-from drillctl.panel.console import MachineView
+from drillctl.panel.console import MachineView, Problems
+from drillctl.ui.forms import Field
 
 
 class Shell(Protocol):
@@ -27,6 +28,18 @@ class Shell(Protocol):
     def back(self) -> None:
         """Closes the screen on top; the first one stays."""
 
+    def show(self, name: str) -> urwid.Widget | None:
+        """One of the program's screens, by its name in the menus."""
+
+    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
+        """A dialog of several lines to type in. It stays open, and shows why, while ``accept`` finds problems."""
+
+    def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
+        """One of several lines; ``chosen`` is called with its number, from 0."""
+
+    def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
+        """Tells, and offers ways on, a button each, beside the one that does nothing."""
+
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
         """A dialog with a line to type in, ``text`` to begin with; ``accept`` is called with what was typed."""
 
@@ -37,3 +50,8 @@ class Live(Protocol):
 
     def refresh(self, view: MachineView) -> None:
         """Redraws what changed."""
+
+
+def unsaved(screen: urwid.Widget | None) -> bool:
+    """Whether a screen holds something that would be lost with it: those that can, have ``changed``."""
+    return bool(getattr(screen, "changed", False))

@@ -13,7 +13,8 @@ def summary_lines(outcome: Outcome) -> list[str]:
     lines = [f"{outcome.machine}: {holes}{ticks} = {clock(outcome.machine_seconds)} of machine time"]
     lines.append(f"steps: {_by_axis(outcome.steps)}; position: {_by_axis(outcome.position)} ({_known(outcome)})")
     if outcome.interrupted:
-        lines.append("interrupted: stopped, outputs off")
+        kept = "kept" if outcome.position_known else "not known"
+        lines.append(f"interrupted: stopped, position {kept}; outputs off")
     if fault := outcome.fault:
         lines += [f"FAULT {fault.name}: {fault.cause}", f"  position {fault.position}", f"  remedy: {fault.remedy}"]
     if outcome.lost_steps and any(outcome.lost_steps.values()):

@@ -46,6 +46,11 @@ def use(language: str, plain: bool = False) -> None:
     _spoken.words = words
 
 
+def spoken_words() -> Mapping[str, str]:
+    """The catalogue in use: words by English source; none for English itself."""
+    return _spoken.words
+
+
 def _file(language: str) -> Path:
     return LOCALE / language / "LC_MESSAGES" / "drillctl.po"
 

@@ -127,7 +127,7 @@ def test_another_version_of_the_program_is_refused(folder: Path, capsys: pytest.
     keep_lines(folder, 4)
     text = (folder / "j").read_text()
     for old, new, reason in (
-        ('"peck": null, ', "", "written by another version of this program"),
+        ('"peck": null, ', '"pick": null, ', "written by another version of this program"),
         ('"drillctl-journal": 1', '"drillctl-journal": 2', "not a journal of this program"),
         ('"holes": 4, ', "", "its first line is not whole"),
     ):

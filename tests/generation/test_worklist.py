@@ -118,9 +118,19 @@ def test_program_initialises_drills_and_comes_back() -> None:
 
 def test_the_spindle_of_a_machine_that_has_one_is_on_while_drilling() -> None:
     machine = Library.standard().machine("eight-axis")
-    found = ops(machine, "T1\nX1Y1", Wishes())
-    assert found[:3] == [Op.INICJALIZACJA, Op.WYJSCIE, Op.CZEKAJ], "on, and time to spin up"
-    assert found[-3:] == [Op.WYJSCIE, Op.GOTO_X_Y, Op.KONIEC], "off, and home"
+    work = build(drill_file("T1\nX1Y1\nT2\nX2Y1"), Wishes(), machine)
+    program = board_program(work, machine, Wishes())
+    found = [Op(op) for op in program["opcode"]]
+    level, levels = 0, []
+    for op, args in zip(found, program["args"].tolist(), strict=True):
+        level = args[1] if op is Op.WYJSCIE else level
+        levels.append(level)
+    of = {op: {levels[at] for at, other in enumerate(found) if other is op} for op in found}
+    assert of[Op.NARZEDZIE] == {0}, "nobody changes a tool that turns"
+    assert of[Op.WIERTLO_DOL] == of[Op.WIERTLO_GORA] == {1} and levels[-1] == 0
+    for at in (at for at, op in enumerate(found) if op is Op.NARZEDZIE):
+        assert found[at + 1 : at + 3] == [Op.WYJSCIE, Op.CZEKAJ], "on, and time to spin up"
+        assert program["args"][at + 2, 0] == machine.configuration.spin_up_s * machine.tick_hz > 0
 
 
 def test_pecks_go_deeper_each_time_and_end_at_the_sensor() -> None:

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from drillctl.machine import Library, TableError, shipped_tables
 from drillctl.machine.edit import set_pattern, set_reverse, set_state_row, set_value
+from drillctl.machine.edit_ramp import with_states, without_states
+from drillctl.machine.ramp import parse_ramp, proposals, ramp_rows
 from drillctl.machine.source import Source
 
 PHASE = (shipped_tables() / "phase" / "two-phase-forced.toml").read_text("utf-8")
@@ -109,3 +111,29 @@ def test_unknown_wires_states_and_text_that_is_no_toml_are_refused() -> None:
 
 def test_windows_line_ends_stay() -> None:
     assert set_value("a = 1\r\nb = 2 # c\r\n", ("b",), 3) == "a = 1\r\nb = 3 # c\r\n"
+
+
+@pytest.mark.parametrize("name", ["seven-state", "drive-servo", "even-interval"])
+def test_states_come_and_go_without_a_trace_and_what_is_proposed_lands(name: str) -> None:
+    text = (shipped_tables() / "ramp" / f"{name}.toml").read_text("utf-8")
+    top = ramp_rows(Source(Path("ramp"), text))[-1]
+    grown = [with_states(text, *row) for row in proposals(top)]
+    assert any(lands(changed, top[0] + 1) for changed in grown)
+    for changed in grown:
+        assert [row[0] for row in ramp_rows(Source(Path("ramp"), changed))] == list(range(-top[0] - 1, top[0] + 2))
+        assert "\n\n[[state]]" in changed and "\n[[state]]" not in changed.replace("\n\n[[state]]", "")
+        assert without_states(changed, top[0] + 1) == text
+
+
+def lands(text: str, top: int) -> bool:
+    try:
+        return parse_ramp(Source(Path("ramp"), text)).top == top
+    except TableError:
+        return False
+
+
+def test_comments_of_the_states_that_stay_are_kept() -> None:
+    noted = RAMP.replace("state = 3\n", "state = 3 # the fastest\n").replace("state = 2\n", "state = 2 # nearly\n")
+    shorter = without_states(noted, 3)
+    assert "# nearly" in shorter and "# the fastest" not in shorter and shorter.startswith("# The acceleration")
+    assert parse_ramp(Source(Path("ramp"), shorter)).top == 2

@@ -84,3 +84,24 @@ def test_a_machine_tells_the_hazards_of_each_of_its_tables_once(tables: Callable
     tables("phase/beat", '"...xxx"', '"......"')
     found = machine_hazards(Library((tmp_path,)).machine("mini"))
     assert found == ["beat: column 5: nothing pulls the rotor"]
+
+
+def backwards(text: str, **rows: str) -> str:
+    """With rows for motion backwards: those of the table, some of them others."""
+    names = ("1a", "1b", "2a", "2b", "24a", "24b")
+    own = {name: rows.get(f"_{name}", GOOD.get(f"_{name}", "." * 12)) for name in names}
+    return text + "".join(f'[[reverse]]\nname = "{name}"\npattern = "{row}"\n' for name, row in own.items())
+
+
+def test_rows_for_motion_backwards_are_looked_at_too(tmp_path: Path) -> None:
+    sound = backwards(table(**GOOD))
+    assert hazards(tmp_path / "t.toml", sound) == []
+    shorted = backwards(table(**GOOD), _1b="x.....xxxxxx", _24a="x...........")
+    assert hazards(tmp_path / "t.toml", shorted) == [
+        "backwards, column 1: 1a and 1b are both on: the halves of one winding cancel"
+    ]
+    dark = backwards(table(**GOOD), _1a="..xxxx......", _2a=".xx......xxx", _24a="x...........")
+    assert hazards(tmp_path / "t.toml", dark) == [
+        "backwards, column 1: forcing is on while no phase is",
+        "backwards, column 1: nothing pulls the rotor",
+    ]

@@ -6,11 +6,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import urwid
 
-from drillctl.panel.console import Asked, AxisView, BoardView, MachineView, Problems, ToolView
+from drillctl.panel.console import AxisView, BoardView, MachineView, Problems, ToolView
+from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
 from drillctl.panel.records import Estimate, FaultReport, Progress, ToolEstimate
 from drillctl.ui.app import App
 
-MOTIONS = {"start", "run_queue", "initialise", "jog", "go_to", "set_base", "resume"}
+MOTIONS = {"go_on", "start", "run_queue", "initialise", "jog", "go_to", "set_base", "resume"}
 FAULT = FaultReport(1, "EMERGENCY_STOP", "somebody pressed it", "look why", "lost")
 WIRES = tuple(
     (name, row, name in ("1a", "24a"))
@@ -19,7 +20,7 @@ WIRES = tuple(
 
 
 def axis(name: str) -> AxisView:
-    return AxisView(name, 150, 3.175, 1559, 33.0, 3, 3, 7, WIRES)
+    return AxisView(name, 150, 3.175, 1559, 33.0, 3, 3, 7, WIRES, 1200 / 25.4)
 
 
 VIEW = MachineView(
@@ -30,10 +31,13 @@ VIEW = MachineView(
 )  # fmt: skip
 BOARD = BoardView(
     name="four.drl",
+    file="/home/four.drl",
+    file_xy_mm=np.array([[10.0, 10.0], [50.0, 10.0], [50.0, 30.0], [10.0, 30.0]]),
     xy_mm=np.array([[0.0, 0.0], [40.0, 0.0], [40.0, 20.0], [0.0, 20.0]]),
     tool=np.zeros(4, np.int64),
     tools=(ToolView(1, 0.8, 4),),
     format="mm decimal",
+    dialect="Excellon decimal",
     confidence=0.9,
     reason="the numbers carry points",
     runner_up="inch decimal",
@@ -51,6 +55,8 @@ class FakeConsole:
     job: Progress | None = None
     answer: Problems = ()
     asked: list[tuple[object, ...]] = field(default_factory=list)
+    recent_jobs: list[RecentJob] = field(default_factory=list)
+    unfinished_jobs: list[UnfinishedJob] = field(default_factory=list)
 
     def turn(self) -> None:
         """Nothing is new."""
@@ -69,11 +75,38 @@ class FakeConsole:
 
     def load(self, file: str, asked: Asked) -> Problems:
         if not self.answer:
-            self.loaded = BOARD
+            self.loaded = replace(BOARD, file=file)
         return self._keep("load", file, asked)
 
     def choose_machine(self, name: str) -> Problems:
         return self._keep("choose_machine", name)
+
+    def align(self, measured: tuple[Measured, ...], face_down: bool) -> tuple[Alignment | None, Problems]:
+        """A shift by the first hole, and how far the others are off it."""
+        if self.answer:
+            return None, self.answer
+        places = np.array([(hole.machine_x_mm, hole.machine_y_mm) for hole in measured])
+        off = places - np.array([(hole.file_x_mm, hole.file_y_mm) for hole in measured])
+        matrix = np.column_stack([np.eye(2), off[0]])
+        residual_mm = tuple(np.hypot(*(off - off[0]).T).tolist())
+        rejected = ("a hole is off",) if max(residual_mm) > 0.5 else ()
+        return Alignment("rigid", matrix, residual_mm, 0.0, (1.0, 1.0), rejected, rejected), ()
+
+    def recent(self) -> Sequence[RecentJob]:
+        return self.recent_jobs
+
+    def unfinished(self) -> Sequence[UnfinishedJob]:
+        return self.unfinished_jobs
+
+    def go_on(self, journal: str) -> Problems:
+        return self._keep("go_on", journal)
+
+    def give_up(self, journal: str) -> Problems:
+        self.unfinished_jobs = []
+        return self._keep("give_up", journal)
+
+    def go_real(self) -> Problems:
+        return self._keep("go_real")
 
     def start(self, dry: bool) -> Problems:
         return self._keep("start", dry)
@@ -92,6 +125,11 @@ class FakeConsole:
 
     def set_base(self) -> Problems:
         return self._keep("set_base")
+
+    def tool_changed(self) -> Problems:
+        if not self.answer:
+            self.now = replace(self.now, tool_wanted=None)
+        return self._keep("tool_changed")
 
     def hold(self) -> Problems:
         return self._keep("hold")

@@ -8,6 +8,7 @@ from typing import Any
 import urwid
 
 from drillctl.panel.console import Problems
+from drillctl.panel.handwork import SignalView
 from drillctl.panel.queues import CommandHelp
 from drillctl.panel.tables import (
     Checked,
@@ -77,9 +78,13 @@ class Console:
         self.ran: list[str] = []
         self.chosen: list[str] = []
         self.refusal: Problems = ()
+        self.paused = False
 
     def view(self) -> Any:
-        return SimpleNamespace(machine="drill")
+        axis = SimpleNamespace(name="x", column=3, state=1, position_steps=7)
+        return SimpleNamespace(
+            machine="drill", paused=self.paused, tick=41, command="KMD_CZEKAJ 5", axes=(axis,), position_known=True
+        )
 
     def choose_machine(self, name: str) -> Problems:
         self.chosen.append(name)
@@ -87,6 +92,41 @@ class Console:
 
     def run_queue(self, text: str) -> Problems:
         self.ran.append(text)
+        return self.refusal
+
+
+class Hands:
+    """A HandDesk over some signals; ``done`` is what was asked, in order. ``port`` is a real one where it is named."""
+
+    def __init__(self, console: Console, signals: Sequence[SignalView] = (), port: str = ""):
+        self.console, self.shown, self.port = console, list(signals), port
+        self.done: list[tuple[object, ...]] = []
+        self.refusal: Problems = ()
+
+    def signals(self) -> Sequence[SignalView]:
+        return list(self.shown)
+
+    def real_port(self) -> str:
+        return self.port
+
+    def set_output(self, bit: int, on: bool) -> Problems:
+        if not self.refusal:
+            self.shown = [replace(s, level=int(on)) if s.bit == bit and s.kind != "input" else s for s in self.shown]
+        return self._keep("set_output", bit, on)
+
+    def run_paused(self, text: str) -> Problems:
+        self.console.paused = not self.refusal
+        return self._keep("run_paused", text)
+
+    def tick(self, ticks: int) -> Problems:
+        return self._keep("tick", ticks)
+
+    def go(self) -> Problems:
+        self.console.paused = False
+        return self._keep("go")
+
+    def _keep(self, *asked: object) -> Problems:
+        self.done.append(asked)
         return self.refusal
 
 
@@ -118,6 +158,9 @@ class Tables:
     def reset(self, kind: Kind, name: str) -> Problems:
         return () if self.own.pop(kind, None) is not None else ("there is no copy of your own",)
 
+    def delete(self, kind: Kind, name: str) -> Problems:
+        return () if self.own.pop(kind, None) is not None else ("it stays",)
+
     def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
         return () if text == self.shipped[kind] else ("-before", "+after")
 
@@ -145,6 +188,13 @@ class Tables:
         row = next(row for row in rows if int(row[0]) == state)
         row[("state", "accelerate", "brake", "interval").index(name)] = str(value)
         return "\n".join(map(" ".join, rows))
+
+    def with_top(self, text: str, higher: bool) -> str:
+        """A pair of rows more, all like the outermost; or less."""
+        rows = [list(map(int, line.split())) for line in text.split("\n")]
+        low, high = rows[0], rows[-1]
+        rows = [[low[0] - 1, *low[1:]], *rows, [high[0] + 1, *high[1:]]] if higher else rows[1:-1] or rows
+        return "\n".join(" ".join(map(str, row)) for row in rows)
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
         pairs = [line.partition(" ") for line in text.split("\n")]

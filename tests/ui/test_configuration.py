@@ -1,11 +1,16 @@
 """The configuration: every field with its words, what is typed checked at once, all saved or nothing; and the list."""
 
+from pathlib import Path
+
 import pytest
 
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.settings import settings
 from drillctl.machine.source import Source
 from drillctl.panel.tables import FieldView
+from drillctl.station.workbench import Workbench
+from drillctl.ui import words
+from drillctl.ui.screens.compare import label_of
 from drillctl.ui.screens.configuration import Configuration
 from drillctl.ui.screens.field_words import FIELD_WORDS, words_of
 from drillctl.ui.screens.phase_editor import PhaseEditor
@@ -110,6 +115,12 @@ def test_a_copy_is_gone_on_with(screen: Configuration, shell: Shell) -> None:
     assert shell.told == [("Not copied", ["there is one already"])]
 
 
+def test_a_copy_is_of_what_is_saved_and_loses_nothing_that_is_typed(screen: Configuration, shell: Shell) -> None:
+    shell.types = "two"
+    press(screen, "end", "5", "f7")
+    assert shell.told[0][0] == "Not copied" and screen.changed and "Configuration: one" in text_of(screen)
+
+
 def test_reset_and_difference(console: Console, desk: Tables) -> None:
     shell = Shell(says_yes=True)
     desk.own["machines"] = FILE.replace("500", "400")
@@ -153,3 +164,59 @@ def test_a_table_is_copied_from_the_list(console: Console) -> None:
     press(TableList(console, shell, Tables(phase="1a 5 x."), "phase"), "c")
     assert shell.told == [("Not copied", ["there is one already"])]
     assert EDITORS["phase"] is PhaseEditor
+
+
+def test_two_tables_are_compared_by_name(console: Console) -> None:
+    shell = Shell(types="nothing")
+    tables = TableList(console, shell, Tables(machines=FILE), "machines")
+    press(tables, "d")
+    shell.types = "one"
+    press(tables, "d")
+    assert shell.told == [
+        ("Not compared", ["there is no table named 'nothing'"]), ("Differences", ["none: they are alike"])
+    ]  # fmt: skip
+
+
+def test_only_a_table_of_ones_own_is_deleted_and_only_after_a_yes(console: Console) -> None:
+    shell, desk = Shell(), Tables(phase="1a 5 x.")
+    desk.own["phase"] = "1a 5 .x"
+    tables = TableList(console, shell, desk, "phase")
+    press(tables, "x")
+    assert desk.own and "for good" in shell.asked[0]
+    shell.says_yes = True
+    press(tables, "x", "x")
+    assert not desk.own and shell.told == [("Nothing changed", ["it stays"])]
+    desk.own["phase"] = "1a 5 .x"
+    press(tables, "r")
+    assert not desk.own
+
+
+def test_an_editor_left_with_edits_in_it_comes_back_as_it_was(console: Console, shell: Shell) -> None:
+    tables = TableList(console, shell, Tables(phase="1a 5 x."), "phase")
+    press(tables, "enter")
+    press(shell.opened[0], " ")
+    press(tables, "enter")
+    assert shell.opened[1] is shell.opened[0]
+    shell.says_yes = True
+    press(shell.opened[0], "esc")
+    press(tables, "enter")
+    assert shell.opened[2] is not shell.opened[0]
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_at_eighty_columns_every_field_has_a_line_with_its_unit_and_bounds(
+    console: Console, shell: Shell, tmp_path: Path, language: str
+) -> None:
+    words.use(language)
+    try:
+        desk = Workbench(Library((tmp_path, shipped_tables())), tmp_path)
+        screen = Configuration(console, shell, desk, "pcb-drill")
+        text = text_of(screen, (80, 60))
+        fields = desk.fields(desk.read("machines", "pcb-drill"))
+        for field in fields:
+            unit = words._(words_of(field).unit)
+            line = next(row for row in text.split("\n") if row.startswith(f"{label_of(field)} "))
+            assert field.value.split()[0] in line and unit in line and field.bounds in line
+        assert text.split("\n").index(line) <= len(fields) + 2, "the last one: none of them wraps"
+    finally:
+        words.use("en")

@@ -132,6 +132,29 @@ def test_leaving_asks_only_while_something_moves() -> None:
         program.press("f4", "right", "enter")
 
 
+class Draft(urwid.SolidFill):
+    """A screen with something in it that is not saved."""
+
+    title, changed = "A draft", True
+
+
+@pytest.mark.parametrize("buried", [False, True])
+def test_leaving_asks_about_what_is_not_saved(buried: bool) -> None:
+    program = Program(FakeConsole())
+    draft = Draft()
+    program.app.open(draft)
+    if buried:
+        program.app.show("drilling")
+    program.press("f4", "enter")
+    program.press("f4")
+    assert "Not saved: A draft" in program.text()
+    with pytest.raises(urwid.ExitMainLoop):
+        program.press("right", "enter")
+    draft.changed = False
+    with pytest.raises(urwid.ExitMainLoop):
+        program.press("f4")
+
+
 def test_a_smaller_terminal_keeps_dialogs_within() -> None:
     program = Program(FakeConsole(), (160, 50))
     program.press("f1")

@@ -214,3 +214,19 @@ def test_keys_of_others_pass(editor: PhaseEditor) -> None:
 def test_any_size_is_drawn(editor: PhaseEditor, size: tuple[int, int]) -> None:
     canvas = editor.render(size)
     assert (canvas.cols(), canvas.rows()) == size
+
+
+def test_many_wires_show_the_cursor_and_the_verdict_at_eighty_by_twenty_four(shell: Shell) -> None:
+    table = "\n".join(f"w{number} 5 xx.. x.x." for number in range(16))
+    editor = PhaseEditor(Console(), shell, Tables(phase=table), "one")
+    for _line in range(32):
+        text = text_of(editor, (80, 17))
+        assert text.count("[") == 1 and "column 1 of 4" in text and "sound" in text
+        press(editor, "down")
+
+
+def test_edits_that_were_given_up_are_gone(desk: Tables) -> None:
+    shell = Shell(says_yes=True)
+    editor = PhaseEditor(Console(), shell, desk, "one")
+    press(editor, " ", "esc")
+    assert shell.closed == 1 and not editor.changed and editor.text == TABLE

@@ -4,7 +4,7 @@ import pytest
 
 from drillctl.ui.models.completion import completed, usage
 from drillctl.ui.screens.queue_editor import QueueEditor
-from tests.ui.editor_fakes import Console, Queues, Shell, attributes_of, press, text_of
+from tests.ui.editor_fakes import Console, Hands, Queues, Shell, attributes_of, press, text_of
 
 COMMANDS = Queues().commands()
 WORDS = Queues().words()
@@ -48,8 +48,13 @@ def desk() -> Queues:
 
 
 @pytest.fixture
-def editor(console: Console, shell: Shell, desk: Queues) -> QueueEditor:
-    return QueueEditor(console, shell, desk)
+def hands(console: Console) -> Hands:
+    return Hands(console)
+
+
+@pytest.fixture
+def editor(console: Console, shell: Shell, desk: Queues, hands: Hands) -> QueueEditor:
+    return QueueEditor(console, shell, desk, hands)
 
 
 def test_tab_completes_in_the_middle_of_a_text(editor: QueueEditor) -> None:
@@ -95,6 +100,36 @@ def test_lines_run_one_after_the_other(three_lines: QueueEditor, console: Consol
     assert [text.count("\n") for text in console.ran] == [1, 2], "so that line numbers are those of the screen"
 
 
+def test_the_first_tick_begins_the_queue_and_the_next_ones_go_on(
+    three_lines: QueueEditor, console: Console, hands: Hands
+) -> None:
+    press(three_lines, "f8", "f8")
+    assert hands.done == [("run_paused", three_lines.text), ("tick", 1), ("tick", 1)]
+    three_lines.refresh(console.view())
+    assert "stopped after tick 41: KMD_CZEKAJ 5" in text_of(three_lines)
+    assert "X column 3 (+1) at 7" in text_of(three_lines)
+    press(three_lines, "f5")
+    three_lines.refresh(console.view())
+    assert hands.done[-1] == ("go",) and console.ran == [] and "stopped" not in text_of(three_lines)
+
+
+def test_a_queue_that_is_refused_gets_no_tick(three_lines: QueueEditor, hands: Hands, shell: Shell) -> None:
+    hands.refusal = ("the machine is at work",)
+    press(three_lines, "f8")
+    assert [asked[0] for asked in hands.done] == ["run_paused"] and shell.told == [("Not run", [hands.refusal[0]])]
+
+
+@pytest.mark.parametrize("key", ["f5", "f6", "f7", "f8"])
+@pytest.mark.parametrize("yes", [False, True])
+def test_a_real_machine_is_asked_about_first(
+    key: str, yes: bool, three_lines: QueueEditor, console: Console, hands: Hands, shell: Shell
+) -> None:
+    hands.port, shell.says_yes = "firmata", yes
+    press(three_lines, key)
+    assert shell.asked == ["A real machine hangs on firmata. Run the queue on it?"]
+    assert bool(console.ran or hands.done) == yes
+
+
 def test_a_wrong_queue_is_not_handed_on(editor: QueueEditor, console: Console, shell: Shell) -> None:
     press(editor, *"nonsense", "f5", "f6", "f7")
     assert console.ran == [] and shell.told == [("Not run", ["1:1: unknown command"])] * 3
@@ -130,3 +165,20 @@ def test_what_is_not_saved_is_asked_for(editor: QueueEditor, shell: Shell) -> No
     assert press(editor, "esc") == ["esc"]
     press(editor, "x", "f3", "esc")
     assert len(shell.asked) == 2 and editor.text == "x" and shell.closed == 0
+
+
+def test_typing_and_completing_are_undone_and_made_again(editor: QueueEditor) -> None:
+    press(editor, *"kmd_c", "tab", "5", "enter")
+    assert editor.text == "KMD_CZEKAJ 5\n"
+    press(editor, "left", "left", "ctrl u", "ctrl u")
+    assert editor.text == "KMD_CZEKAJ ", "going about with the cursor is no change"
+    press(editor, "ctrl u", "ctrl r", "ctrl r", "7")
+    assert editor.text == "KMD_CZEKAJ 57"
+    press(editor, "ctrl r", *["ctrl u"] * 30)
+    assert editor.text == "" and not editor.changed
+
+
+def test_what_was_given_up_is_gone_when_the_editor_comes_back(editor: QueueEditor, shell: Shell) -> None:
+    shell.says_yes = True
+    press(editor, *"KMD_X", "esc")
+    assert shell.closed == 1 and editor.text == "" and not editor.changed

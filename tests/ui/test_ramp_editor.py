@@ -86,6 +86,29 @@ def test_a_sound_ramp_is_saved(editor: RampEditor, desk: Tables) -> None:
     assert desk.own["ramp"] == "-1 5 -2 4\n0 0 0 7\n1 1 2 4" and "your own copy" in text_of(editor)
 
 
+def test_a_pair_of_states_comes_and_goes_and_the_cursor_stays_on_its_state(editor: RampEditor) -> None:
+    press(editor, "down", "down", "a")
+    assert editor.text == "-2 -1 -2 4\n-1 -1 -2 4\n0 0 0 7\n1 1 2 4\n2 1 2 4"
+    rows = [row.split() for row in text_of(editor).split("\n")]
+    assert ["1", "[1]", "2", "4", "1", "4"] in rows
+    press(editor, "down", "x")
+    assert editor.text == TABLE and ["1", "[1]", "2", "4", "1", "4"] in states(editor), "on the outermost that is left"
+    press(editor, "u")
+    assert editor.text.startswith("-2 ")
+
+
+@pytest.mark.parametrize("size", [(80, 16), (80, 24), (160, 50)])
+def test_a_ramp_of_many_states_shows_the_cursor_the_profile_and_the_verdict(
+    shell: Shell, size: tuple[int, int]
+) -> None:
+    table = "\n".join(f"{state} {state} {2 * state} 4" for state in range(-10, 11))
+    editor = RampEditor(Console(), shell, Tables(ramp=table), "one")
+    for state in range(-10, 11):
+        text = text_of(editor, size)
+        assert f"[{state}]" in text and "every move lands exactly" in text and "sound" in text
+        press(editor, "down")
+
+
 class Unread(Tables):
     """A desk that can't read the rows of a ramp."""
 

@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 import urwid
 
-from drillctl.panel.console import Asked, MachineView
+from drillctl.panel.console import Asked, MachineView, ToolWanted
 from drillctl.panel.records import Progress
 from drillctl.ui import app, words
 from drillctl.ui.dialogs import pair_mm
 from drillctl.ui.lines import Line
+from drillctl.ui.models.jog_sizes import JOG_SIZES, MM, STEPS
 from drillctl.ui.screens.board_view import BoardPicture
-from drillctl.ui.screens.drilling import STEP_SIZES, Drilling
+from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import CHOICES, Files
-from drillctl.ui.screens.side_window import side_lines
+from drillctl.ui.screens.side_window import side_pages
 from tests.ui.desk import BOARD, VIEW, WIRES, FakeConsole, Program
 
 MIDDLE = Progress(2, 4, 1, 2500, 5.0, 5.0)
@@ -49,7 +50,7 @@ REQUESTS = [
     ("page down", ("jog", "z", 12)),
 ]
 OPENING = {"s": "Drill 4 holes of four.drl?", "f": "../", "h": "Number, 1 to 4:", "t": "X and Y in mm", "+": "step 120",
-           "=": "step 120", "-": "step 3"}  # fmt: skip
+           "=": "step 120", "-": "step 3", "m": "jog step 1 mm", "c": "no tool is waited for"}  # fmt: skip
 
 
 @pytest.mark.parametrize(("key", "request_"), REQUESTS)
@@ -67,7 +68,7 @@ def test_the_other_keys_of_drilling_show_something(key: str, shown: str) -> None
 
 
 def test_every_key_of_drilling_is_tried() -> None:
-    assert {name for key in Drilling.keys for name in key.names} == {*dict(REQUESTS), *OPENING}
+    assert {name for key in Drilling.keys for name in key.names} == {*dict(REQUESTS), *OPENING, "tab"}
 
 
 def test_drilling_begins_only_after_a_yes() -> None:
@@ -88,7 +89,14 @@ def test_a_refusal_stands_in_the_bottom_line() -> None:
 def test_step_sizes_end_at_both_ends() -> None:
     program = Program(FakeConsole())
     program.press(*["+"] * 10, "right", *["-"] * 10, "right")
-    assert program.console.asked == [("jog", "x", STEP_SIZES[-1]), ("jog", "x", STEP_SIZES[0])]
+    assert program.console.asked == [("jog", "x", JOG_SIZES[STEPS][-1]), ("jog", "x", JOG_SIZES[STEPS][0])]
+
+
+def test_step_sizes_in_millimetres_are_the_axis_s_steps_and_each_unit_keeps_its_size() -> None:
+    program = Program(FakeConsole())
+    program.press("m", "right", "-", "right", "+", "+", "up", "m", "right")
+    assert program.console.asked == [("jog", "x", 47), ("jog", "x", 5), ("jog", "y", 472), ("jog", "x", 12)]
+    assert JOG_SIZES[MM] == (0.1, 1, 10)
 
 
 def test_going_to_a_hole_and_to_a_typed_place() -> None:
@@ -120,7 +128,8 @@ def test_a_typed_pair(text: str, pair: tuple[float, float] | None) -> None:
 def test_the_side_window_fits_and_tells_all(language: str, columns: int, rows: int) -> None:
     words.use(language)
     view = replace(VIEW, command="KMD_GOTO_X_Y 1559 0", queued=7, moving=True, late=3, late_worst_ms=1.5)
-    lines = plain_text(side_lines(view, MIDDLE, BOARD, columns, rows))
+    (page,) = side_pages(view, MIDDLE, BOARD, columns, rows)[:1]
+    lines = plain_text(page)
     text = "\n".join(lines)
     assert len(lines) <= rows and max(map(len, lines)) <= columns
     for told in ("3.175", "KMD_GOTO_X_Y 1559 0", "0:05", "T1 0.800 mm", "[x_min]", " x_max ", "500 Hz", "1.5 ms"):
@@ -129,16 +138,35 @@ def test_the_side_window_fits_and_tells_all(language: str, columns: int, rows: i
 
 
 def test_the_whole_table_stands_where_there_is_room_with_its_column_marked() -> None:
-    lines = plain_text(side_lines(VIEW, None, None, 48, 46))
+    (page,) = side_pages(VIEW, None, None, 48, 46)
+    lines = plain_text(page)
     assert lines.count("   [1a]    xxxxxx[.].....") == 3 and lines.count("    1b     ......[x]xxxxx") == 3
-    small = plain_text(side_lines(VIEW, None, None, 36, 18))
+    small = plain_text(side_pages(VIEW, None, None, 36, 18)[0])
     assert "X   7 +3 [1a] 1b [24a]" in small
 
 
-def test_where_rows_are_few_the_phases_give_way_to_ticks_and_sensors() -> None:
-    many = replace(VIEW, axes=VIEW.axes[:1] * 8)
-    text = "\n".join(plain_text(side_lines(many, None, None, 36, 19)))
-    assert "500 Hz" in text and "[x_min]" in text and text.count("\n") == 18
+@pytest.mark.parametrize(("columns", "rows"), [(36, 17), (36, 5), (36, 1), (48, 43)])
+def test_eight_axes_have_all_their_lines_on_one_page_or_another(columns: int, rows: int) -> None:
+    names = ("x", "y", "z1", "z2", "z3", "z4", "z5", "z6")
+    sensors = tuple((f"{name}_home", name == "z5") for name in names)
+    many = replace(VIEW, axes=tuple(replace(VIEW.axes[0], name=name) for name in names), sensors=sensors)
+    pages = [plain_text(page) for page in side_pages(many, MIDDLE, BOARD, columns, rows)]
+    assert all(0 < len(page) <= rows for page in pages)
+    assert all(page[0].endswith(f"{n}/{len(pages)} Tab") for n, page in enumerate(pages, start=1))
+    text = "\n".join(line for page in pages for line in page)
+    assert "500 Hz" in text and "[z5_home]" in text and text.count("column 7, ramp +3 of 3") == len(names)
+    assert rows < 17 or "500 Hz" in "\n".join(pages[0]), "late ticks are seen without turning a page"
+
+
+def test_tab_turns_the_pages_round() -> None:
+    program = Program(FakeConsole(now=replace(VIEW, axes=VIEW.axes[:1] * 8)))
+    first = program.text()
+    count = int(first.split("1/")[1].split(" Tab")[0])
+    seen = [first]
+    for _ in range(count):
+        program.press("tab")
+        seen.append(program.text())
+    assert count > 1 and seen[-1] == first and len(set(seen)) == count
 
 
 def signs_of(picture: BoardPicture, size: tuple[int, int] = (20, 6)) -> str:
@@ -212,12 +240,13 @@ def test_folders_are_entered_and_left(folder: Path) -> None:
 
 
 def test_loading_tells_format_reason_tools_size_estimate_and_warnings(folder: Path) -> None:
-    program = files_program(size=(100, 40))
+    program = files_program(size=(130, 40))
     program.press("down", "down", "enter")
     assert program.console.asked == [("load", str(folder / "four.drl"), Asked())]
     text = program.text()
-    for told in ("4 holes, 40.00 x 20.00 mm", "mm decimal (90%): the numbers carry points", "else: inch decimal", "T1",
-                 "0.800 mm", "Estimate 0:10", "warning: four.drl:3: no end of program", "a hole twice"):  # fmt: skip
+    for told in ("4 holes, 40.00 x 20.00 mm", "Excellon decimal, mm decimal (90%): the numbers carry points",
+                 "else: inch decimal", "T1", "0.800 mm", "Estimate 0:10", "warning: four.drl:3: no end of program",
+                 "a hole twice"):  # fmt: skip
         assert told in text
 
 
@@ -261,3 +290,52 @@ def test_what_can_not_be_read_is_named(folder: Path) -> None:
 
 def test_wires_of_the_stand_in_are_the_papers() -> None:
     assert all(len(row) == 12 and set(row) <= {"x", "."} for _name, row, _lit in WIRES)
+
+
+WAITING = replace(VIEW, tool_wanted=ToolWanted(2, 1.0, 1.05))
+
+
+@pytest.mark.parametrize("size", [(80, 24), (160, 50)])
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_the_tool_that_is_waited_for_is_told_on_any_screen(language: str, size: tuple[int, int]) -> None:
+    words.use(language)
+    program = Program(FakeConsole(loaded=BOARD), size)
+    program.press("f")
+    program.console.now = WAITING
+    program.app.turn()
+    text = program.text()
+    assert "T2, 1.000 mm" in text and "1.050 mm" in text and words._("It is in") in text
+    assert words._("Stop") in text and words._("Hold") in text
+
+
+@pytest.mark.parametrize(
+    ("keys", "asked"),
+    [
+        (["enter"], []),
+        (["esc"], []),
+        (["right", "enter"], [("tool_changed",)]),
+        (["right", "right", "enter"], [("hold",)]),
+        (["right", "right", "right", "enter"], [("stop",)]),
+        (["f10"], [("emergency_stop",)]),
+    ],
+)
+def test_an_answer_to_the_tool_change_is_what_is_asked(keys: list[str], asked: list[tuple[object, ...]]) -> None:
+    program = Program(FakeConsole(now=WAITING, loaded=BOARD))
+    program.press(*keys)
+    assert program.console.asked == asked
+
+
+def test_not_yet_leaves_the_machine_at_the_keys_and_c_answers_later() -> None:
+    program = Program(FakeConsole(now=WAITING, loaded=BOARD))
+    program.press("enter", " ")
+    assert program.console.asked == [("hold",)] and "waits for T2, 1.000 mm" in program.text()
+    program.press("c", "enter", "c", "right", "enter")
+    assert program.console.asked[1:] == [("tool_changed",)] and "waits for" not in program.text()
+
+
+def test_a_tool_change_settled_otherwise_takes_its_box_away() -> None:
+    program = Program(FakeConsole(now=WAITING))
+    assert "Not yet" in program.text()
+    program.console.now = VIEW
+    program.app.turn()
+    assert "Not yet" not in program.text() and program.app.layers.top is None

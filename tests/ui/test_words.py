@@ -9,6 +9,7 @@ import pytest
 from drillctl import ui
 from drillctl.panel.words import FAULT_WORDS
 from drillctl.ui import words
+from tests.support.sentences import all_forms, form_of
 
 ROOT = Path(ui.__file__).parent
 POLISH = words.catalogue((words.LOCALE / "pl" / "LC_MESSAGES" / "drillctl.po").read_text("utf-8"))
@@ -65,7 +66,8 @@ def test_entries_of_several_lines_and_escapes_are_read() -> None:
 
 
 def test_no_entry_is_left_over() -> None:
-    """Besides the screens' own messages there are the faults' words, and the station's refusals."""
-    refusals = Path(ui.__file__).parents[1] / "station" / "station.py"
-    told = {node.value for node in ast.walk(ast.parse(refusals.read_text("utf-8"))) if isinstance(node, ast.Constant)}
-    assert set(POLISH) - messages() - told - {text for fault in FAULT_WORDS.values() for text in fault} == set()
+    """Besides the screens' own messages there are the faults' words, and the sentences of the rooms below."""
+    told = all_forms() | {text for fault in FAULT_WORDS.values() for text in fault}
+    left = set(POLISH) - messages()
+    assert {source for source in left if form_of(source) not in told} == set()
+

@@ -33,9 +33,11 @@ class Form:
 
     def problem(self, field: FieldView) -> str:
         """Why a field's content can't be taken; empty where it can."""
-        if field.place not in self.typed:
-            return ""
-        return " ".join(self._desk.with_field(self._text, field.place, self.typed[field.place])[1])
+        return " ".join(self.refusal(field, self.typed[field.place])) if field.place in self.typed else ""
+
+    def refusal(self, field: FieldView, typed: str) -> Problems:
+        """Why a field would not take this."""
+        return self._desk.with_field(self._text, field.place, typed)[1]
 
     def candidate(self) -> tuple[str, Problems]:
         """The text with all that was typed, and the reasons why some of it is not in it."""

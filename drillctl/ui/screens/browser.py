@@ -38,6 +38,12 @@ class Browser(urwid.ListBox[int]):
         self._rows[:] = [urwid.AttrMap(self._row(*entry), "body", "focus") for entry in found]
         self._rows.set_focus(0)
 
+    def stand_on(self, file: Path) -> None:
+        """Its folder, and the cursor upon it where the filter lets it through."""
+        self.go_to(file.parent)
+        if file in self._paths:
+            self._rows.set_focus(self._paths.index(file))
+
     def filter(self, pattern: str) -> None:
         """Patterns apart by spaces; none of them means every file."""
         self.pattern = pattern.strip() or "*"

@@ -13,13 +13,15 @@ from drillctl.panel.tables import FieldView, TableDesk
 from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Line
 from drillctl.ui.models.form import Form
+from drillctl.ui.screens.compare import label_of
 from drillctl.ui.screens.field_words import words_of
+from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.shell import Shell
 from drillctl.ui.words import N_, _
 
-LABEL_COLUMNS, VALUE_COLUMNS = 34, 26
+LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
 
 
 class Configuration(urwid.WidgetWrap[urwid.Widget]):
@@ -35,10 +37,11 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         Key(("f5",), "F5", "choose", N_("drives this machine, as it was saved"), N_("Drive it")),
         Key(("f7",), "F7", "copy", N_("copies this machine's file under another name"), N_("Copy")),
         Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped file is in force again"), N_("Reset")),
+        Key(("f12",), "F12", "measure", N_("measures the scale of the axis under the cursor"), N_("Measure")),
     )
 
     def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
-        self._shell, self._desk, self._name = shell, desk, name
+        self._console, self._shell, self._desk, self._name = console, shell, desk, name
         self._shelf = Shelf(console, shell, desk, "machines")
         self._heading, self._told = urwid.Text(""), urwid.Text("")
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
@@ -52,10 +55,15 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         """What is typed."""
         return self._form
 
+    @property
+    def changed(self) -> bool:
+        """Whether something typed would be lost."""
+        return self._form.changed
+
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys, then the field's own; Esc asks first where something would be lost."""
-        if key == "esc" and self._form.changed:
-            self._shell.ask(_("Leave without saving?"), self._shell.back)
+        if key == "esc" and self.changed:
+            self._shell.ask(_("Leave without saving?"), self._give_up)
             return None
         if called(self, self.keys, key):
             return None
@@ -96,12 +104,25 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         self._shelf.drive(self._name)
 
     def copy(self) -> None:
-        """The copy is gone on with."""
-        self._shelf.copy(self._name, self._go_on_with)
+        """Of what is saved; the copy is gone on with."""
+        if self.changed:
+            self._shell.message(_("Not copied"), [_("Save first, or take back, what is typed.")])
+        else:
+            self._shelf.copy(self._name, self._go_on_with)
 
     def reset(self) -> None:
         """What is typed goes too."""
         self._shelf.reset(self._name, self._open)
+
+    def measure(self) -> None:
+        """With nothing typed that a new scale would be saved with."""
+        field = self._field
+        if field is None or not field.axis:
+            self._shell.message(_("Not measured"), [_("Go to a field of the axis that is to be measured.")])
+        elif self.changed:
+            self._shell.message(_("Not measured"), [_("Save first, or take back, what is typed.")])
+        else:
+            ScaleGuide(self._console, self._shell, self._desk, self._name, field.axis, self._open).begin()
 
     @property
     def _field(self) -> FieldView | None:
@@ -116,10 +137,21 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
             self._list.set_focus(min(at, len(self._edits) - 1))
         self._look()
 
+    def _give_up(self) -> None:
+        """What is typed goes, and the screen with it."""
+        self._open()
+        self._shell.back()
+
     def _take(self) -> None:
-        """What stands in the field that has the cursor."""
-        if self._field is not None:
-            self._form.type(self._field, str(self._edits[self._list.focus_position].edit_text))
+        """What stands in the field that has the cursor; a locked one springs back, and says why."""
+        field = self._field
+        if field is None:
+            return
+        edit = self._edits[self._list.focus_position]
+        if field.locked and edit.edit_text != field.value:
+            self._shell.message(_("Locked"), self._form.refusal(field, str(edit.edit_text)))
+            edit.set_edit_text(field.value)
+        self._form.type(field, str(edit.edit_text))
         self._look()
 
     def _go_on_with(self, name: str) -> None:
@@ -142,11 +174,11 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
 
 
 def _row(field: FieldView, edit: urwid.Edit) -> urwid.Widget:
-    words = words_of(field)
-    label = f"{field.axis.upper()}: {_(words.label)}" if field.axis else _(words.label)
+    unit = _(words_of(field).unit)
     allowed = " | ".join(field.choices) or field.bounds
-    unit = f"{_(words.unit)}  " if words.unit else ""
-    box = urwid.AttrMap(edit, "field", "focus")
-    return urwid.Columns(
-        [(LABEL_COLUMNS, urwid.Text(label)), (VALUE_COLUMNS, box), urwid.Text(("dark", f"{unit}{allowed}"))], 1
-    )
+    sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
+    told: Line = [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []
+    label, box = urwid.Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
+    if not told:  # free text has the whole line
+        return urwid.Columns([(LABEL_COLUMNS, label), box], 1)
+    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), urwid.Text(told, wrap="clip")], 1)

@@ -9,22 +9,24 @@ from typing import Any
 
 import urwid
 
-from drillctl.panel.console import Console, MachineView, Problems
+from drillctl.panel.console import Console, MachineView
+from drillctl.ui.alerts import tool_name
 from drillctl.ui.dialogs import pair_mm
 from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Size
+from drillctl.ui.lines import Line, Size
+from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.side_window import SideWindow
 from drillctl.ui.shell import Shell
+from drillctl.ui.unfinished import offer_job
 from drillctl.ui.words import N_, _
 
-STEP_SIZES = (1, 3, 12, 120, 1200)  # of a jog: a column, a rest, a cycle of pcb-drill's table, a tenth and an inch
 WIDE = 100  # columns from which the window is wide
 NARROW_WINDOW, WIDE_WINDOW = 36, 48
 LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
 
 
-class Drilling(urwid.WidgetWrap[urwid.Widget]):
+class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
     """The machine at work. ``refresh`` is called with the newest view."""
 
     title = N_("Drilling")
@@ -33,16 +35,11 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         Key(("d",), "D", "dry_run", N_("goes to every hole with the drill up"), N_("Dry")),
         Key((" ",), "Space", "hold_or_resume", N_("holds the job, or goes on with it"), N_("Hold")),
         Key(("x",), "X", "stop", N_("ends the job; the position is kept"), N_("Stop")),
+        Key(("c",), "C", "tool_changed", N_("the tool that the job waits for is in; asks first")),
         Key(("i",), "I", "initialise", N_("head up, then X=0, Y=0 by the limit sensors"), N_("Init")),
         Key(("f",), "F", "files", N_("opens the files"), N_("Files")),
-        Key(("left",), "Left", "jog_back", N_("first axis back by a step size"), argument=0),
-        Key(("right",), "Right", "jog_on", N_("first axis on by a step size"), argument=0),
-        Key(("down",), "Down", "jog_back", N_("second axis back by a step size"), argument=1),
-        Key(("up",), "Up", "jog_on", N_("second axis on by a step size"), argument=1),
-        Key(("page up",), "PgUp", "jog_back", N_("third axis back: the head up"), argument=2),
-        Key(("page down",), "PgDn", "jog_on", N_("third axis on: the head down"), argument=2),
-        Key(("+", "="), "+", "step_size", N_("the next step size of a jog"), argument=1),
-        Key(("-",), "-", "step_size", N_("the step size before"), argument=-1),
+        *JOG_KEYS,
+        Key(("tab",), "Tab", "turn_page", N_("the next page of the window at the right")),
         Key(("h",), "H", "go_to_hole", N_("goes over a hole, by its number")),
         Key(("t",), "T", "type_place", N_("goes to X and Y in mm, typed")),
         Key(("b",), "B", "set_base", N_("takes this place as the working base")),
@@ -50,14 +47,13 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
     )
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False, files: Callable[[], object] | None = None):
-        self._console, self._shell, self._open_files = console, shell, files
-        self._size_index = 2
-        self._told: tuple[str, str] = ("body", "")
+        AtMachine.__init__(self, console)
+        self._shell, self._open_files = shell, files
         self._picture = BoardPicture(plain)
         self._window = SideWindow()
-        self._note = urwid.Text("", wrap="clip")
+        self._footer = urwid.Text("")
         self._columns = urwid.Columns([self._picture, self._window], dividechars=1)
-        super().__init__(urwid.Frame(self._columns, footer=self._note))
+        urwid.WidgetWrap.__init__(self, urwid.Frame(self._columns, footer=self._footer))
         self.refresh(console.view())
 
     def selectable(self) -> bool:
@@ -86,8 +82,7 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         head = (view.axes[0].position_mm, view.axes[1].position_mm) if len(view.axes) > 1 else None
         running = bool(of_board and view.command)
         self._picture.show(board, of_board.holes_done if of_board else 0, running, head)
-        step = _("jog step {steps}").format(steps=STEP_SIZES[self._size_index])
-        self._note.set_text([("field", f" {step} "), " ", self._told])
+        self._footer.set_text(self._bottom(*self._awaited(view)))
 
     def start(self) -> None:
         """After a question: this one bores."""
@@ -95,8 +90,15 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         if board is None:
             self._answer(self._console.start(dry=False))
             return
+        cut_off = next((job for job in self._console.unfinished() if job.file == board.file), None)
+        if cut_off is not None:
+            offer_job(cut_off, self._console, self._shell, anew=self._drill)
+            return
         asked = _("Drill {holes} holes of {name}?").format(holes=len(board.xy_mm), name=board.name)
-        self._shell.ask(asked, lambda: self._answer(self._console.start(dry=False), _("drilling")))
+        self._shell.ask(asked, self._drill)
+
+    def _drill(self) -> None:
+        self._answer(self._console.start(dry=False), _("drilling"))
 
     def dry_run(self) -> None:
         """The same way with the drill up."""
@@ -112,6 +114,15 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
     def stop(self) -> None:
         """Ends the job."""
         self._answer(self._console.stop(), _("stop; the position is kept"))
+
+    def tool_changed(self) -> None:
+        """After a question: the drill comes down next."""
+        tool = self._console.view().tool_wanted
+        if tool is None:
+            self._say("warning", _("no tool is waited for"))
+            return
+        asked = _("Is the tool in? {tool}").format(tool=tool_name(tool))
+        self._shell.ask(asked, lambda: self._answer(self._console.tool_changed(), _("going on")))
 
     def initialise(self) -> None:
         """By the limit sensors."""
@@ -130,18 +141,9 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         if self._open_files is not None:
             self._open_files()
 
-    def jog_on(self, axis: int) -> None:
-        """By the step size."""
-        self._jog(axis, 1)
-
-    def jog_back(self, axis: int) -> None:
-        """By the step size."""
-        self._jog(axis, -1)
-
-    def step_size(self, change: int) -> None:
-        """The next or the one before; the ends stay."""
-        self._size_index = min(max(self._size_index + change, 0), len(STEP_SIZES) - 1)
-        self.refresh(self._console.view())
+    def turn_page(self) -> None:
+        """Of the window."""
+        self._window.turn_page()
 
     def go_to_hole(self) -> None:
         """By its number in drilling order."""
@@ -175,21 +177,8 @@ class Drilling(urwid.WidgetWrap[urwid.Widget]):
         told = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
         self._answer(self._console.go_to(x_mm, y_mm), told)
 
-    def _jog(self, index: int, sign: int) -> None:
-        axes = self._console.view().axes
-        if index >= len(axes):
-            self._say("warning", _("this machine has no such axis"))
-            return
-        steps = sign * STEP_SIZES[self._size_index]
-        name = axes[index].name
-        self._answer(self._console.jog(name, steps), f"{name.upper()} {steps:+d}")
-
-    def _answer(self, problems: Problems, done: str = "") -> None:
-        if problems:
-            self._say("warning", _("refused: {why}").format(why="; ".join(map(_, problems))))
-        else:
-            self._say("body", done)
-
-    def _say(self, attribute: str, text: str) -> None:
-        self._told = (attribute, text)
-        self.refresh(self._console.view())
+    def _awaited(self, view: MachineView) -> Line:
+        """What the job waits for outlasts whatever was told before."""
+        if view.tool_wanted is None:
+            return []
+        return [("warning", _("waits for {tool}: C when it is in").format(tool=tool_name(view.tool_wanted))), "  "]

@@ -26,7 +26,7 @@ FIELD_WORDS: Mapping[Place, FieldWords] = {
     ("configuration", "mode"): FieldWords(
         N_("Mode"),
         "",
-        N_("On the paper's screen: the ticks move a simulation, or they drive the card. Here --port decides."),
+        N_("The ticks move a simulation, or (REAL) they drive the card, on its port; --port wins."),
     ),
     ("columns_per_inch",): FieldWords(
         N_("scale"), N_("columns/inch"), N_("Columns of the phase table to an inch of travel, as measured.")
@@ -49,7 +49,7 @@ FIELD_WORDS: Mapping[Place, FieldWords] = {
     ("configuration", "tool_change"): FieldWords(
         N_("Tool change"),
         "",
-        N_("As on the paper's screen. Whether a run asks for its tools is said with it (--tools)."),
+        N_("MANUAL: the screen asks for each tool. AUTOMATIC: on a real port only; --tools wins."),
     ),
     ("tick_hz",): FieldWords(
         N_("Interrupt frequency"), "Hz", N_("Ticks a second; with the ramp it decides how fast the motors turn.")

@@ -4,41 +4,30 @@ Rule: every change of placing, order or format reads the file anew; a refused on
 shown of a board comes from its BoardView alone. Opened by the frame and by the Drilling screen.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
 import urwid
 
-from drillctl.panel.console import Asked, BoardView, Console
+from drillctl.panel.console import Console, Problems
+from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob
 from drillctl.ui.dialogs import pair_mm
+from drillctl.ui.formats import FORMATS
+from drillctl.ui.forms import Field
 from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Size
-from drillctl.ui.progress import clock
+from drillctl.ui.screens.alignment import AlignmentScreen
+from drillctl.ui.screens.board_facts import CHOICES, asked_lines, board_lines, format_name, is_warning, recent_line
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.browser import Browser, preview
+from drillctl.ui.screens.typed import accepted, length_mm, panel_of, tool_numbers
 from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
+from drillctl.ui.unfinished import offer_unfinished
 from drillctl.ui.words import N_, _
 
-
-class Choice(NamedTuple):
-    """A way to place or drill a board: a field of Asked, its label, its values with the word for each."""
-
-    field: str
-    label: str
-    values: tuple[tuple[str | float | None, str], ...]
-
-
-CHOICES = (
-    Choice("mirror", N_("Mirror"), ((None, N_("no")), ("x", N_("in X")), ("y", N_("in Y")))),
-    Choice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
-    Choice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
-    Choice(
-        "order", N_("Order"),
-        (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best"))),
-    ),
-)
 BY_FIELD = {choice.field: choice for choice in CHOICES}
 
 
@@ -49,13 +38,18 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     keys = (
         Key(("enter",), "Enter", "choose", N_("opens a folder, or loads a file"), N_("Load")),
         Key(("/",), "/", "filter", N_("which files are listed"), N_("Filter")),
-        Key(("tab",), "Tab", "other_side", N_("between the list and the facts"), N_("Side")),
+        Key(("e",), "E", "recent", N_("the files opened last, as they were placed"), N_("Recent")),
+        Key(("u",), "U", "unfinished", N_("jobs that were cut off, to be gone on with")),
+        Key(("tab",), "Tab", "other_side", N_("between the list and the facts")),
+        Key(("f",), "F", "choose_format", N_("the format of the numbers, or to recognise it"), N_("Format")),
         Key(("m",), "M", "cycle", N_("mirrors the board"), N_("Mirror"), "mirror"),
         Key(("t",), "T", "cycle", N_("turns the board by a quarter"), N_("Turn"), "rotate_deg"),
-        Key(("o",), "O", "cycle", N_("what comes to lie at the base"), N_("Origin"), "origin"),
+        Key(("o",), "O", "cycle", N_("what comes to lie at the base"), argument="origin"),
         Key(("v",), "V", "offset", N_("moves the board by X and Y")),
+        Key(("a",), "A", "align", N_("places the board by holes measured on it"), N_("Align")),
+        Key(("p",), "P", "panel", N_("repeats the board in columns and rows"), N_("Panel")),
         Key(("r",), "R", "cycle", N_("the order of the holes"), N_("Order"), "order"),
-        Key(("g",), "G", "set_format", N_("lets the format be recognised again"), argument=""),
+        Key(("d",), "D", "how_to_drill", N_("pecks, spots, tools left out, drills at hand"), N_("How")),
     )
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False, folder: Path | None = None):
@@ -90,94 +84,149 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         """Patterns such as ``*.drl``."""
         self._shell.ask_text(_("Filter"), _("Files:"), self._browser.pattern, self._browser.filter)
 
+    def recent(self) -> None:
+        """A list, each with the settings that it was opened with."""
+        jobs = self._console.recent()
+        if not jobs:
+            self._shell.message(_("Recent"), [_("No file has been opened yet.")])
+            return
+        lines = [recent_line(job.file, job.asked) for job in jobs]
+        self._shell.choose(_("Recent"), lines, lambda index: self._open_again(jobs[index]))
+
+    def unfinished(self) -> None:
+        """Offered one by one."""
+        if not offer_unfinished(self._console, self._shell):
+            self._shell.message(_("Interrupted jobs"), [_("No job was cut off.")])
+
     def load(self, file: Path) -> None:
-        """A file that was chosen."""
-        self._try(file, self._asked)
+        """A file that was chosen. What was measured on another board, and its tools left out, are not asked of it."""
+        same = file == self._loaded
+        self._tell(self._try(file, self._asked if same else replace(self._asked, measured=(), skip_tools=())))
 
     def cycle(self, field: str) -> None:
         """The next value of a choice."""
         values = [value for value, _word in BY_FIELD[field].values]
-        following = values[(values.index(getattr(self._asked, field)) + 1) % len(values)]
-        changed: dict[str, Any] = {field: following}
-        self._try(self._loaded, replace(self._asked, **changed))
+        self._change(**{field: values[(values.index(getattr(self._asked, field)) + 1) % len(values)]})
+
+    def choose_format(self) -> None:
+        """By name, or typed."""
+        lines = [*(format_name(entry.option) for entry in FORMATS), _("&Typed...").replace("&", "")]
+
+        def chosen(index: int) -> None:
+            if index < len(FORMATS):
+                self.set_format(FORMATS[index].option)
+            else:
+                self.type_format()
+
+        self._shell.choose(_("Format"), lines, chosen)
+
+    def type_format(self) -> None:
+        """As on the command line."""
+        prompt = _("Units, digits and zeros left out, as in inch,2:4,leading:")
+        self._shell.ask_text(_("Format"), prompt, self._asked.format or "", self.set_format)
 
     def set_format(self, name: str) -> None:
         """Settled by hand; empty: recognised."""
-        self._try(self._loaded, replace(self._asked, format=name or None))
+        self._change(format=name.strip() or None)
 
     def offset(self) -> None:
         """Typed."""
         now = "{:g} {:g}".format(*self._asked.offset_mm)
         self._shell.ask_text(_("Offset"), _("X and Y in mm from the base:"), now, self._set_offset)
 
+    def panel(self) -> None:
+        """Columns and rows of the same board; one of each is none."""
+        now = self._asked.panel or PanelOf(1, 1, 0.0, 0.0)
+        fields = (
+            Field(_("Columns (along X):"), str(now.columns)),
+            Field(_("Rows (along Y):"), str(now.rows)),
+            Field(_("From board to board in X, mm:"), f"{now.pitch_x_mm:g}"),
+            Field(_("From board to board in Y, mm:"), f"{now.pitch_y_mm:g}"),
+        )
+        self._shell.ask_fields(_("Panel"), fields, accepted(panel_of, lambda panel: self._with(panel=panel)))
+
+    def how_to_drill(self) -> None:
+        """What ``drillctl run`` knows as --peck, --spot, --skip-tools and --drills."""
+        now = self._asked
+        fields = (
+            Field(_("Pecks of so many mm (empty: at once):"), _typed_mm(now.peck_mm)),
+            Field(_("Spot first, mm deep (empty: none):"), _typed_mm(now.spot_mm)),
+            Field(_("Tools to leave out, by number:"), " ".join(map(str, now.skip_tools))),
+            Field(_("File of the drills at hand:"), now.drills or ""),
+        )
+
+        def read(texts: Sequence[str]) -> dict[str, Any]:
+            drills = str(Path(texts[3].strip()).expanduser().resolve()) if texts[3].strip() else None
+            depths = {"peck_mm": length_mm(texts[0]), "spot_mm": length_mm(texts[1])}
+            return {**depths, "skip_tools": tool_numbers(texts[2]), "drills": drills}
+
+        self._shell.ask_fields(_("How to drill"), fields, accepted(read, lambda wishes: self._with(**wishes)))
+
+    def align(self) -> None:
+        """By holes measured on the board that is loaded."""
+        board = self._console.board()
+        if board is None or not self._loaded.name or Path(board.file) != self._loaded.resolve():
+            self._shell.message(_("Measured holes"), [_("no board is loaded: open a drill file first")])
+        elif self._asked.panel:
+            self._shell.message(_("Measured holes"), [_("Measure a single board first, then repeat it in a panel.")])
+        else:
+            self._shell.open(AlignmentScreen(self._console, self._shell, board, self._asked, self._place_by))
+
+    def _place_by(self, measured: tuple[Measured, ...]) -> Problems:
+        """The holes say where the board lies; only whether it lies face down was asked beside them."""
+        if not measured:
+            return self._with(measured=())
+        usual = Asked()
+        return self._with(
+            measured=measured, origin=usual.origin, rotate_deg=usual.rotate_deg, offset_mm=usual.offset_mm
+        )
+
+    def _open_again(self, job: RecentJob) -> None:
+        file = Path(job.file)
+        problems = self._try(file, job.asked)
+        self._tell(problems)
+        if not problems:
+            self._browser.stand_on(file)
+
     def _set_offset(self, text: str) -> None:
         pair = pair_mm(text)
         if pair is None:
-            told = _("two numbers are wanted, such as 12.7 25.4, not {text!r}").format(text=text)
-            self._shell.message(_("Offset"), [told])
+            wanted = _("two numbers are wanted, such as 12.7 25.4, not {text!r}").format(text=text)
+            self._shell.message(_("Offset"), [wanted])
         else:
-            self._try(self._loaded, replace(self._asked, offset_mm=pair))
+            self._change(offset_mm=pair)
 
-    def _try(self, file: Path, asked: Asked) -> None:
+    def _change(self, **changed: Any) -> None:
+        self._tell(self._with(**changed))
+
+    def _with(self, **changed: Any) -> Problems:
+        return self._try(self._loaded, replace(self._asked, **changed))
+
+    def _tell(self, problems: Problems) -> None:
+        if problems:
+            self._shell.message(_("Refused"), [told(problem) for problem in problems])
+
+    def _try(self, file: Path, asked: Asked) -> Problems:
         """With a file: read as asked. Without one yet the wish is kept for it."""
         problems = self._console.load(str(file), asked) if file.name else ()
-        if problems:
-            self._shell.message(_("Refused"), [_(problem) for problem in problems])
-            return
-        self._asked, self._loaded = asked, file
-        self._look_at(file if file.name else self._browser.current)
+        if not problems:
+            self._asked, self._loaded = asked, file
+            self._look_at(file if file.name else self._browser.current)
+        return problems
 
     def _look_at(self, path: Path) -> None:
         self._where.set_text(str(self._browser.folder))
         board = self._console.board() if path == self._loaded else None
         self._picture.show(board)
         lines = board_lines(board) if board else preview(path)
-        self._rows[:] = [_row(line) for line in [*self._wishes(), "", *lines]]
+        self._rows[:] = [_row(line) for line in [*asked_lines(self._asked), "", *lines]]
         self._rows.set_focus(0)
 
-    def _wishes(self) -> list[str]:
-        """Two a line."""
-        words = [(choice.label, dict(choice.values)[getattr(self._asked, choice.field)]) for choice in CHOICES]
-        offset = "{:g} {:g} mm".format(*self._asked.offset_mm)
-        told = [f"{_(label)}: {_(word)}" for label, word in words] + [f"{_('Offset')}: {offset}"]
-        told.insert(0, f"{_('Format')}: {self._asked.format or _('recognised')}")
-        return [f"{left:24} {right}" for left, right in zip(told[::2], told[1::2], strict=True)]
 
-
-def board_lines(board: BoardView) -> list[str]:
-    """A board in words: size, format and why, tools with their time, the whole time, warnings."""
-    width_mm, height_mm = np.ptp(board.xy_mm, axis=0).tolist() if len(board.xy_mm) else (0.0, 0.0)
-    size = _("{name}: {holes} holes, {width:.2f} x {height:.2f} mm").format(
-        name=board.name, holes=len(board.xy_mm), width=width_mm, height=height_mm
-    )
-    sure = f"{board.format} ({board.confidence:.0%}): {board.reason}"
-    runner_up = [_("else: {format}").format(format=board.runner_up)] if board.runner_up else []
-    warnings = [_("warning: {text}").format(text=text) for text in board.warnings]
-    return [size, sure, *runner_up, *_tool_lines(board), _whole_time(board), *warnings]
-
-
-def _tool_lines(board: BoardView) -> list[str]:
-    return [
-        f"T{tool.number:<3} {_diameter(tool.diameter_mm):>9} "
-        + _("{holes:6} holes  {time}").format(holes=tool.holes, time=clock(tool.ticks / board.estimate.tick_hz))
-        for tool in board.estimate.tools
-    ]
-
-
-def _diameter(mm: float | None) -> str:
-    return "? mm" if mm is None else f"{mm:.3f} mm"
-
-
-def _whole_time(board: BoardView) -> str:
-    told = board.estimate
-    about = "" if told.exact else _("about ")
-    line = _("Estimate {about}{time}").format(about=about, time=clock(told.ticks / told.tick_hz))
-    return line if told.fault is None else f"{line}; {_('it would end in')} {told.fault.name}: {_(told.fault.cause)}"
+def _typed_mm(value_mm: float | None) -> str:
+    return "" if value_mm is None else f"{value_mm:g}"
 
 
 def _row(line: str) -> urwid.AttrMap[urwid.SelectableIcon]:
     """A line that can be scrolled to; a warning is marked."""
-    marked = "warning" if line.startswith(_("warning: {text}").partition("{")[0]) else "body"
-    return urwid.AttrMap(urwid.SelectableIcon(line, 0), marked, "focus")
-
-
+    return urwid.AttrMap(urwid.SelectableIcon(line, 0), "warning" if is_warning(line) else "body", "focus")

@@ -7,12 +7,13 @@ stay. Opened from the list of tables.
 from collections.abc import Callable
 
 from drillctl.ui.keys import Key
-from drillctl.ui.lines import Line
+from drillctl.ui.lines import Line, around
 from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
 from drillctl.ui.words import N_, _
 
 NAME_COLUMNS, VOLTS_COLUMNS, CELL_COLUMNS = 12, 7, 3
+FURTHER_ROWS = 3  # above and below the wires
 
 
 class PhaseEditor(TableEditor):
@@ -57,17 +58,19 @@ class PhaseEditor(TableEditor):
         """Stops at the ends."""
         self._go(self._line + by, self._column)
 
-    def drawing(self, columns: int) -> list[Line]:
-        """Only the columns around the cursor where there is no room for all."""
+    def drawing(self, columns: int, rows: int) -> list[Line]:
+        """Only the columns and rows around the cursor where there is no room for all."""
         if not self._grid.rows:
             return [[("danger", _("no phase table: its rows can't be read"))]]
         room = max((columns - NAME_COLUMNS - VOLTS_COLUMNS) // CELL_COLUMNS, 1)
-        first = min(max(self._column - room // 2, 0), max(self._grid.columns - room, 0))
-        shown = range(first, min(first + room, self._grid.columns))
+        shown = around(self._column, self._grid.columns, room)
         lines = [self._row(number, line, shown) for number, line in enumerate(self._grid.lines)]
+        cursor = self._line
         if self._grid.has_reverse:
             lines.insert(len(self._grid.rows), [("title", _("backwards"))])
-        return [self._numbers(shown), *lines, [""], [self._place()]]
+            cursor += self._grid.lines[self._line].backwards
+        window = around(cursor, len(lines), max(rows - FURTHER_ROWS, 1))
+        return [self._numbers(shown), *(lines[row] for row in window), [""], [self._place()]]
 
     def _look(self) -> None:
         self._grid = PhaseGrid(tuple(self._desk.phase_rows(self.text)))

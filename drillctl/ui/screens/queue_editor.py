@@ -4,19 +4,26 @@ Rule: what runs is the text on the screen; it is checked before it is handed on,
 Opened from the menu.
 """
 
+from collections.abc import Callable
+
 import urwid
 
-from drillctl.panel.console import Console
+from drillctl.panel.console import AxisView, Console, MachineView, Problems
+from drillctl.panel.handwork import HandDesk
 from drillctl.panel.queues import QueueDesk
 from drillctl.panel.tables import Finding
 from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Line
 from drillctl.ui.models.completion import completed, usage
+from drillctl.ui.models.history import History
+from drillctl.ui.real import asked_if_real
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
 MOST_FINDINGS = 5
+Draft = tuple[str, int]  # a text, and where the cursor stands in it
 
 
 class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
@@ -25,15 +32,19 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
     title = N_("Queue of commands")
     keys = (
         Key(("tab",), "Tab", "complete", N_("completes the word before the cursor"), N_("Complete")),
-        Key(("f5",), "F5", "run_all", N_("runs the whole queue"), N_("Run")),
+        Key(("f5",), "F5", "run_all", N_("runs the whole queue; goes on where the clock was stopped"), N_("Run")),
         Key(("f6",), "F6", "run_to_cursor", N_("runs down to the cursor's line, this one too"), N_("To cursor")),
         Key(("f7",), "F7", "run_line", N_("runs the cursor's line alone and goes to the next"), N_("One")),
+        Key(("f8",), "F8", "tick", N_("one tick of the queue, then the clock waits"), N_("Tick")),
+        Key(("ctrl u",), "Ctrl+U", "undo", N_("takes the last change back")),
+        Key(("ctrl r",), "Ctrl+R", "redo", N_("makes it again")),
         Key(("f2",), "F2", "save", N_("saves the queue to a file"), N_("Save")),
         Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: QueueDesk):
-        self._console, self._shell, self._desk = console, shell, desk
+    def __init__(self, console: Console, shell: Shell, desk: QueueDesk, hands: HandDesk):
+        self._console, self._shell, self._desk, self._hands = console, shell, desk, hands
+        self._stopped: list[Line] = []
         self._commands = desk.commands()
         self.file = ""
         self._edit = urwid.Edit(multiline=True)
@@ -56,11 +67,12 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys, then the text's own; Esc asks first where something would be lost."""
         if key == "esc" and self.changed:
-            self._shell.ask(_("Leave without saving?"), self._shell.back)
+            self._shell.ask(_("Leave without saving?"), self._give_up)
             return None
         if called(self, self.keys, key):
             return None
         left = super().keypress(size, key)
+        self._keep()
         self._look()
         return left
 
@@ -71,11 +83,39 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         line, fits = completed(before[start:], self._commands, self._desk.words())
         self._edit.set_edit_text(f"{before[:start]}{line}{after}")
         self._edit.set_edit_pos(start + len(line))
+        self._keep()
         self._look(fits)
 
+    def undo(self) -> None:
+        """The cursor comes back too."""
+        self._history.undo()
+        self._restore()
+
+    def redo(self) -> None:
+        """As undo."""
+        self._history.redo()
+        self._restore()
+
+    def refresh(self, view: MachineView) -> None:
+        """While the clock is stopped, where it stopped."""
+        stopped = _stopped_lines(view) if view.paused else []
+        if stopped != self._stopped:
+            self._stopped = stopped
+            self._look()
+
     def run_all(self) -> None:
-        """From the first line."""
-        self._run(self.text)
+        """From the first line; or from where the clock stopped."""
+        if self._console.view().paused:
+            self._answer(self._hands.go())
+        else:
+            self._run(self.text)
+
+    def tick(self) -> None:
+        """The first one begins the queue."""
+        if self._console.view().paused:
+            self._answer(self._hands.tick(1))
+        else:
+            self._ask(self.text, self._hands.run_paused, self._first_tick)
 
     def run_to_cursor(self) -> None:
         """The lines after it stay out."""
@@ -84,9 +124,16 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
     def run_line(self) -> None:
         """Empty lines before it keep its number in what is said of it."""
         lines = self.text.split("\n")
-        if self._run("\n" * self._line + lines[self._line]):
-            self._edit.set_edit_pos(min(len("\n".join(lines[: self._line + 1])) + 1, len(self.text)))
+        after = min(len("\n".join(lines[: self._line + 1])) + 1, len(self.text))
+
+        def next_line() -> None:
+            self._edit.set_edit_pos(after)
             self._look()
+
+        self._run("\n" * self._line + lines[self._line], next_line)
+
+    def _first_tick(self) -> None:
+        self._answer(self._hands.tick(1))
 
     def save(self) -> None:
         """Asks for the file."""
@@ -105,15 +152,43 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         return self.text.count("\n", 0, self._edit.edit_pos)
 
     def _put(self, file: str, text: str) -> None:
+        """Another text; its history begins."""
         self.file, self._saved = file, text
+        self._history: History[Draft] = History((text, 0))
+        self._restore()
+
+    def _give_up(self) -> None:
+        """The edits go, and the screen with them."""
+        self._put(self.file, self._saved)
+        self._shell.back()
+
+    def _keep(self) -> None:
+        """A change of the text can be undone, one of the cursor is none."""
+        if self.text != self._history.now[0]:
+            self._history.do((self.text, self._edit.edit_pos))
+
+    def _restore(self) -> None:
+        text, cursor = self._history.now
         self._edit.set_edit_text(text)
-        self._edit.set_edit_pos(0)
+        self._edit.set_edit_pos(cursor)
         self._look()
 
-    def _run(self, text: str) -> bool:
-        problems = tuple(map(str, self._desk.check_queue(text))) or self._console.run_queue(text)
+    def _run(self, text: str, then: Callable[[], None] = lambda: None) -> None:
+        self._ask(text, self._console.run_queue, then)
+
+    def _ask(self, text: str, run: Callable[[str], Problems], then: Callable[[], None]) -> None:
+        """A sound queue is run, on a real machine after a question; ``then`` follows where it was begun."""
+
+        def begin() -> None:
+            if self._answer(run(text)):
+                then()
+
+        if self._answer(tuple(map(str, self._desk.check_queue(text)))):
+            asked_if_real(self._hands, self._shell, _("Run the queue on it?"), begin)
+
+    def _answer(self, problems: Problems) -> bool:
         if problems:
-            self._shell.message(_("Not run"), problems)
+            self._shell.message(_("Not run"), [told(problem) for problem in problems])
         return not problems
 
     def _save(self, file: str) -> None:
@@ -146,7 +221,18 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         place = _("line {line}, column {column}").format(line=self._line + 1, column=column + 1)
         hint = "  ".join(fits) or usage(line, self._commands)
         found = self._desk.check_queue(self.text) if self.text.strip() else ()
-        return [[("key", place)], [hint], *_findings(found)]
+        return [[("key", place)], [hint], *_findings(found), *self._stopped]
+
+
+def _stopped_lines(view: MachineView) -> list[Line]:
+    """Tick and command, and each axis."""
+    place = _("stopped after tick {tick}: {command}").format(tick=view.tick, command=view.command or "-")
+    return [[("warning", place)], ["  ".join(map(_axis, view.axes))]]
+
+
+def _axis(axis: AxisView) -> str:
+    told = _("{axis} column {column} ({state}) at {steps}")
+    return told.format(axis=axis.name.upper(), column=axis.column, state=f"{axis.state:+d}", steps=axis.position_steps)
 
 
 def _findings(found: tuple[Finding, ...]) -> list[Line]:

@@ -7,7 +7,7 @@ of what is on the screen; an unfinished number goes nowhere. Opened from the lis
 from drillctl.panel.tables import StateRow
 from drillctl.ui.bars import bar_rows
 from drillctl.ui.keys import Key
-from drillctl.ui.lines import Line
+from drillctl.ui.lines import Line, around
 from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
 from drillctl.ui.words import N_, _
 
@@ -17,6 +17,7 @@ CELL_COLUMNS = 12
 SIGNS = tuple("-0123456789")
 MOST_DIGITS = 7
 PROFILE_ROWS = 5
+LEAST_STATES = 3
 
 
 class RampEditor(TableEditor):
@@ -30,6 +31,8 @@ class RampEditor(TableEditor):
         Key(("up",), "Up", "upwards", N_("a state up"), argument=-1),
         Key(("down", "enter"), "Down", "upwards", N_("a state down"), argument=1),
         Key(("backspace",), "Backspace", "rub_out", N_("takes the last digit away")),
+        Key(("a", "insert"), "A", "more", N_("a pair of states more; numbers are proposed"), N_("Add")),
+        Key(("x", "delete"), "X", "fewer", N_("takes the outermost pair of states away"), N_("Remove")),
         Key((), "0-9 -", "type", N_("types over the number"), N_("Number")),  # which one: see keypress
         *TABLE_KEYS,
     )
@@ -53,6 +56,14 @@ class RampEditor(TableEditor):
         """One digit less."""
         self._take(self._shown()[:-1])
 
+    def more(self) -> None:
+        """The cursor stays on its state."""
+        self._reach(higher=True)
+
+    def fewer(self) -> None:
+        """Three states stay."""
+        self._reach(higher=False)
+
     def sideways(self, by: int) -> None:
         """Stops at the ends."""
         self._go(self._line, self._field + by)
@@ -71,17 +82,26 @@ class RampEditor(TableEditor):
         self._typed = None
         super().redo()
 
-    def drawing(self, columns: int) -> list[Line]:
-        """The states, then the profile."""
+    def drawing(self, columns: int, rows: int) -> list[Line]:
+        """The states, those around the cursor where there is no room for all, then the profile."""
         if not self._told.states:
             return [[("danger", _("no ramp: its rows can't be read"))]]
         heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS)
-        rows = [self._row(line, state) for line, state in enumerate(self._told.states)]
-        return [[("dark", heading)], *rows, [""], *self._profile(columns)]
+        profile = self._profile(columns)
+        window = around(self._line, len(self._told.states), max(rows - len(profile) - 2, LEAST_STATES))
+        states = [self._row(line, self._told.states[line]) for line in window]
+        return [[("dark", heading)], *states, [""], *profile]
 
     def _look(self) -> None:
         self._told = self._desk.ramp(self.text)
+        self._line = max(0, min(self._line, len(self._told.states) - 1))  # undone, there may be fewer
         super()._look()
+
+    def _reach(self, higher: bool) -> None:
+        state = self._told.states[self._line].state if self._told.states else 0
+        self.edit(self._desk.with_top(self.text, higher))
+        states = [row.state for row in self._told.states]
+        self._go(states.index(state) if state in states else 0 if state < 0 else len(states) - 1, self._field)
 
     def _take(self, typed: str) -> None:
         """Into the text as soon as it is a number."""

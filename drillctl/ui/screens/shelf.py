@@ -1,4 +1,4 @@
-"""What the editors of tables do with a text beyond editing it: save, reset, compare, copy, drive.
+"""What the editors of tables do with a text beyond editing it: save, reset, delete, compare, copy, drive.
 
 Rule: a refusal is told and nothing follows; ``then`` is called only after success. Used by table_editor, configuration
 and table_list.
@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from drillctl.panel.console import Console, Problems
 from drillctl.panel.tables import Kind, TableDesk
+from drillctl.ui.screens.compare import differences
 from drillctl.ui.shell import Shell
 from drillctl.ui.words import _
 
@@ -25,7 +26,7 @@ class Shelf:
         if self._refused(_("Not saved"), self._desk.save(self._kind, name, text)):
             return
         then()
-        question = _("Saved. Start the machine anew with it? The position will be lost.")
+        question = _("Saved. Drive the machine with it now? The position will be lost.")
         self._shell.ask(question, lambda: self.drive(machine))
 
     def reset(self, name: str, then: Then) -> None:
@@ -36,6 +37,27 @@ class Shelf:
                 then()
 
         self._shell.ask(_("Take your own copy away and go back to the shipped table?"), yes)
+
+    def delete(self, name: str, then: Then) -> None:
+        """Asks first; there is no way back."""
+
+        def yes() -> None:
+            if not self._refused(_("Nothing changed"), self._desk.delete(self._kind, name)):
+                then()
+
+        self._shell.ask(_("Delete {name}, which is your own, for good?").format(name=name), yes)
+
+    def compare(self, name: str) -> None:
+        """Asks with which."""
+
+        def accept(other: str) -> None:
+            if other not in {entry.name for entry in self._desk.tables(self._kind)}:
+                self._shell.message(_("Not compared"), [_("there is no table named {name!r}").format(name=other)])
+                return
+            told = differences(self._desk, self._kind, name, other)
+            self._shell.message(_("Differences"), told or [_("none: they are alike")])
+
+        self._shell.ask_text(_("Compare"), _("{name} with:").format(name=name), "", accept)
 
     def diff(self, name: str, text: str) -> None:
         """Against the shipped table."""

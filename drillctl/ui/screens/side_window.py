@@ -1,16 +1,18 @@
 """The paper's window at the right: holes, coordinates, command, phases, ramp, sensors, ticks.
 
 Rule: a function of the machine's view and the job's progress; what is on stands in brackets, so that nothing is told
-by colour alone. Where there is room, each motor's whole phase table is drawn, with its column marked. Used by drilling.
+by colour alone. Each motor's whole phase table is drawn, with its column marked. What does not fit into one window
+stands on further pages, no block broken that need not be. Used by drilling.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import urwid
 
 from drillctl.panel.console import AxisView, BoardView, MachineView
 from drillctl.panel.records import Progress
-from drillctl.ui.lines import Line, Size, boxed
+from drillctl.ui.lines import Line, Size, boxed, width_of
+from drillctl.ui.phase_lines import lamp, phase_line, phase_table
 from drillctl.ui.progress import clock
 from drillctl.ui.words import _
 
@@ -18,12 +20,18 @@ LABEL_WIDTH = 9
 
 
 class SideWindow(urwid.Widget):
-    """A box of these lines."""
+    """A box of these lines, a page of them at a time."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
 
     def __init__(self) -> None:
         self._shown: tuple[MachineView, Progress | None, BoardView | None] | None = None
+        self._page = 0
+
+    def turn_page(self) -> None:
+        """The next one; the first after the last."""
+        self._page += 1
+        self._invalidate()
 
     def show(self, view: MachineView, progress: Progress | None, board: BoardView | None) -> None:
         """Redrawn only if something is new."""
@@ -35,21 +43,45 @@ class SideWindow(urwid.Widget):
         """The lines, clipped to the box."""
         assert len(size) == 2
         columns, rows = size
-        lines = side_lines(*self._shown, columns, rows) if self._shown else []
-        return boxed(lines, columns, rows)
+        pages = side_pages(*self._shown, columns, rows) if self._shown else [[]]
+        self._page %= len(pages)
+        return boxed(pages[self._page], columns, rows)
 
 
-def side_lines(
+def side_pages(
     view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
-) -> list[Line]:
-    """At most ``rows`` lines for a window of ``columns``; where they are too few, phases give way first."""
-    head = [*_job_lines(view, progress, board), _headings(), *map(_place_line, view.axes)]
+) -> list[list[Line]]:
+    """The pages of a window of ``columns`` and ``rows``, at least one; lines may be longer, pages are not."""
+    job = _job_lines(view, progress, board)
+    places = [_headings(), *map(_place_line, view.axes)]
+    phases: list[Line] = [[("title", _("Phases"))], *map(phase_line, view.axes)]
+    tables = [phase_table(axis) for axis in view.axes]
     sensors, outputs = _marked(_("Sensors"), view.sensors, columns), _marked(_("Outputs"), view.outputs, columns)
-    tail = [*_tick_lines(view), *sensors, *outputs]
-    tables = [line for axis in view.axes for line in _phase_table(axis)]
-    if len(head) + len(tables) + len(tail) > rows:
-        tables = [[("title", _("Phases"))], *map(_phase_line, view.axes)]
-    return [*head, *tables[: max(0, rows - len(head) - len(tail))], *tail][:rows]
+    whole = [*job, *places, *(line for table in tables for line in table), *_tick_lines(view), *sensors, *outputs]
+    if len(whole) <= rows:
+        return [whole]
+    pages = _paged([job, places, _tick_lines(view), phases, sensors, outputs, *tables], rows)
+    count = len(pages)
+    return [_numbered(page, f"{number}/{count} Tab", columns) for number, page in enumerate(pages, start=1)]
+
+
+def _paged(blocks: Sequence[list[Line]], rows: int) -> list[list[Line]]:
+    """Blocks below each other, whole where a page can hold them."""
+    pages: list[list[Line]] = [[]]
+    for block in blocks:
+        if pages[-1] and len(pages[-1]) + len(block) > rows:
+            pages.append([])
+        for line in block:
+            if len(pages[-1]) == max(rows, 1):
+                pages.append([])
+            pages[-1].append(line)
+    return pages
+
+
+def _numbered(page: list[Line], mark: str, columns: int) -> list[Line]:
+    """Which page it is, at the right of its first line."""
+    gap = max(1, columns - len(mark) - width_of(page[0]))
+    return [[*page[0], " " * gap, ("key", mark)], *page[1:]]
 
 
 def _job_lines(view: MachineView, progress: Progress | None, board: BoardView | None) -> list[Line]:
@@ -101,41 +133,17 @@ def _place_line(axis: AxisView) -> Line:
     ]
 
 
-def _phase_line(axis: AxisView) -> Line:
-    """One line a motor: column, ramp state, and its wires."""
-    wires = [_lamp(name, lit) for name, _row, lit in axis.wires]
-    return [("title", f"{axis.name.upper():3}"), f"{axis.column:2} {axis.state:+d} ", *wires]
-
-
-def _phase_table(axis: AxisView) -> list[Line]:
-    """The table as printed, a wire a line, the column that is put out in brackets."""
-    top = _("column {column}, ramp {state} of {top}").format(
-        column=axis.column, state=f"{axis.state:+d}", top=axis.top_state
-    )
-    return [[("title", f"{axis.name.upper():3}"), top], *(_wire_line(axis.column - 1, *wire) for wire in axis.wires)]
-
-
-def _wire_line(column: int, name: str, row: str, lit: bool) -> Line:
-    before, cell, after = row[:column], row[column : column + 1], row[column + 1 :]
-    name_cell = f"[{name}]" if lit else f" {name} "
-    return [("lit" if lit else "dark", f"   {name_cell:8}"), ("dark", before), ("lit", f"[{cell}]"), ("dark", after)]
-
-
-def _lamp(name: str, lit: bool) -> tuple[str, str]:
-    return ("lit", f"[{name}]") if lit else ("dark", f" {name} ")
-
-
 def _marked(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> list[Line]:
     """Lamps under each other's label, as many a line as fit."""
     lines: list[Line] = []
     room = 0
     for name, lit in signals:
-        lamp = _lamp(name, lit)
-        if room < len(lamp[1]):
+        marked = lamp(name, lit)
+        if room < len(marked[1]):
             lines.append([("title", f"{'' if lines else label:{LABEL_WIDTH}}")])
             room = columns - LABEL_WIDTH
-        lines[-1].append(lamp)
-        room -= len(lamp[1])
+        lines[-1].append(marked)
+        room -= len(marked[1])
     return lines
 
 

@@ -17,6 +17,7 @@ from drillctl.ui.words import N_, _
 
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid has it; a box has two
 MOST_FINDINGS = 6
+FURTHER_ROWS = 3  # the heading, and empty lines around the table
 TABLE_KEYS = (
     Key(("u",), "U", "undo", N_("takes the last change back"), N_("Undo")),
     Key(("r",), "R", "redo", N_("makes it again"), N_("Redo")),
@@ -52,21 +53,22 @@ class TableEditor(urwid.Widget):
         """Whether it differs from what is in force."""
         return self.text != self._saved
 
-    def drawing(self, columns: int) -> list[Line]:
-        """The table itself, in lines: what each kind of editor draws in its own way."""
+    def drawing(self, columns: int, rows: int) -> list[Line]:
+        """The table itself, for so much room: what each kind of editor draws in its own way."""
         raise NotImplementedError
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Name, table, findings."""
         assert len(size) == 2
         columns, rows = size
-        lines: list[Line] = [[("title", self._heading())], [""], *self.drawing(columns), [""], *self._verdict()]
-        return boxed(lines, columns, rows)
+        verdict = self._verdict()
+        drawing = self.drawing(columns, rows - len(verdict) - FURTHER_ROWS)
+        return boxed([[("title", self._heading())], [""], *drawing, [""], *verdict], columns, rows)
 
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys; Esc asks first where something would be lost."""
         if key == "esc" and self.changed:
-            self._shell.ask(_("Leave without saving?"), self._shell.back)
+            self._shell.ask(_("Leave without saving?"), self._give_up)
             return None
         return None if called(self, self.keys, key) else key
 
@@ -96,6 +98,11 @@ class TableEditor(urwid.Widget):
     def diff(self) -> None:
         """Of the text on the screen, saved or not."""
         self._shelf.diff(self._name, self.text)
+
+    def _give_up(self) -> None:
+        """The edits go, and the screen with them."""
+        self._open()
+        self._shell.back()
 
     def _open(self) -> None:
         self._saved = self._desk.read(self.kind, self._name)

@@ -13,7 +13,7 @@ from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.ramp_editor import RampEditor
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import ORIGINS, Size
-from drillctl.ui.shell import Shell
+from drillctl.ui.shell import Shell, unsaved
 from drillctl.ui.words import N_, _
 
 Editor = Callable[[Console, Shell, TableDesk, str, bool], urwid.Widget]
@@ -23,7 +23,7 @@ TITLES: Mapping[Kind, str] = {
     "ramp": N_("Ramps"),
     "machines": N_("Machines"),
 }
-NAME_COLUMNS = 30
+NAME_COLUMNS = 41
 
 
 class TableList(urwid.WidgetWrap[urwid.Widget]):
@@ -32,12 +32,16 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
     keys = (
         Key(("enter",), "Enter", "edit", N_("opens the table"), N_("Open")),
         Key(("c",), "C", "copy", N_("copies the table under another name"), N_("Copy")),
+        Key(("d",), "D", "compare", N_("what differs between this table and another"), N_("Differences")),
+        Key(("r",), "R", "reset", N_("takes your own copy away: the shipped table is in force again"), N_("Reset")),
+        Key(("x", "delete"), "X", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
     )
 
     def __init__(self, console: Console, shell: Shell, desk: TableDesk, kind: Kind, plain: bool = False):
         self._console, self._shell, self._desk, self._plain = console, shell, desk, plain
         self._shelf = Shelf(console, shell, desk, kind)
         self.kind, self.title = kind, TITLES[kind]
+        self._editors: dict[str, urwid.Widget] = {}
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
         self._list = urwid.ListBox(self._rows)
         super().__init__(self._list)
@@ -63,15 +67,34 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
             self._list.set_focus(min(at, len(lines) - 1))
 
     def edit(self) -> None:
-        """With the editor of its kind."""
-        if self._entries:
+        """With the editor of its kind; one that was left with something unsaved in it comes back as it was."""
+        if not self._entries:
+            return
+        name = self._current
+        if not unsaved(self._editors.get(name)):
             editor = EDITORS[self.kind]
-            self._shell.open(editor(self._console, self._shell, self._desk, self._current, self._plain))
+            self._editors[name] = editor(self._console, self._shell, self._desk, name, self._plain)
+        self._shell.open(self._editors[name])
 
     def copy(self) -> None:
         """Asks for the name."""
         if self._entries:
             self._shelf.copy(self._current, lambda _name: self.fill())
+
+    def compare(self) -> None:
+        """Asks with which."""
+        if self._entries:
+            self._shelf.compare(self._current)
+
+    def reset(self) -> None:
+        """Asks first."""
+        if self._entries:
+            self._shelf.reset(self._current, self.fill)
+
+    def delete(self) -> None:
+        """Asks first."""
+        if self._entries:
+            self._shelf.delete(self._current, self.fill)
 
     @property
     def _current(self) -> str:

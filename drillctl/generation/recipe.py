@@ -1,0 +1,97 @@
+"""A job's recipe: the plain options from which the same job can be made again, on the command line or on the screen.
+
+Rule: nothing but what JSON can hold; a journal keeps it, and whoever resumes reads it back. Options are named as on
+the command line. Made by the verbs and the station.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from drillctl.generation import alignment
+from drillctl.generation.alignment import Alignment
+from drillctl.generation.drills import read_drills
+from drillctl.generation.errors import JobError
+from drillctl.generation.placing import Affine, Panel, Placing
+from drillctl.generation.wishes import Wishes
+from drillctl.generation.worklist import positioning_axes
+from drillctl.machine import Machine
+
+MeasuredRow = tuple[float, float, float, float]  # file_x, file_y, machine_x, machine_y, mm
+
+
+class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a job is made by, beside its drill file. Paths are absolute.
+
+    align  an alignment file, or the measured holes themselves
+    panel  columns, rows, pitch in X and Y (mm)
+    base   the working base, X and Y in steps from machine zero
+    """
+
+    machine: str
+    tables: str | None = None
+    tick_hz: int | None = None
+    origin: str | None = None
+    mirror: str | None = None
+    rotate: float = 0.0
+    offset: tuple[float, float] = (0.0, 0.0)
+    align: str | tuple[MeasuredRow, ...] | None = None
+    panel: tuple[int, int, float, float] | None = None
+    order: str = "file"
+    skip_tools: tuple[int, ...] = ()
+    drills: str | None = None
+    peck: float | None = None
+    spot: float | None = None
+    format: str | None = None
+    base: tuple[int, int] = (0, 0)
+
+    @classmethod
+    def of_options(cls, told: Mapping[str, Any]) -> "Recipe":
+        """From a journal. Raises JobError for one of another version, or damaged."""
+        try:
+            return msgspec.convert(told, cls)
+        except msgspec.ValidationError as error:
+            raise JobError([f"the journal was written by another version of this program: {error}"]) from error
+
+    def options(self) -> dict[str, Any]:
+        """As it stands in a journal."""
+        return msgspec.to_builtins(self)
+
+    def alignment(self) -> Alignment | None:
+        """What the measured holes say; a mirror asked for beside them means that the board lies face down.
+
+        Raises AlignmentError.
+        """
+        if self.align is None:
+            return None
+        face_down = self.mirror is not None
+        if isinstance(self.align, str):
+            return alignment.load(Path(self.align), mirrored=face_down)
+        rows = np.array(self.align, np.float64).reshape(-1, 4)
+        return alignment.fit(rows[:, :2], rows[:, 2:], mirrored=face_down)
+
+    def wishes(self, machine: Machine) -> Wishes:
+        """Raises JobError, PlacingError or AlignmentError."""
+        drills = read_drills(Path(self.drills)) if self.drills else None
+        skipped = frozenset(self.skip_tools)
+        return Wishes(self._placing(machine), self.order, skipped, drills, self.peck, self.spot, self.base)
+
+    def _placing(self, machine: Machine) -> Placing:
+        aligned = self.alignment()
+        return Placing(
+            origin=self.origin,
+            mirror=None if aligned else self.mirror,
+            rotate_deg=self.rotate,
+            offset_mm=self.offset,
+            panel=None if self.panel is None else Panel(*self.panel),
+            alignment=aligned.affine.then(self._to_base(machine)) if aligned else None,
+        )
+
+    def _to_base(self, machine: Machine) -> Affine:
+        """Holes are measured from machine zero, and drilled from the working base."""
+        axes = positioning_axes(machine)
+        scale = [machine.axes[axis].steps_per_mm for axis in axes]
+        return Affine.of(np.eye(2), -np.array(self.base) / np.array(scale))

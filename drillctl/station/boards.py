@@ -1,0 +1,213 @@
+"""Wiring: the board on the operator's desk: planned as asked for, journalled, opened again, gone on with.
+
+Rule: a board is planned whole or the one before stays; a job that is drilled has a journal as `drillctl run` keeps it,
+and what was cut off is made again by the same code as `drillctl resume`. Used by station.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.generation import alignment
+from drillctl.generation.alignment import AlignmentError, decompose
+from drillctl.generation.errors import JobError
+from drillctl.generation.job import Job, load_job
+from drillctl.generation.journal import Account, Head, Journal, JournalError, head_of, read_journal
+from drillctl.generation.journals import give_up, unfinished
+from drillctl.generation.placing import PlacingError
+from drillctl.generation.recipe import MeasuredRow, Recipe
+from drillctl.machine import Library, Machine
+from drillctl.panel.console import BoardView, Problems
+from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
+from drillctl.station.recent import RecentJobs
+from drillctl.station.views import board_view
+from drillctl.station.workingbase import Base
+from drillctl.wiring.desk import Desk
+from drillctl.wiring.estimate import foresee
+from drillctl.wiring.session import default_journal, journals, rest_of
+
+REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, OSError)
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A board as it will be drilled; ``left`` of it, ``known`` by a new journal's head or by an old one's account."""
+
+    file: Path
+    recipe: Recipe
+    view: BoardView
+    left: Job
+    foreseen: NDArray[np.int64]  # ticks of each command of what is left
+    journal: Path
+    known: Head | Account
+
+    @property
+    def done_before(self) -> int:
+        """Holes of earlier runs."""
+        return len(self.known.done) if isinstance(self.known, Account) else 0
+
+
+class Boards:
+    """One board at a time, with the lists of what was opened and what was cut off."""
+
+    def __init__(self) -> None:
+        self._recent = RecentJobs(journals() / "recent.json")
+        self.plan: Plan | None = None
+        self.journal: Journal | None = None
+        self.troubles: Problems = ()
+
+    def load(self, file: Path, asked: Asked, machine: Machine, base: Base) -> Problems:
+        """A drill file, as asked."""
+        recipe = recipe_of(asked, machine, base)
+        if problems := self._planned(file, recipe, machine):
+            return problems
+        self._recent.add(file, asked)
+        return ()
+
+    def based(self, machine: Machine, base: Base) -> Problems:
+        """The same board from another working base."""
+        if self.plan is None or self.plan.recipe.base == base:
+            return ()
+        return self._planned(self.plan.file, msgspec.structs.replace(self.plan.recipe, base=base), machine)
+
+    def forget(self) -> None:
+        """No board lies on the desk."""
+        self.plan = None
+
+    def recent(self) -> list[RecentJob]:
+        """The newest first."""
+        return self._recent.read()
+
+    def unfinished(self) -> list[UnfinishedJob]:
+        """The newest first, whichever machine they were begun on."""
+        return [_unfinished_job(file, account) for file, account in unfinished(journals())]
+
+    def take_up(self, journal: Path, machine: Machine) -> Problems:
+        """What is left of a job that was cut off, from its own base."""
+        try:
+            account = read_journal(journal)
+            if account.head.machine != machine.name:
+                return (f"the job was begun on machine {account.head.machine}; choose that one first",)
+            rest = rest_of(journal, account, machine)
+            told, ticks = foresee(rest.left)
+            view = board_view(Path(account.head.job), rest.whole, told, rest.recipe.format)
+        except REFUSALS as error:
+            return _problems(error)
+        self.plan = Plan(Path(account.head.job), rest.recipe, view, rest.left, ticks, journal, account)
+        return ()
+
+    def give_up(self, journal: Path) -> Problems:
+        """It is not gone on with."""
+        try:
+            give_up(journal)
+        except JournalError as error:
+            return _problems(error)
+        return ()
+
+    def begin(self) -> Problems:
+        """Opens the journal of the board on the desk. Refused too where an unfinished job of its file would be lost."""
+        assert self.plan is not None
+        try:
+            self.journal = Journal(self.plan.journal, self.plan.known)
+        except JournalError as error:
+            return _problems(error)
+        return ()
+
+    def ended(self, desk: Desk, machine: Machine) -> None:
+        """A job is over, its journal with it. What can be started now is the whole board again."""
+        if self.journal is None:
+            return
+        self.troubles = (desk.trouble,) if desk.trouble else ()  # of the journal; that the job was stopped is no news
+        desk.settle()
+        self.close()
+        if self.plan is not None and isinstance(self.plan.known, Account):
+            self._planned(self.plan.file, self.plan.recipe, machine)
+
+    def close(self) -> None:
+        """Nothing more is written of a job that was cut off."""
+        if self.journal is not None:
+            self.journal.close()
+            self.journal = None
+
+    def _planned(self, file: Path, recipe: Recipe, machine: Machine) -> Problems:
+        try:
+            job = load_job(file, machine, recipe.wishes(machine), recipe.format)
+            if job.work is None:
+                return (f"{file}: a queue of commands; it is run from the queue editor",)
+            told, ticks = foresee(job)
+            view = board_view(file, job, told, recipe.format)
+            head = head_of(file, job, recipe.options())
+        except REFUSALS as error:
+            return _problems(error)
+        self.plan = Plan(file, recipe, view, job, ticks, default_journal(file), head)
+        return ()
+
+
+def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
+    """A board is placed by its measured holes alone where there are any."""
+    panel = asked.panel
+    return Recipe(
+        machine=_reference(machine),
+        tick_hz=machine.tick_hz,
+        origin=None if asked.origin == "base" else asked.origin,
+        mirror=asked.mirror,
+        rotate=asked.rotate_deg,
+        offset=asked.offset_mm,
+        align=tuple(map(_row, asked.measured)) or None,
+        panel=(panel.columns, panel.rows, panel.pitch_x_mm, panel.pitch_y_mm) if panel else None,
+        order=asked.order,
+        skip_tools=tuple(sorted(asked.skip_tools)),
+        drills=asked.drills,
+        peck=asked.peck_mm,
+        spot=asked.spot_mm,
+        format=asked.format,
+        base=base,
+    )
+
+
+def _reference(machine: Machine) -> str:
+    """By its name where that leads to it, else by its file."""
+    file = Path(machine.file).resolve()
+    named = Library.standard().find("machines", machine.name)
+    return machine.name if named is not None and named.resolve() == file else str(file)
+
+
+def align(measured: tuple[Measured, ...], face_down: bool) -> tuple[Alignment | None, Problems]:
+    """What measured holes say of where a board lies; or why they say nothing."""
+    rows = [_row(hole) for hole in measured]
+    try:
+        found = alignment.fit([row[:2] for row in rows], [row[2:] for row in rows], mirrored=face_down)
+    except AlignmentError as error:
+        return None, _problems(error)
+    parts = decompose(found.affine)
+    residual_mm = tuple(found.residual_mm.tolist())
+    scale = (parts.scale_x, parts.scale_y)
+    told = Alignment(
+        found.kind, found.affine.matrix, residual_mm, parts.turn_deg, scale, found.warnings, found.rejected
+    )
+    return told, ()
+
+
+def _row(hole: Measured) -> MeasuredRow:
+    return hole.file_x_mm, hole.file_y_mm, hole.machine_x_mm, hole.machine_y_mm
+
+
+def _problems(error: Exception) -> Problems:
+    return tuple(str(error).splitlines())
+
+
+def _unfinished_job(file: Path, account: Account) -> UnfinishedJob:
+    head = account.head
+    return UnfinishedJob(
+        journal=str(file),
+        file=head.job,
+        machine=head.machine,
+        holes_done=len(account.done),
+        holes_total=head.holes,
+        again=tuple(account.open),
+        torn=account.torn,
+        spotted=head.options.get("spot") is not None,
+    )

@@ -1,0 +1,116 @@
+"""Wiring: the machine in use: its link and port, the recording of its runs; another one, or the same on a real port.
+
+Rule: the old one's outputs are safe before the new one starts; where that can't be, the machine that was in use is
+started anew, simulated. Made by station.
+"""
+
+import tempfile
+from pathlib import Path
+
+from drillctl.machine import Library, Machine, TableError
+from drillctl.machine.bundle import bundle, unbundle
+from drillctl.panel.console import Problems
+from drillctl.panel.ports import PortView
+from drillctl.ports import PortError
+from drillctl.station.scope import Recording
+from drillctl.wiring.link import Link
+from drillctl.wiring.loading import same_but_tables
+from drillctl.wiring.machinery import REAL, Running, card_port, on_port, plant_of, simulated, start
+
+
+class InUse:
+    """One machine, running.
+
+    running   as the options have it; simulated unless ``--port`` says otherwise
+    tick_hz   the rate asked for, for this machine alone; ``machine`` has it already
+    port_won  ``--port`` was given: the machine's file is not asked for one
+    """
+
+    machine: Machine
+    running: Running
+    link: Link
+    recording: Recording
+
+    def __init__(self, library: Library, machine: Machine, running: Running, tick_hz: int | None, port_won: bool):
+        self._library, self._asked = library, running
+        self._rated, self._tick_hz, self._port_won = machine.name, tick_hz, port_won
+        self._folder = tempfile.TemporaryDirectory(prefix="drillctl-")
+        self._take(machine, running)
+
+    def choose(self, name: str) -> Problems:
+        """Another machine, or the same with its tables as they are now; refused before the old one is let go."""
+        try:
+            machine = self._library.machine(name)
+            if self._tick_hz is not None and name == self._rated:
+                machine = machine.at_rate(self._tick_hz)
+            plant_of(machine, self._asked)
+            if self._only_edited(machine):
+                return self._load(bundle(machine))
+        except (TableError, PortError) as error:
+            return (str(error),)
+        return self._change(machine, self._asked)
+
+    def go_real(self) -> Problems:
+        """On the port that its file configures."""
+        if not self.port.configured:
+            return (f"no port drives the card {self.port.card!r}; name one in its place (drillctl ports)",)
+        return self._change(self.machine, on_port(self._asked, self.port.configured))
+
+    def go_simulated(self) -> Problems:
+        """Where it started, the position unknown."""
+        return self._change(self.machine, simulated(self._asked))
+
+    @property
+    def port(self) -> PortView:
+        """The one in use, and what the machine's file says."""
+        told = self.machine.configuration
+        return PortView(
+            self.running.port, not self.link.measured, told.mode, told.card, card_port(self.machine), self._port_won
+        )
+
+    @property
+    def real_wanted(self) -> str:
+        """The port that the machine's file asks for while a simulated one is in use; empty where it doesn't."""
+        port = self.port
+        return port.configured if port.mode == REAL.upper() and not (port.real or port.overridden) else ""
+
+    def notices(self) -> Problems:
+        """What became of ``--tick-hz``."""
+        if self._tick_hz is None:
+            return ()
+        if self.machine.name == self._rated:
+            return ("--tick-hz is in force, not the rate of the machine's file",)
+        return ("--tick-hz was for another machine: this one runs at its own rate",)
+
+    def close(self) -> None:
+        """Everything that was started ends."""
+        self.link.close()
+        self._folder.cleanup()
+
+    def _only_edited(self, machine: Machine) -> bool:
+        """The machine in use with other tables: it takes them while it runs. The very same is started anew."""
+        edited = machine.digest != self.machine.digest and same_but_tables(machine, self.machine)
+        return edited and not self.link.lost()
+
+    def _load(self, text: str) -> Problems:
+        """The port stays open, the carriages stay where they are."""
+        if reason := self.link.load(text):
+            return (reason,)
+        self.machine = unbundle(text).at_rate(self.machine.tick_hz)
+        return ()
+
+    def _change(self, machine: Machine, running: Running) -> Problems:
+        self.link.close()
+        try:
+            self._take(machine, running)
+        except PortError as error:
+            self._take(self.machine, simulated(self._asked))
+            return (str(error),)
+        return ()
+
+    def _take(self, machine: Machine, running: Running) -> None:
+        """With a recording from its first tick. Raises PortError."""
+        ring = Recording.ring_for(machine)
+        link = start(machine, running, Path(self._folder.name) / "status", ring)
+        self.machine, self.running, self.link = machine, running, link
+        self.recording = Recording(machine, link.measured, ring, lambda: int(link.status()["tick"]))

@@ -1,0 +1,97 @@
+"""What the machine says unasked, wherever the operator is: faults, and the tool that a job waits for.
+
+Rule: each is told once; a box whose matter is settled otherwise goes by itself. The first button of a question changes
+nothing, so that an Enter meant for something else moves nothing. Used by app.py at every turn.
+"""
+
+from collections.abc import Callable
+
+import urwid
+
+from drillctl.panel.console import Console, MachineView, ToolWanted
+from drillctl.panel.records import FaultReport
+from drillctl.ui import dialogs
+from drillctl.ui.layers import Layers
+from drillctl.ui.told import told
+from drillctl.ui.words import _
+
+
+class Alerts:
+    """The boxes over whatever screen is on top."""
+
+    def __init__(self, console: Console, layers: Layers):
+        self._console, self._layers = console, layers
+        self._fault_told = 0
+        self._tool_told: ToolWanted | None = None
+        self._tool_box: dialogs.Dialog | None = None
+        self._real_told = ""
+
+    def show(self, view: MachineView) -> None:
+        """What is new in the view; the fault last, so that it lies on top."""
+        self._show_tool(view.tool_wanted)
+        self._show_real(view)
+        fault = view.fault if view.condition != "returning" else None
+        if fault and fault.code and fault.code != self._fault_told:
+            box = dialogs.message(_fault_title(fault), _fault_lines(fault), self._layers.pop, self._acknowledge)
+            self._layers.push_dialog(box)
+        self._fault_told = fault.code if fault else 0
+
+    def _show_tool(self, tool: ToolWanted | None) -> None:
+        if tool == self._tool_told:
+            return
+        self._tool_told = tool
+        if self._tool_box is not None:
+            self._layers.drop(self._tool_box)
+            self._tool_box = None
+        if tool is not None:
+            self._tool_box = self._tool_question(tool)
+            self._layers.push_dialog(self._tool_box)
+
+    def _tool_question(self, tool: ToolWanted) -> dialogs.Dialog:
+        lines = [
+            _("The job waits for {tool}; the machine is at rest.").format(tool=tool_name(tool)),
+            _("Put it in, then say so here, or later with C on the Drilling screen."),
+        ]
+        buttons: list[tuple[str, Callable[[], object]]] = [
+            (_("Not yet"), dialogs.nothing),
+            (_("It is in"), self._console.tool_changed),
+            (_("Hold"), self._console.hold),
+            (_("Stop"), self._console.stop),
+        ]
+        return dialogs.Dialog(_("Tool change"), [urwid.Text(line) for line in lines], buttons, self._layers.pop)
+
+    def _show_real(self, view: MachineView) -> None:
+        """A machine whose file says REAL is driven on its port after a yes, and simulated until then."""
+        wanted = f"{view.machine} {view.real_wanted}" if view.real_wanted else ""
+        if wanted and wanted != self._real_told:
+            asked = _("{machine} is set to REAL. Drive the real machine on {port}?")
+            question = asked.format(machine=view.machine, port=view.real_wanted)
+            self._layers.push_dialog(dialogs.question(question, self._go_real, self._layers.pop))
+        self._real_told = wanted
+
+    def _go_real(self) -> None:
+        if problems := self._console.go_real():
+            lines = [told(problem) for problem in problems]
+            self._layers.push_dialog(dialogs.message(_("Still simulated"), lines, self._layers.pop))
+
+    def _acknowledge(self) -> None:
+        self._console.acknowledge()
+
+
+def tool_name(tool: ToolWanted) -> str:
+    """``T3, 1.000 mm``, and the drill at hand that serves it where it is of another diameter."""
+    name = f"T{tool.number}"
+    if tool.diameter_mm is not None:
+        name += f", {tool.diameter_mm:.3f} mm"
+    if tool.drill_mm is not None:
+        name += _(", the drill of {diameter:.3f} mm").format(diameter=tool.drill_mm)
+    return name
+
+
+def _fault_title(fault: FaultReport) -> str:
+    return f"{_('FAULT')} {fault.name}"
+
+
+def _fault_lines(fault: FaultReport) -> list[str]:
+    position = _("position kept") if fault.position == "kept" else _("position lost: initialise again")
+    return [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]

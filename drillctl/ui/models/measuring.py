@@ -1,0 +1,111 @@
+"""Holes being measured on a board: which, where each was found, and what they say so far.
+
+Rule: places are in millimetres from machine zero, whatever the working base is; nothing here moves or places anything.
+Used by screens/alignment.py.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.panel.console import BoardView, Problems
+from drillctl.panel.jobs import Alignment, Measured
+
+Place = tuple[float, float]
+Align = Callable[[tuple[Measured, ...], bool], tuple[Alignment | None, Problems]]
+MOST_HOLES = 12
+LEAST_HOLES = 2
+
+
+@dataclass
+class Spot:
+    """A hole by its number from 1, in the file's coordinates, and where it was found, None as long as it was not."""
+
+    number: int
+    file_mm: Place
+    found_mm: Place | None = None
+
+
+class Measuring:
+    """Begins with what was measured before, or with three holes that lie far apart.
+
+    align  Console.align; ``alignment`` is what it says of the holes found, ``problems`` why it says nothing
+    """
+
+    def __init__(self, board: BoardView, measured: tuple[Measured, ...], face_down: bool, align: Align):
+        self._board, self._face_down, self._align = board, face_down, align
+        self.spots = [_known(board, hole) for hole in measured] or [
+            self._spot(index) for index in far_apart(board.file_xy_mm)
+        ]
+        self._look()
+
+    @property
+    def measured(self) -> tuple[Measured, ...]:
+        """The holes found, as they are asked for."""
+        return tuple(Measured(*spot.file_mm, *spot.found_mm) for spot in self.spots if spot.found_mm)
+
+    @property
+    def sound(self) -> bool:
+        """Whether a board can be placed by them."""
+        return self.alignment is not None and not self.alignment.rejected
+
+    def add(self, number: int) -> bool:
+        """Another hole; False where there is no such hole, or it is there already, or there are enough."""
+        there = any(spot.number == number for spot in self.spots)
+        if there or not 1 <= number <= len(self._board.xy_mm) or len(self.spots) >= MOST_HOLES:
+            return False
+        self.spots.append(self._spot(number - 1))
+        return True
+
+    def remove(self, index: int) -> None:
+        """A hole is not measured after all."""
+        del self.spots[index]
+        self._look()
+
+    def find(self, index: int, place_mm: Place) -> None:
+        """The hole was found here."""
+        self.spots[index].found_mm = place_mm
+        self._look()
+
+    def expected_mm(self, index: int, base_mm: Place) -> Place:
+        """Where a hole should be: by what was found so far, else as the board is placed from this working base."""
+        spot = self.spots[index]
+        if self.alignment is not None:
+            return self.alignment.place_mm(spot.file_mm)
+        x_mm, y_mm = (self._board.xy_mm[spot.number - 1] + np.array(base_mm)).tolist()
+        return x_mm, y_mm
+
+    def residual_mm(self, index: int) -> float | None:
+        """How far a hole was found from where the alignment has it; None where nothing can be said."""
+        if self.alignment is None or self.spots[index].found_mm is None:
+            return None
+        row = sum(spot.found_mm is not None for spot in self.spots[:index])
+        return self.alignment.residual_mm[row]
+
+    def _spot(self, index: int) -> Spot:
+        x_mm, y_mm = self._board.file_xy_mm[index].tolist()
+        return Spot(index + 1, (x_mm, y_mm))
+
+    def _look(self) -> None:
+        enough = len(self.measured) >= LEAST_HOLES
+        self.alignment, self.problems = self._align(self.measured, self._face_down) if enough else (None, ())
+
+
+def far_apart(xy_mm: NDArray[np.float64]) -> list[int]:
+    """At most three of n holes (n, 2), by their rows: far from the middle, from each other, and from their line."""
+    if len(xy_mm) < 2:
+        return list(range(len(xy_mm)))
+    first = int(np.hypot(*(xy_mm - xy_mm.mean(axis=0)).T).argmax())
+    from_first = xy_mm - xy_mm[first]
+    second = int(np.hypot(*from_first.T).argmax())
+    along_x, along_y = from_first[second]
+    off_line = np.abs(from_first[:, 0] * along_y - from_first[:, 1] * along_x)
+    return list(dict.fromkeys((first, second, int(off_line.argmax()))))
+
+
+def _known(board: BoardView, hole: Measured) -> Spot:
+    file_mm = (hole.file_x_mm, hole.file_y_mm)
+    number = int(np.hypot(*(board.file_xy_mm - np.array(file_mm)).T).argmin()) + 1
+    return Spot(number, file_mm, (hole.machine_x_mm, hole.machine_y_mm))

@@ -1,0 +1,87 @@
+"""The signals of a machine as cells side by side, in sections, with a cursor; as many a line as there is room for.
+
+Rule: pure: from signals, cursor and width to lines. What is on stands in capitals, whatever its colour. Used by the
+signals screen.
+"""
+
+from collections.abc import Sequence
+from itertools import groupby
+
+from drillctl.panel.handwork import Kind, SignalView
+from drillctl.ui.lines import Line
+from drillctl.ui.words import N_, _
+
+CELL_COLUMNS = 39
+NAME_COLUMNS = 15
+CARD_BITS = 32
+TITLES: dict[Kind, str] = {"input": N_("Inputs"), "output": N_("Outputs"), "coil": N_("Motor")}
+# Kind: the words for on and off.
+STATES: dict[Kind, tuple[str, str]] = {
+    "input": (N_("REACHED"), N_("clear")),
+    "output": (N_("ON"), N_("off")),
+    "coil": (N_("ON"), N_("off")),
+}
+LEVELS = (N_("low"), N_("high"))
+
+
+def per_line(columns: int) -> int:
+    """Cells that fit side by side."""
+    return max(1, columns // CELL_COLUMNS)
+
+
+def section(signal: SignalView) -> tuple[str, str]:
+    """What stands together: a kind; of the coils, an axis."""
+    return (signal.kind, signal.name.partition(".")[0] if signal.kind == "coil" else "")
+
+
+def grid_rows(signals: Sequence[SignalView], columns: int) -> list[list[int]]:
+    """Places of the signals, line by line; a section begins a new one, headed by an empty one."""
+    rows: list[list[int]] = []
+    width = per_line(columns)
+    for _key, members in groupby(range(len(signals)), lambda place: section(signals[place])):
+        places = list(members)
+        rows += [[], *(places[start : start + width] for start in range(0, len(places), width))]
+    return rows
+
+
+def grid_lines(signals: Sequence[SignalView], cursor: int, columns: int) -> list[Line]:
+    """A line for each of ``grid_rows``; the empty ones become headings."""
+    rows = grid_rows(signals, columns)
+    lines: list[Line] = []
+    for row, after in zip(rows, [*rows[1:], []], strict=True):
+        lines.append([_cell(signals[place], place == cursor) for place in row] or [_heading(signals[after[0]])])
+    return lines
+
+
+def moved(signals: Sequence[SignalView], cursor: int, columns: int, by: int) -> int:
+    """The cursor so many lines further down, in its column as far as the line goes; it stops at the ends."""
+    rows = [row for row in grid_rows(signals, columns) if row]
+    at = next((number for number, row in enumerate(rows) if cursor in row), 0)
+    if not rows or not 0 <= at + by < len(rows):
+        return cursor
+    target = rows[at + by]
+    return target[min(rows[at].index(cursor), len(target) - 1)]
+
+
+def about(signal: SignalView) -> str:
+    """All about one signal, for the line below."""
+    card, bit = divmod(signal.bit, CARD_BITS)
+    place = _("{name}: bit {bit} of card {card}").format(name=signal.name, bit=bit, card=card)
+    if signal.kind == "input":
+        return f"{place}, " + _("reached when {level}").format(level=_(LEVELS[signal.active_level]))
+    if signal.kind == "coil":
+        return f"{place}, " + (_("forcing wire") if signal.forcing else _("motor's wire"))
+    return place
+
+
+def _heading(first: SignalView) -> tuple[str, str]:
+    axis = section(first)[1]
+    return ("title", f"{_(TITLES[first.kind])} {axis.upper()}".rstrip())
+
+
+def _cell(signal: SignalView, here: bool) -> tuple[str, str]:
+    word = _(STATES[signal.kind][0 if signal.on else 1])
+    level = _(LEVELS[signal.level])
+    name = f"{signal.name[:NAME_COLUMNS]:{NAME_COLUMNS}}"
+    text = f"{'>' if here else ' '}{name}{signal.bit:4}  {level:7}{word}"
+    return ("focus" if here else "lit" if signal.on else "body", f"{text[: CELL_COLUMNS - 1]:{CELL_COLUMNS}}")

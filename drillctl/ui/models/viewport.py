@@ -1,0 +1,113 @@
+"""Which ticks of a run are on the screen, at what zoom, and where the cursor is.
+
+Rule: a viewport never changes; every operation gives another one, within the run. Used by the scope screen.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Zoom(NamedTuple):
+    """So many ticks on so many columns; one of both is 1."""
+
+    ticks: int
+    columns: int
+
+
+# From eight columns a tick, where every number can be read, in steps of 1, 2, 5.
+ZOOMS = (
+    Zoom(1, 8), Zoom(1, 4), Zoom(1, 2), *(Zoom(digit * 10**power, 1) for power in range(12) for digit in (1, 2, 5)),
+)  # fmt: skip
+TICK_A_COLUMN = ZOOMS.index(Zoom(1, 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Viewport:
+    """Ticks first..last of a run on so many columns. ``left``: the tick of the first column; ``level``: in ZOOMS."""
+
+    first: int = 0
+    last: int = -1
+    columns: int = 1
+    left: int = 0
+    cursor: int = 0
+    level: int = TICK_A_COLUMN
+
+    @property
+    def zoom(self) -> Zoom:
+        """How many ticks a column: as the level has it, but never more than the whole run needs."""
+        ticks, columns = ZOOMS[self.level]
+        return Zoom(min(ticks, max(1, -(-(self.last + 1 - self.first) // self.columns))), columns)
+
+    @property
+    def span(self) -> int:
+        """Ticks that the columns have room for."""
+        return max(1, self.columns * self.zoom.ticks // self.zoom.columns)
+
+    @property
+    def shown(self) -> int:
+        """Columns that lie within the run; the ones beyond it stay empty."""
+        return min(self.columns, max(0, -((self.left - self.last - 1) * self.zoom.columns // self.zoom.ticks)))
+
+    def edges(self) -> NDArray[np.int64]:
+        """The ticks between which the shown columns lie, (shown + 1,). Where a tick has several, the first has it."""
+        numbers = np.arange(self.shown + 1)
+        edges: NDArray[np.int64] = self.left - numbers * self.zoom.ticks // -self.zoom.columns
+        return np.minimum(edges, self.last + 1)
+
+    def column_of(self, tick: int) -> int:
+        """The column in which a tick begins; it may lie beyond the screen."""
+        return (tick - self.left) * self.zoom.columns // self.zoom.ticks
+
+    def tick_at(self, column: int) -> int:
+        """The first tick that is seen in a column."""
+        return self.left + column * self.zoom.ticks // self.zoom.columns
+
+    def of_run(self, first: int, last: int) -> "Viewport":
+        """The run has grown, or lost its oldest part."""
+        return replace(self, first=first, last=last)._within()
+
+    def sized(self, columns: int) -> "Viewport":
+        """Another width; the left edge stays where it can."""
+        return replace(self, columns=max(1, columns))._within()
+
+    def go(self, tick: int) -> "Viewport":
+        """The cursor at a tick; what is shown moves along only where it must, and then the tick comes to the middle."""
+        there = replace(self, cursor=tick)._within()
+        if 0 <= there.column_of(there.cursor) < there.columns:
+            return there
+        return replace(there, left=there.cursor - there.span // 2)._within()
+
+    def step(self, columns: int) -> "Viewport":
+        """The cursor on by so many columns, at least a tick."""
+        return self.go(self.cursor + columns * max(1, self.zoom.ticks))
+
+    def pan(self, by: int) -> "Viewport":
+        """Half a screen, cursor and all."""
+        half = by * max(1, self.span // 2)
+        return replace(self, left=self.left + half, cursor=self.cursor + half)._within()
+
+    def zoomed(self, by: int) -> "Viewport":
+        """Closer for negative ``by``, as far as eight columns a tick or the whole run; the cursor keeps its column."""
+        level = min(max(self.level + by, 0), self._widest())
+        column = min(max(self.column_of(self.cursor), 0), self.columns - 1)
+        other = replace(self, level=level)
+        return replace(other, left=self.cursor - column * other.zoom.ticks // other.zoom.columns)._within()
+
+    def whole(self) -> "Viewport":
+        """All of the run."""
+        return replace(self, level=self._widest(), left=self.first)._within()
+
+    def _widest(self) -> int:
+        """The closest level that shows the whole run."""
+        ticks = self.last + 1 - self.first
+        fits = (level for level, zoom in enumerate(ZOOMS) if self.columns * zoom.ticks >= ticks * zoom.columns)
+        return next(fits, len(ZOOMS) - 1)
+
+    def _within(self) -> "Viewport":
+        """Cursor and left edge back into the run."""
+        last = max(self.first, self.last)
+        left = max(self.first, min(self.left, last + 1 - self.span))
+        return replace(self, left=left, cursor=max(self.first, min(self.cursor, last)))

@@ -1,0 +1,203 @@
+"""Placing a board by holes measured on it: go or jog to each, say that this is the hole, see how well they agree.
+
+Rule: nothing is placed before F2, and not at all by holes that contradict each other; Esc leaves everything as it was.
+What is shown counts from the working base, as the operator does; what is kept counts from machine zero. Opened by
+files.py.
+"""
+
+from collections.abc import Callable
+from textwrap import wrap
+
+import urwid
+
+from drillctl.panel.console import AxisView, BoardView, Console, MachineView, Problems
+from drillctl.panel.jobs import Asked, Measured
+from drillctl.ui.dialogs import pair_mm
+from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Line, Size, boxed
+from drillctl.ui.models.measuring import LEAST_HOLES, Measuring, Place
+from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
+from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
+from drillctl.ui.words import N_, _
+
+WIDTH = 78
+NONE_TO_SPARE = 3  # holes that fix shift, turn, scale and shear just so: their residuals are 0, whatever was measured
+
+
+class AlignmentScreen(AtMachine, urwid.WidgetWrap[urwid.Widget]):
+    """``accept`` places the board by the holes measured, by none of them: as it was asked before."""
+
+    title = N_("Measured holes")
+    keys = (
+        Key(("tab",), "Tab", "go", N_("the next hole of the list"), N_("Next"), 1),
+        Key(("shift tab",), "Shift-Tab", "go", N_("the hole before"), argument=-1),
+        Key(("g",), "G", "go_there", N_("goes over the hole, where it should be"), N_("Go there")),
+        Key(("enter",), "Enter", "found", N_("the drill stands over the hole: this is its place"), N_("Found")),
+        Key(("t",), "T", "type_place", N_("types the hole's place in mm"), N_("Type")),
+        Key(("a",), "A", "add", N_("measures another hole, by its number"), N_("Add")),
+        Key(("delete", "x"), "X", "remove", N_("takes the hole off the list"), N_("Off")),
+        Key(("f2",), "F2", "use", N_("places the board by these holes; with none, as before"), N_("Use")),
+        *JOG_KEYS,
+    )
+
+    def __init__(
+        self, console: Console, shell: Shell, board: BoardView, asked: Asked,
+        accept: Callable[[tuple[Measured, ...]], Problems],
+    ):  # fmt: skip
+        AtMachine.__init__(self, console)
+        self._shell, self._accept = shell, accept
+        self.measuring = Measuring(board, asked.measured, asked.mirror is not None, console.align)
+        self._at = 0
+        self._paper = _Paper()
+        urwid.WidgetWrap.__init__(self, self._paper)
+        self.refresh(console.view())
+
+    def selectable(self) -> bool:
+        """It takes keys although nothing in it does."""
+        return True
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's; everything else is the frame's."""
+        return None if called(self, self.keys, key) else key
+
+    def refresh(self, view: MachineView) -> None:
+        """Draws what changed."""
+        lines = measuring_lines(self.measuring, self._at, base_mm(view.axes))
+        self._paper.show([*lines, [], _here(view), self._bottom()])
+
+    def go(self, by: int) -> None:
+        """Round and round."""
+        if self.measuring.spots:
+            self._at = (self._at + by) % len(self.measuring.spots)
+        self._say("body", "")
+
+    def go_there(self) -> None:
+        """The drill goes up first."""
+        if not self.measuring.spots:
+            return
+        base = base_mm(self._console.view().axes)
+        x_mm, y_mm = self.measuring.expected_mm(self._at, base)
+        x_mm, y_mm = x_mm - base[0], y_mm - base[1]
+        way = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
+        self._answer(self._console.go_to(x_mm, y_mm), way)
+
+    def found(self) -> None:
+        """Here; but only a machine that knows where it is and stands still can say where that is."""
+        view = self._console.view()
+        if not view.position_known:
+            self._say("warning", _("the position is not known: initialise first"))
+        elif view.moving:
+            self._say("warning", _("the machine is moving"))
+        else:
+            x_mm, y_mm = (axis.position_steps / axis.steps_per_mm for axis in view.axes[:2])
+            self._find((x_mm, y_mm))
+
+    def type_place(self) -> None:
+        """As measured otherwise."""
+        if self.measuring.spots:
+            prompt = _("X and Y in mm from the base:")
+            self._shell.ask_text(_("Measured holes"), prompt, "", self._find_typed)
+
+    def add(self) -> None:
+        """By its number in drilling order."""
+        self._shell.ask_text(_("Measured holes"), _("Number of the hole:"), "", self._add_numbered)
+
+    def remove(self) -> None:
+        """The one of the cursor."""
+        if self.measuring.spots:
+            self.measuring.remove(self._at)
+            self._at = max(0, min(self._at, len(self.measuring.spots) - 1))
+        self._say("body", "")
+
+    def use(self) -> None:
+        """Then back to the files."""
+        if self.measuring.measured and not self.measuring.sound:
+            self._say("warning", _("these holes can't place the board: see above"))
+        elif problems := self._accept(self.measuring.measured):
+            self._shell.message(_("Refused"), [told(problem) for problem in problems])
+        else:
+            self._shell.back()
+
+    def _add_numbered(self, text: str) -> None:
+        if text.strip().isdecimal() and self.measuring.add(int(text)):
+            self._at = len(self.measuring.spots) - 1
+            self._say("body", "")
+        else:
+            self._say("warning", _("hole {text!r} can't be added").format(text=text))
+
+    def _find_typed(self, text: str) -> None:
+        pair = pair_mm(text)
+        if pair is None:
+            self._say("warning", _("two numbers are wanted, such as 12.7 25.4, not {text!r}").format(text=text))
+        else:
+            base = base_mm(self._console.view().axes)
+            self._find((pair[0] + base[0], pair[1] + base[1]))
+
+    def _find(self, place_mm: Place) -> None:
+        if self.measuring.spots:
+            self.measuring.find(self._at, place_mm)
+        self._say("body", "")
+
+
+class _Paper(urwid.Widget):
+    """Lines in a box, redrawn when they change."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+    _lines: list[Line] = []
+
+    def show(self, lines: list[Line]) -> None:
+        if lines != self._lines:
+            self._lines = lines
+            self._invalidate()
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        assert len(size) == 2
+        return boxed(self._lines, *size)
+
+
+def base_mm(axes: tuple[AxisView, ...]) -> Place:
+    """The working base, X and Y from machine zero."""
+    x, y = (axis.position_steps / axis.steps_per_mm - axis.position_mm for axis in axes[:2])
+    return x, y
+
+
+def measuring_lines(measuring: Measuring, at: int, base: Place) -> list[Line]:
+    """The holes, a line each, ``at`` marked; then what they say together."""
+    header = f"  {_('hole'):>6}  {_('in the file, mm'):>21}  {_('found, mm'):>21}  {_('off by'):>9}"
+    rows = [_row(measuring, index, index == at, base) for index in range(len(measuring.spots))]
+    return [[("title", header)], *rows, [], *_verdict(measuring)]
+
+
+def _row(measuring: Measuring, index: int, marked: bool, base: Place) -> Line:
+    spot, off_mm = measuring.spots[index], measuring.residual_mm(index)
+    found = "-" if spot.found_mm is None else f"X{spot.found_mm[0] - base[0]:.3f} Y{spot.found_mm[1] - base[1]:.3f}"
+    in_file = f"X{spot.file_mm[0]:.3f} Y{spot.file_mm[1]:.3f}"
+    off = "" if off_mm is None else f"{off_mm:.3f} mm"
+    line = f"{'>' if marked else ' '} {spot.number:>6}  {in_file:>21}  {found:>21}  {off:>9}"
+    return [("focus" if marked else "body", line)]
+
+
+def _verdict(measuring: Measuring) -> list[Line]:
+    found = measuring.alignment
+    problems: list[Line] = [[("danger", _("problem: ") + told(problem))] for problem in measuring.problems]
+    if found is None:
+        wanted = _("{count} holes at least are to be found; three tell scale and shear too").format(count=LEAST_HOLES)
+        return problems or [[wanted]]
+    (x, y), turn = found.scale, found.turn_deg
+    lies = _("turned {turn:.3f}°, scale {x:.4f} {y:.4f}").format(turn=turn, x=x, y=y)
+    hints: list[Line] = [
+        [("danger" if text in found.rejected else "warning", line)]
+        for text in found.warnings
+        for line in wrap(f"- {told(text)}", WIDTH, subsequent_indent="  ")
+    ]
+    if found.kind == "affine" and len(found.residual_mm) == NONE_TO_SPARE:
+        hints.append([_("with three holes nothing is left to judge by; a fourth would tell")])
+    rejected = ("danger", _("REJECTED: this is not how the board lies"))
+    return [[lies], *hints, [rejected if found.rejected else ("good", _("accepted: F2"))]]
+
+
+def _here(view: MachineView) -> Line:
+    told_mm = (f"{axis.name.upper()} {axis.position_mm:.3f} mm ({axis.position_steps})" for axis in view.axes[:3])
+    state = _("moving") if view.moving else _("at rest")
+    return [("title", f"{_('Drill')}: "), f"{'  '.join(told_mm)}  {state}"]

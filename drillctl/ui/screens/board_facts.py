@@ -1,0 +1,128 @@
+"""A board and what was asked of it, in words. Functions of Asked and BoardView; shown by the Files screen."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from drillctl.panel.console import BoardView
+from drillctl.panel.jobs import Asked
+from drillctl.panel.records import ToolEstimate
+from drillctl.ui.formats import BY_OPTION
+from drillctl.ui.progress import clock
+from drillctl.ui.told import told
+from drillctl.ui.words import N_, _
+
+LEFT_COLUMNS = 24
+
+
+class Choice(NamedTuple):
+    """A way to place or drill a board: a field of Asked, its label, its values with the word for each."""
+
+    field: str
+    label: str
+    values: tuple[tuple[str | float | None, str], ...]
+
+
+CHOICES = (
+    Choice("mirror", N_("Mirror"), ((None, N_("no")), ("x", N_("in X")), ("y", N_("in Y")))),
+    Choice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
+    Choice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
+    Choice(
+        "order", N_("Order"),
+        (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best"))),
+    ),
+)
+
+
+def asked_lines(asked: Asked) -> list[str]:
+    """What is always to be chosen, two a line; then what was asked beside it."""
+    words = [(choice.label, dict(choice.values)[getattr(asked, choice.field)]) for choice in CHOICES]
+    offset = "{:g} {:g} mm".format(*asked.offset_mm)
+    pairs = [f"{_(label)}: {_(word)}" for label, word in words] + [f"{_('Offset')}: {offset}"]
+    pairs.insert(0, f"{_('Format')}: {format_word(asked.format)}")
+    lines = [f"{left:{LEFT_COLUMNS}} {right}" for left, right in zip(pairs[::2], pairs[1::2], strict=True)]
+    return [*lines, *_further(asked)]
+
+
+def format_word(option: str | None) -> str:
+    """An option as it is typed; the name that it goes by stands in the menu."""
+    return option or _("recognised")
+
+
+def format_name(option: str) -> str:
+    """A format by its name, with the option that it stands for."""
+    name = _(BY_OPTION[option].name).replace("&", "")
+    return f"{name} ({option})" if option else name
+
+
+def recent_line(file: str, asked: Asked) -> str:
+    """A job opened before: the file, and what was asked that is not usual."""
+    usual = Asked()
+    told_apart = [
+        _(dict(choice.values)[getattr(asked, choice.field)])
+        for choice in CHOICES
+        if getattr(asked, choice.field) != getattr(usual, choice.field)
+    ]
+    unusual = [*filter(None, [asked.format]), *told_apart, *_further(asked)]
+    return "  ".join([Path(file).name, *unusual, str(Path(file).parent)])
+
+
+def _further(asked: Asked) -> list[str]:
+    lines = []
+    if panel := asked.panel:
+        text = _("Panel: {columns} x {rows}, {x:g} by {y:g} mm")
+        lines.append(text.format(columns=panel.columns, rows=panel.rows, x=panel.pitch_x_mm, y=panel.pitch_y_mm))
+    if asked.measured:
+        lines.append(_("Placed by {count} measured holes").format(count=len(asked.measured)))
+    if asked.peck_mm is not None:
+        lines.append(_("In pecks of {depth:g} mm").format(depth=asked.peck_mm))
+    if asked.spot_mm is not None:
+        lines.append(_("A spot of {depth:g} mm first").format(depth=asked.spot_mm))
+    if asked.skip_tools:
+        lines.append(_("Without tools {numbers}").format(numbers=" ".join(f"T{number}" for number in asked.skip_tools)))
+    if asked.drills:
+        lines.append(_("Drills at hand: {file}").format(file=asked.drills))
+    return lines
+
+
+def board_lines(board: BoardView) -> list[str]:
+    """A board in words: size, format and why, tools with their time, the whole time, warnings."""
+    width_mm, height_mm = np.ptp(board.xy_mm, axis=0).tolist() if len(board.xy_mm) else (0.0, 0.0)
+    size = _("{name}: {holes} holes, {width:.2f} x {height:.2f} mm").format(
+        name=board.name, holes=len(board.xy_mm), width=width_mm, height=height_mm
+    )
+    sure = f"{board.dialect}, {told(board.format)} ({board.confidence:.0%}): {told(board.reason)}"
+    runner_up = [_("else: {format}").format(format=told(board.runner_up))] if board.runner_up else []
+    warnings = [_("warning: {text}").format(text=told(text)) for text in board.warnings]
+    return [size, sure, *runner_up, *_tool_lines(board), _whole_time(board), *warnings]
+
+
+def is_warning(line: str) -> bool:
+    """Whether a line is one of the warnings."""
+    return line.startswith(_("warning: {text}").partition("{")[0])
+
+
+def _tool_lines(board: BoardView) -> list[str]:
+    return [
+        f"T{tool.number:<3} {_diameter(tool.diameter_mm):>9} "
+        + _("{holes:6} holes  {time}").format(holes=tool.holes, time=clock(tool.ticks / board.estimate.tick_hz))
+        + _drill(tool)
+        for tool in board.estimate.tools
+    ]
+
+
+def _drill(tool: ToolEstimate) -> str:
+    return "" if tool.drill_mm is None else _("  drill {diameter:.3f} mm").format(diameter=tool.drill_mm)
+
+
+def _diameter(mm: float | None) -> str:
+    return "? mm" if mm is None else f"{mm:.3f} mm"
+
+
+def _whole_time(board: BoardView) -> str:
+    estimate = board.estimate
+    about = "" if estimate.exact else _("about ")
+    line = _("Estimate {about}{time}").format(about=about, time=clock(estimate.ticks / estimate.tick_hz))
+    fault = estimate.fault
+    return line if fault is None else f"{line}; {_('it would end in')} {fault.name}: {_(fault.cause)}"

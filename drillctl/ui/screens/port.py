@@ -1,0 +1,116 @@
+"""The Port screen (Configuration): which port is in use, which is configured, a test of it, and the step to REAL.
+
+Rule: a test moves nothing; a real machine is driven after a question only. Opened from the menu.
+"""
+
+import textwrap
+
+import urwid
+
+from drillctl.panel.console import Console, MachineView, Problems
+from drillctl.panel.ports import PortDesk, PortReport, PortView
+from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Line, Size, boxed
+from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
+from drillctl.ui.words import N_, _
+
+LABEL_COLUMNS = 14
+WORDS = {True: N_("REACHED"), False: N_("clear")}
+
+
+class PortScreen(urwid.Widget):
+    """The port of the machine in use, and the newest test's report."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+    _selectable = True
+    title = N_("Port")
+    keys = (
+        Key(("t", "f5"), "T", "test", N_("opens the configured port and asks it; nothing moves"), N_("Test")),
+        Key(("r",), "R", "go_real", N_("drives the real machine on the configured port; asks first"), N_("Real")),
+        Key(("s",), "S", "go_simulated", N_("back to the simulated machine; asks first"), N_("Simulated")),
+    )
+
+    def __init__(self, console: Console, shell: Shell, desk: PortDesk):
+        self._shell, self._desk = shell, desk
+        self._report: PortReport | None = None
+        self._port = desk.port()
+
+    def refresh(self, view: MachineView) -> None:
+        """Another machine's port has not been tested."""
+        port = self._desk.port()
+        if port != self._port:
+            self._port, self._report = port, None
+            self._invalidate()
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's keys; everything else is the frame's."""
+        return None if called(self, self.keys, key) else key
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """What is, then what the test found, folded to the width."""
+        assert len(size) == 2
+        columns, rows = size
+        lines = [line for long in port_lines(self._port, self._report) for line in folded(long, columns)]
+        return boxed(lines, columns, rows)
+
+    def test(self) -> None:
+        """May take some seconds: a board starts anew when its line is opened."""
+        self._report = self._desk.test()
+        self._invalidate()
+
+    def go_real(self) -> None:
+        """The position is unknown afterwards."""
+        if not self._port.configured:
+            self._changed(self._desk.go_real())
+            return
+        asked = _("Drive the real machine on {port}? It may move from now on.")
+        self._shell.ask(asked.format(port=self._port.configured), lambda: self._changed(self._desk.go_real()))
+
+    def go_simulated(self) -> None:
+        """The real one's outputs go off."""
+        asked = _("Go back to the simulated machine? The outputs go off, the position is lost.")
+        self._shell.ask(asked, lambda: self._changed(self._desk.go_simulated()))
+
+    def _changed(self, problems: Problems) -> None:
+        if problems:
+            self._shell.message(_("Nothing changed"), [told(problem) for problem in problems])
+
+
+def port_lines(port: PortView, report: PortReport | None) -> list[Line]:
+    """The state of things, a line each; then the report."""
+    kind = _("a real machine") if port.real else _("simulated")
+    won = _(" (--port was given and wins)") if port.overridden else ""
+    lines: list[Line] = [
+        _labelled(_("In use"), f"{port.in_use}, {kind}"),
+        _labelled(_("Mode"), port.mode + won),
+        _labelled(_("Card"), port.card),
+        _labelled(_("Its port"), port.configured or _("none drives this card")),
+        [""],
+    ]
+    return [*lines, *(_report_lines(report) if report else [[_("T tests the configured port: nothing moves.")]])]
+
+
+def folded(line: Line, columns: int) -> list[Line]:
+    """A line of one look in as many as the width asks for; a labelled one as it is."""
+    if len(line) > 1:
+        return [line]
+    look, text = ("body", line[0]) if isinstance(line[0], str) else line[0]
+    return [[(look, row)] for row in textwrap.wrap(text, columns) or [""]]
+
+
+def _report_lines(report: PortReport) -> list[Line]:
+    heading: Line = [("title", _("Test of {port}").format(port=report.port or "-"))]
+    if report.problem:
+        return [heading, [("danger", _("can't be used: {why}").format(why=told(report.problem)))]]
+    facts: list[Line] = [[told(fact)] for fact in report.facts]
+    inputs = [_input(name, reached) for name, reached in report.inputs]
+    return [heading, *facts, [("good", _("It can be used. Inputs now:"))], *inputs]
+
+
+def _input(name: str, reached: bool) -> Line:
+    return [("lit" if reached else "body", f"{name:{LABEL_COLUMNS}}{_(WORDS[reached])}")]
+
+
+def _labelled(label: str, text: str) -> Line:
+    return [("title", f"{label:{LABEL_COLUMNS}}"), text]

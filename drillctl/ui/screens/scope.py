@@ -1,0 +1,213 @@
+"""The scope (Tests): a run as a logic analyser shows it, wires, columns, positions and commands over the ticks.
+
+Rule: it only looks: the run at hand while it goes on, or a trace file. The cursor may stand on any tick of it, and the
+machine is shown as it was then. Opened from the menu, and by the scope verb.
+"""
+
+import urwid
+
+from drillctl.panel.console import Console, MachineView
+from drillctl.panel.scope import BACKWARDS, FORWARDS, Find, ScopeDesk, ScopeSource
+from drillctl.ui.keys import called
+from drillctl.ui.lines import Size, boxed
+from drillctl.ui.models.rows import Rows
+from drillctl.ui.models.viewport import Viewport
+from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS, SEARCH_OF
+from drillctl.ui.screens.scope_view import Layout, Look, scope_lines
+from drillctl.ui.shell import Shell
+from drillctl.ui.words import N_, _
+
+WHEEL = {4: CLOSER, 5: FURTHER}  # buttons of the mouse
+
+
+class Scope(urwid.Widget):
+    """Waves under a cursor. ``source``: what is looked at first; None: the run of the machine at hand."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+    _selectable = True
+    title = N_("Scope")
+    keys = SCOPE_KEYS
+    _view: Viewport
+    _rows: Rows
+    _following: bool
+    _seen: object = None  # of the run, when it was last drawn
+
+    def __init__(
+        self, _console: Console, shell: Shell, desk: ScopeDesk, plain: bool = False, source: ScopeSource | None = None
+    ):
+        self._shell, self._desk, self._plain = shell, desk, plain
+        self._file = ""
+        self._live = source is None
+        self._look_at(source or desk.running())
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """The run as it is now."""
+        assert len(size) == 2
+        columns, rows = size
+        self._view = self._view.sized(Layout.of(self._source.signals(), columns).waves)
+        lines, self._top, self._room = scope_lines(self._source, self._look(), columns, rows)
+        return boxed(lines, columns, rows)
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's; everything else is the frame's."""
+        return None if called(self, self.keys, key) else key
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """A click sets cursor and bar, the wheel zooms around where it points."""
+        assert len(size) == 2
+        layout = Layout.of(self._source.signals(), size[0])
+        if event != "mouse press" or not 0 <= col - layout.names < layout.waves:
+            return False
+        self._go(self._view.tick_at(col - layout.names))
+        if button in WHEEL:
+            self.zoom(WHEEL[button])
+        else:
+            self._rows = self._rows.put(row - self._top, self._room)
+        return True
+
+    def refresh(self, view: MachineView) -> None:
+        """Redrawn only where something is new; a machine that was chosen anew has a run of its own."""
+        if self._live and self._desk.running() is not self._source:
+            self.show_machine()
+        source = self._source
+        source.turn()
+        state = (source.first_tick, source.last_tick, source.notices())
+        if state == self._seen:
+            return
+        self._seen = state
+        self._view = self._view.of_run(source.first_tick, source.last_tick)
+        if self._following:
+            self._view = self._view.go(source.last_tick)
+        self._invalidate()
+
+    def show_machine(self) -> None:
+        """The machine's, followed."""
+        self._live = True
+        self._look_at(self._desk.running())
+
+    def open_file(self) -> None:
+        """Asks which one."""
+        self._shell.ask_text(_("Open a trace"), _("File:"), self._file, self._open)
+
+    def step(self, columns: int) -> None:
+        """The cursor; it no longer follows."""
+        self._moved(self._view.step(columns))
+
+    def pan(self, by: int) -> None:
+        """Cursor and all."""
+        self._moved(self._view.pan(by))
+
+    def zoom(self, by: int) -> None:
+        """The cursor stays in its column."""
+        self._view = self._view.zoomed(by)
+        self._invalidate()
+
+    def whole(self) -> None:
+        """From the first tick to the last."""
+        self._view = self._view.whole()
+        self._invalidate()
+
+    def start(self) -> None:
+        """The first tick that is kept."""
+        self._go(self._source.first_tick)
+
+    def end(self) -> None:
+        """The last tick."""
+        self._go(self._source.last_tick)
+
+    def follow(self) -> None:
+        """There and away."""
+        following = not self._following
+        self.end()
+        self._following = following
+
+    def go_to(self) -> None:
+        """Asks for the tick."""
+        self._shell.ask_text(_("Go to a tick"), _("Tick:"), str(self._view.cursor), self._go_to_typed)
+
+    def mark(self, name: str) -> None:
+        """At the cursor."""
+        cursor = self._view.cursor
+        if self._marks.get(name) == cursor:
+            del self._marks[name]
+        else:
+            self._marks[name] = cursor
+        self._say("")
+
+    def find_on(self, what: Find) -> None:
+        """Forwards from the cursor."""
+        self._find(what, FORWARDS)
+
+    def find_back(self, what: Find) -> None:
+        """Backwards from the cursor."""
+        self._find(what, BACKWARDS)
+
+    def row(self, by: int) -> None:
+        """The bar."""
+        self._with_rows(self._rows.move(by))
+
+    def hide(self) -> None:
+        """Until all are shown again."""
+        self._with_rows(self._rows.hide())
+
+    def isolate(self) -> None:
+        """Such as one axis alone."""
+        signals = self._source.signals()
+        group = signals[self._rows.at].group
+        self._with_rows(self._rows.all().only(row for row, signal in enumerate(signals) if signal.group == group))
+
+    def show_all(self) -> None:
+        """Every row."""
+        self._with_rows(self._rows.all())
+
+    def _look_at(self, source: ScopeSource) -> None:
+        """From its end on, and on with it where it goes on."""
+        self._source = source
+        self._following = self._live
+        self._marks: dict[str, int] = {}
+        self._rows = Rows(len(source.signals()))
+        self._top = self._room = 0
+        source.turn()
+        self._view = Viewport().of_run(source.first_tick, source.last_tick)
+        self._view = self._view.go(source.last_tick if self._live else source.first_tick)
+        self._say("")
+
+    def _look(self) -> Look:
+        marks = tuple(sorted(self._marks.items()))
+        return Look(self._view, self._rows, marks, self._following, self._said, self._plain)
+
+    def _open(self, file: str) -> None:
+        source, problems = self._desk.open_trace(file)
+        if source is None:
+            self._shell.message(_("Refused"), [_(problem) for problem in problems])
+            return
+        self._file, self._live = file, False
+        self._look_at(source)
+
+    def _find(self, what: Find, direction: int) -> None:
+        tick = self._source.find(what, self._view.cursor, direction, self._rows.at)
+        if tick is None:
+            self._say(_(SEARCH_OF[what].none))
+        else:
+            self._go(tick)
+
+    def _go_to_typed(self, text: str) -> None:
+        if text.strip().isdecimal():
+            self._go(int(text))
+        else:
+            self._say(_("a tick is a whole number, not {text!r}").format(text=text))
+
+    def _go(self, tick: int) -> None:
+        self._moved(self._view.go(tick))
+
+    def _moved(self, view: Viewport) -> None:
+        self._view, self._following = view, False
+        self._say("")
+
+    def _with_rows(self, rows: Rows) -> None:
+        self._rows = rows
+        self._say("")
+
+    def _say(self, text: str) -> None:
+        self._said = text
+        self._invalidate()

@@ -1,0 +1,181 @@
+"""The scope as lines: names, waves and values side by side, the machine at the cursor below or beside them.
+
+Rule: a function of a source and of what is looked at. The cursor and the marks A and B stand as signs in the ruler, so
+that nothing is told by colour alone. Used by the scope screen.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from drillctl.panel.scope import AxisMoment, Ints, Lack, Moment, ScopeSignal, ScopeSource
+from drillctl.ui.lines import Line, packed
+from drillctl.ui.models.rows import Rows
+from drillctl.ui.models.viewport import Viewport
+from drillctl.ui.phase_lines import phase_line, phase_table
+from drillctl.ui.wave import SIGNS, fitted, ruler, wire_line, word_line
+from drillctl.ui.words import N_, _
+
+WIDE = 116  # columns from which the phase tables stand beside the waves
+TABLES = 36
+VALUES = 10
+MOST_NAME = 16
+BESIDE_NAME = ("sensors", "outputs", "kmd", "run")  # groups that a name needs not be told apart by
+UNKNOWN = "?"
+LACKS: Mapping[Lack, str] = {
+    "forgotten": N_("what was before tick {value} was forgotten"),
+    "behind": N_("changes are missing: the screen fell behind the machine"),
+    "running": N_("columns, positions and states are being found: {value} %"),
+    "underivable": N_("columns, positions and states can't be found: {value}"),
+    "too long": N_("columns, positions and states are known to tick {value}: more would take too much memory"),
+    "other tables": N_("recorded with other tables: columns, positions and states are as the tables at hand have them"),
+}
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is looked at: ticks, rows, the marks A and B, and what was last said."""
+
+    view: Viewport
+    rows: Rows
+    marks: tuple[tuple[str, int], ...] = ()
+    following: bool = False
+    said: str = ""
+    plain: bool = False
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a box of columns and rows is shared out."""
+
+    names: int
+    waves: int
+    tables: int
+
+    @classmethod
+    def of(cls, signals: Sequence[ScopeSignal], columns: int) -> "Layout":
+        """Tables only where there is room."""
+        names = min(MOST_NAME, max((len(title(signal)) for signal in signals), default=0)) + 2
+        tables = TABLES if columns >= WIDE else 0
+        return cls(names, max(1, columns - names - VALUES - tables), tables)
+
+
+def title(signal: ScopeSignal) -> str:
+    """How a row is called."""
+    return signal.name if signal.group in BESIDE_NAME else f"{signal.group}.{signal.name}"
+
+
+def scope_lines(source: ScopeSource, look: Look, columns: int, rows: int) -> tuple[list[Line], int, int]:
+    """The lines, the line at which the waves begin, and how many of them there are."""
+    layout = Layout.of(source.signals(), columns)
+    head = _heading(source, look)
+    if source.last_tick < source.first_tick:
+        return [*head, [("dark", _("Nothing was run yet."))]], 0, 0
+    moment = source.at(look.view.cursor)
+    foot = _foot(source, look, moment, columns, bool(layout.tables))
+    room = max(1, rows - len(head) - len(foot) - 1)
+    edges = look.view.edges()
+    waves = [_ruler(look, layout, edges)]
+    waves += [_row(source, look, layout, moment, edges, row) for row in look.rows.window(room)]
+    waves += [[""]] * (room + 1 - len(waves))
+    if layout.tables:
+        waves = _beside(waves, _tables(moment.axes, room + 1))
+    return [*head, *waves, *foot], len(head) + 1, room
+
+
+def _heading(source: ScopeSource, look: Look) -> list[Line]:
+    told = _("{hz} Hz, ticks {first}..{last}")
+    told = told.format(hz=source.tick_hz, first=source.first_tick, last=source.last_tick)
+    follows: Line = [("good", _(" following"))] if look.following else []
+    notices: list[Line] = [
+        [("warning", _(LACKS[notice.lack]).format(value=notice.value))] for notice in source.notices()
+    ]
+    return [[("title", source.name), f" {told}, {_zoom(look.view, source.tick_hz)}", *follows], *notices]
+
+
+def _zoom(view: Viewport, tick_hz: int) -> str:
+    ticks, columns = view.zoom
+    if columns > 1:
+        return _("{columns} columns a tick").format(columns=columns)
+    return _("a column: {ticks} = {ms} ms").format(ticks=ticks, ms=f"{ticks * 1000 / tick_hz:.10g}")
+
+
+def _ruler(look: Look, layout: Layout, edges: Ints) -> Line:
+    view = look.view
+    marks = [(view.column_of(tick), name) for name, tick in look.marks]
+    cursor = (view.column_of(view.cursor), SIGNS[look.plain].cursor)
+    told = ruler(edges, layout.waves, [*marks, cursor])
+    return [" " * layout.names, ("title", told), ("title", f"{_('at cursor'):>{VALUES}}"[:VALUES])]
+
+
+def _row(source: ScopeSource, look: Look, layout: Layout, moment: Moment, edges: Ints, row: int) -> Line:
+    signal, value = source.signals()[row], moment.values[row]
+    here = row == look.rows.at
+    name = f"{'>' if here else ' '}{title(signal):{layout.names - 1}}"[: layout.names]
+    shown = UNKNOWN if value is None else source.shown(row, value, moment.tick)
+    wave = f"{_wave(source, look, edges, row):{layout.waves}}"
+    at = look.view.column_of(look.view.cursor)
+    cursor: Line = [("lit", wave[:at]), ("focus", wave[at : at + 1]), ("lit", wave[at + 1 :])]
+    told = fitted(shown, VALUES - 1, signal.shape == "words", SIGNS[look.plain]).strip()
+    return [("focus" if here else "body", name), *cursor, ("body", f"{told:>{VALUES}}")]
+
+
+def _wave(source: ScopeSource, look: Look, edges: Ints, row: int) -> str:
+    """As far as the signal is known; beyond, where there should be more, a question mark."""
+    known = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
+    unknown = UNKNOWN * (len(edges) - max(1, len(known)))
+    if len(known) < 2:
+        return unknown
+    strip, shape = source.strip(row, known), source.signals()[row].shape
+    if shape == "wire":
+        return wire_line(strip, look.view.zoom.ticks == 1, look.plain) + unknown
+
+    def shown(column: int, value: int) -> str:
+        return source.shown(row, value, int(known[column + 1]) - 1)
+
+    return word_line(strip, shown, shape == "words", look.plain) + unknown
+
+
+def _foot(source: ScopeSource, look: Look, moment: Moment, columns: int, with_tables: bool) -> list[Line]:
+    """The machine at the cursor, the time between the marks, what was said."""
+    seconds = f"{moment.tick / source.tick_hz:.3f}"
+    place: Line = [("title", _("tick {tick}, {seconds} s").format(tick=moment.tick, seconds=seconds)), "  "]
+    axes = [] if with_tables else packed([_axis_part(axis) for axis in moment.axes], columns)
+    return [[*place, moment.command or "-"], *axes, [_between(look, source.tick_hz), "  ", ("warning", look.said)]]
+
+
+def _axis_part(axis: AxisMoment) -> Line:
+    told = _("{steps}, column {column}, {state}  ")
+    told = told.format(steps=axis.position_steps, column=axis.column, state=f"{axis.state:+d}")
+    return [("title", f"{axis.name.upper()} "), told]
+
+
+def _between(look: Look, tick_hz: int) -> str:
+    """What lies between A and B; from either of them to the cursor while there is only one."""
+    told = " ".join(f"{name} {tick}" for name, tick in look.marks)
+    if not look.marks:
+        return _("A and B: not set")
+    first = look.marks[0][1]
+    ticks = abs((look.marks[1][1] if len(look.marks) > 1 else look.view.cursor) - first)
+    rate = f", {tick_hz / ticks:.4g} Hz" if ticks else ""
+    ms = f"{ticks * 1000 / tick_hz:.10g}"
+    return _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=told, ticks=ticks, ms=ms, rate=rate)
+
+
+def _tables(axes: Sequence[AxisMoment], rows: int) -> list[Line]:
+    """The phase tables as the drilling screen has them; a line a motor where there are too many."""
+    if not axes:
+        return [[("dark", _("columns and positions are not known"))]]
+    tables = [line for axis in axes for line in phase_table(axis)]
+    phases = tables if len(axes) + len(tables) <= rows else [phase_line(axis) for axis in axes]
+    return [*map(_place_line, axes), *phases][:rows]
+
+
+def _place_line(axis: AxisMoment) -> Line:
+    return [("title", f"{axis.name.upper():3}"), f"{axis.position_mm:9.3f} mm {axis.position_steps:7}"]
+
+
+def _beside(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
+    missing: list[Line] = [[""]] * (len(left) - len(right))
+    return [[*line, "  ", *beside] for line, beside in zip(left, [*right, *missing], strict=True)]

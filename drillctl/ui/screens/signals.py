@@ -1,0 +1,130 @@
+"""The Signals screen (Tests): every input and output by name, live; outputs and coils switched by hand while at rest.
+
+Rule: what is seen is what the port has, and nothing is switched that was not asked for: a coil costs the position, a
+real machine moves, so both are asked about first. Opened from the menu.
+"""
+
+import urwid
+
+from drillctl.panel.console import Console, MachineView
+from drillctl.panel.handwork import HandDesk, SignalView
+from drillctl.ui.keys import Key, called
+from drillctl.ui.lines import Line, Size, boxed
+from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, moved
+from drillctl.ui.real import asked_if_real
+from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
+from drillctl.ui.words import N_, _
+
+FOOT_ROWS = 2
+
+
+class Signals(urwid.Widget):
+    """The signals under a cursor. ``refresh`` is called with the newest view."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+    _selectable = True
+    title = N_("Signals")
+    keys = (
+        Key((" ", "enter"), "Space", "toggle", N_("switches the output over, at rest"), N_("Switch")),
+        Key(("left",), "Left", "sideways", N_("the signal before"), argument=-1),
+        Key(("right",), "Right", "sideways", N_("the next signal"), argument=1),
+        Key(("up",), "Up", "downwards", N_("a line up"), argument=-1),
+        Key(("down",), "Down", "downwards", N_("a line down"), argument=1),
+        Key(("page up",), "PgUp", "downwards", N_("a section of lines up"), argument=-8),
+        Key(("page down",), "PgDn", "downwards", N_("a section of lines down"), argument=8),
+    )
+
+    def __init__(self, console: Console, shell: Shell, desk: HandDesk):
+        self._console, self._shell, self._desk = console, shell, desk
+        self._signals: tuple[SignalView, ...] = ()
+        self._cursor = self._top = 0
+        self._columns = 80
+        self._said: tuple[str, str] = ("body", "")
+        self.refresh(console.view())
+
+    def refresh(self, view: MachineView) -> None:
+        """Redrawn only if something is new. Another machine has other signals."""
+        signals = tuple(self._desk.signals())
+        if signals != self._signals:
+            self._signals = signals
+            self._cursor = min(self._cursor, len(signals) - 1)
+            self._invalidate()
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The table's keys; everything else is the frame's."""
+        return None if called(self, self.keys, key) else key
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """The lines around the cursor, and below what the cursor is on."""
+        assert len(size) == 2
+        self._columns, rows = size
+        room = max(1, rows - FOOT_ROWS)
+        lines = grid_lines(self._signals, self._cursor, self._columns)
+        self._scroll(room, len(lines))
+        shown = lines[self._top : self._top + room]
+        return boxed([*shown, *([[]] * (room - len(shown))), *self._foot(len(lines), room)], self._columns, rows)
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """A click sets the cursor; the wheel moves it."""
+        if event != "mouse press":
+            return False
+        if button in (4, 5):
+            self.downwards(-1 if button == 4 else 1)
+            return True
+        rows = grid_rows(self._signals, self._columns)
+        places = rows[self._top + row] if self._top + row < len(rows) else []
+        place = col // CELL_COLUMNS
+        if place < len(places):
+            self._go(places[place])
+        return place < len(places)
+
+    def toggle(self) -> None:
+        """An input can't be; a coil is asked about while there is a position to lose."""
+        signal = self._signals[self._cursor]
+        if signal.kind == "input":
+            self._say("warning", _("{name} is an input: it is read, not switched").format(name=signal.name))
+            return
+        coil = signal.kind == "coil" and self._console.view().position_known
+        warning = _("{name} is a motor's wire: the position will be lost.").format(name=signal.name) if coil else ""
+        state = _("off") if signal.on else _("on")
+        what = _("Switch {name} {state}?").format(name=signal.name, state=state)
+        asked_if_real(self._desk, self._shell, what, lambda: self._switch(signal), warning)
+
+    def sideways(self, by: int) -> None:
+        """Stops at the ends."""
+        self._go(max(0, min(self._cursor + by, len(self._signals) - 1)))
+
+    def downwards(self, by: int) -> None:
+        """Line by line, so that it stops at the ends."""
+        for _line in range(abs(by)):
+            self._go(moved(self._signals, self._cursor, self._columns, 1 if by > 0 else -1))
+
+    def _switch(self, signal: SignalView) -> None:
+        if problems := self._desk.set_output(signal.bit, not signal.on):
+            self._say("warning", _("refused: {why}").format(why="; ".join(map(told, problems))))
+        elif signal.forcing and not signal.on:
+            self._say("warning", _("forcing burns a winding at rest: switch it off again soon"))
+        else:
+            self._say("body", "")
+
+    def _go(self, cursor: int) -> None:
+        self._cursor = cursor
+        self._say("body", "")
+
+    def _say(self, attribute: str, text: str) -> None:
+        self._said = (attribute, text)
+        self._invalidate()
+
+    def _scroll(self, room: int, lines: int) -> None:
+        """The cursor's line and the heading above it are seen."""
+        rows = grid_rows(self._signals, self._columns)
+        at = next((number for number, row in enumerate(rows) if self._cursor in row), 0)
+        self._top = max(min(self._top, at - 1), at - room + 1, 0)
+        self._top = min(self._top, max(0, lines - room))
+
+    def _foot(self, lines: int, room: int) -> list[Line]:
+        """What the cursor is on, what was answered, and how much there is above and below."""
+        above, below = self._top, max(0, lines - self._top - room)
+        more = _("{above} lines above, {below} below").format(above=above, below=below) if above or below else ""
+        return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._said]]

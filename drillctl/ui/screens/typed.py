@@ -1,0 +1,65 @@
+"""What is typed into the dialogs of the Files screen, read: numbers of holes, lengths, tools. Called by files.py.
+
+Rule: ValueError for what can't be read, with a sentence for the operator; whether the board can be drilled so is not
+asked here.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from drillctl.panel.console import Problems
+from drillctl.panel.jobs import PanelOf
+from drillctl.ui.words import _
+
+Read = TypeVar("Read")
+
+
+def accepted(
+    read: Callable[[Sequence[str]], Read], then: Callable[[Read], Problems]
+) -> Callable[[list[str]], Problems]:
+    """What a form calls with its texts: what can't be read is its problem, else what ``then`` finds."""
+
+    def accept(texts: list[str]) -> Problems:
+        try:
+            made = read(texts)
+        except ValueError as error:
+            return (str(error),)
+        return then(made)
+
+    return accept
+
+
+def panel_of(texts: Sequence[str]) -> PanelOf | None:
+    """Columns, rows, pitch in X and in Y; none for a panel of one board."""
+    columns, rows = (_count(text) for text in texts[:2])
+    pitch_x_mm, pitch_y_mm = (length_mm(text) or 0.0 for text in texts[2:])
+    return None if columns == rows == 1 else PanelOf(columns, rows, pitch_x_mm, pitch_y_mm)
+
+
+def length_mm(text: str) -> float | None:
+    """With a point or a comma; None where nothing is typed."""
+    if not text.strip():
+        return None
+    try:
+        value_mm = float(text.replace(",", "."))
+    except ValueError:
+        value_mm = math.nan
+    if not math.isfinite(value_mm):
+        raise ValueError(_("{text!r} is not a length in mm, such as 0.5").format(text=text))
+    return value_mm
+
+
+def tool_numbers(text: str) -> tuple[int, ...]:
+    """``2 T3,4``; none where nothing is typed."""
+    words = text.replace(",", " ").upper().split()
+    numbers = [word.removeprefix("T") for word in words]
+    if not all(number.isdecimal() for number in numbers):
+        raise ValueError(_("{text!r} is not a list of tools, such as 2 3").format(text=text))
+    return tuple(sorted({int(number) for number in numbers}))
+
+
+def _count(text: str) -> int:
+    if not text.strip().isdecimal():
+        raise ValueError(_("{text!r} is not a number of boards, such as 2").format(text=text))
+    return int(text)

@@ -1,0 +1,73 @@
+"""A job's recipe: what a journal holds makes the same job again, from any working base."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drillctl.generation.errors import JobError
+from drillctl.generation.job import Job, load_job
+from drillctl.generation.recipe import Recipe
+from drillctl.kmd import Op
+from drillctl.machine import Library, Machine
+from drillctl.wiring.estimate import estimate
+from drillctl.wiring.machinery import Running
+from drillctl.wiring.session import Session
+from tests.support.journalled import BOARD
+
+FULL = Recipe(
+    machine="pcb-drill", tables="/tables", tick_hz=500, origin="file", mirror="x", rotate=90.0, offset=(1.0, 2.0),
+    align=((0.0, 0.0, 1.0, 1.0), (5.0, 0.0, 6.0, 1.0)), panel=(2, 1, 30.0, 0.0), order="nearest", skip_tools=(2,),
+    drills="/drills.toml", peck=0.5, spot=0.2, format="mm,decimal", base=(120, 240),
+)  # fmt: skip
+
+
+@pytest.fixture
+def machine() -> Machine:
+    return Library.standard().machine("pcb-drill")
+
+
+def job_of(recipe: Recipe, folder: Path, machine: Machine) -> Job:
+    (folder / "job.drl").write_text(BOARD)
+    return load_job(folder / "job.drl", machine, recipe.wishes(machine), recipe.format)
+
+
+def test_a_recipe_comes_back_from_json() -> None:
+    assert Recipe.of_options(json.loads(json.dumps(FULL.options()))) == FULL
+
+
+@pytest.mark.parametrize("told", [{}, {"machine": 3}, {"machine": "m", "twist": 1}, {"machine": "m", "panel": [1, 2]}])
+def test_what_is_no_recipe_is_refused(told: dict[str, object]) -> None:
+    with pytest.raises(JobError, match="another version of this program"):
+        Recipe.of_options(told)
+
+
+def test_measured_holes_and_a_file_of_them_are_the_same(tmp_path: Path, machine: Machine) -> None:
+    (tmp_path / "holes.txt").write_text("1 1 6 4\n3 1 8 4\n1 3 6 6\n")
+    rows = ((1.0, 1.0, 6.0, 4.0), (3.0, 1.0, 8.0, 4.0), (1.0, 3.0, 6.0, 6.0))
+    by_file = job_of(Recipe(machine="pcb-drill", align=str(tmp_path / "holes.txt")), tmp_path, machine)
+    by_hand = job_of(Recipe(machine="pcb-drill", align=rows), tmp_path, machine)
+    assert by_file.program.tobytes() == by_hand.program.tobytes()
+
+
+@pytest.mark.parametrize("base", [(0, 0), (600, 240), (0, 48)])
+def test_the_estimate_is_exact_from_any_base(base: tuple[int, int], tmp_path: Path, machine: Machine) -> None:
+    job = job_of(Recipe(machine="pcb-drill", base=base), tmp_path, machine)
+    outcome = Session(job, Running()).run(lambda progress: None).outcome
+    assert outcome.fault is None and outcome.ticks == estimate(job).ticks
+    assert [outcome.position[name] for name in ("x", "y")] == list(base)
+    assert (Op.BAZA in job.program["opcode"]) == any(base)
+
+
+def test_a_base_moves_every_hole_as_far(tmp_path: Path, machine: Machine) -> None:
+    base = (600, 240)
+    made = {
+        where: Session(job_of(Recipe(machine="pcb-drill", base=where), tmp_path, machine), Running())
+        .run(lambda progress: None)
+        .holes
+        for where in ((0, 0), base)
+    }
+    places = [np.array([(hole.x_mm, hole.y_mm) for hole in holes]) for holes in made.values()]
+    shift_mm = np.array(base) / [machine.axes[axis].steps_per_mm for axis in (0, 1)]
+    np.testing.assert_allclose(places[1] - places[0], np.tile(shift_mm, (4, 1)), atol=0.07)

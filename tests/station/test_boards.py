@@ -1,0 +1,284 @@
+"""Boards on the operator's desk: placed by measured holes, repeated, drilled from a base, cut off and gone on with."""
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drillctl.cli import main
+from drillctl.generation.journal import read_journal
+from drillctl.machine import Library
+from drillctl.panel.jobs import Asked, Measured, PanelOf
+from drillctl.station.station import Station
+from drillctl.wiring.machinery import Running
+from drillctl.wiring.session import default_journal
+from tests.support.journalled import BOARD
+
+BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
+PATIENCE_S = 60.0
+
+
+def made(machine: str = "pcb-drill") -> Station:
+    library = Library.standard()
+    return Station(library, library.machine(machine).at_rate(5000), Running(pace="free"), tools="assume")
+
+
+@pytest.fixture
+def station() -> Iterator[Station]:
+    station = made()
+    yield station
+    station.close()
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Path:
+    (tmp_path / "job.drl").write_text(BOARD)
+    return tmp_path / "job.drl"
+
+
+def turn_until(station: Station, reached: Callable[[], bool]) -> None:
+    until_s = time.monotonic() + PATIENCE_S
+    while not reached():
+        assert time.monotonic() < until_s
+        station.turn()
+
+
+def settle(station: Station) -> None:
+    turn_until(station, lambda: not station.at_work)
+
+
+def cut_off(station: Station, board: Path, holes: int, asked: Asked | None = None) -> None:
+    """The board is drilled as far as so many holes, and stopped."""
+    assert station.load(str(board), asked or Asked()) == ()
+    assert station.start(dry=False) == ()
+    turn_until(station, lambda: (told := station.progress()) is not None and told.holes_done >= holes)
+    station.stop()
+    settle(station)
+
+
+def test_a_board_is_drilled_with_its_journal(station: Station, board: Path) -> None:
+    assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
+    assert station.unfinished() == []  # what runs is not offered
+    settle(station)
+    account = read_journal(default_journal(board))
+    assert account.done == {1, 2, 3, 4} and account.ended == "done" and station.unfinished() == []
+    assert station.start(dry=False) == ()  # and once more
+    settle(station)
+    assert station.view().fault is None
+
+
+def test_a_dry_run_leaves_no_journal(station: Station, board: Path) -> None:
+    station.load(str(board), Asked())
+    assert station.start(dry=True) == ()
+    settle(station)
+    assert not default_journal(board).exists()
+
+
+def test_an_interrupted_job_is_offered_and_exactly_its_rest_is_drilled(station: Station, board: Path) -> None:
+    cut_off(station, board, 2)
+    (job,) = station.unfinished()
+    assert 1 <= job.holes_done < 4 and (job.file, job.machine, job.holes_total) == (str(board), "pcb-drill", 4)
+    assert station.start(dry=False)[0].endswith("or delete the file to begin anew")
+    assert station.go_on(job.journal) == ()
+    settle(station)
+    told = station.progress()
+    assert told is not None and (told.holes_done, told.holes_total) == (4, 4)
+    assert read_journal(default_journal(board)).done == {1, 2, 3, 4} and station.unfinished() == []
+    assert station.start(dry=False) == ()  # the whole board is on the desk again
+    settle(station)
+    told = station.progress()
+    assert told is not None and told.holes_done == 4
+
+
+def test_another_program_goes_on_where_one_was_killed(station: Station, board: Path) -> None:
+    station.load(str(board), Asked(rotate_deg=90.0, peck_mm=1.0, skip_tools=(2,)))
+    station.start(dry=False)
+    turn_until(station, lambda: (told := station.progress()) is not None and told.holes_done >= 1)
+    station.close()
+    other = made()
+    try:
+        (job,) = other.unfinished()
+        assert job.holes_total == 3 and len(job.again) <= 1
+        assert other.go_on(job.journal) == ()
+        settle(other)
+        assert other.view().fault is None and other.unfinished() == []
+    finally:
+        other.close()
+
+
+def test_the_command_line_goes_on_with_what_the_screen_began(
+    station: Station, board: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cut_off(station, board, 1, Asked(mirror="x", panel=PanelOf(2, 1, 6.0, 0.0)))
+    assert main(["resume", station.unfinished()[0].journal, "--json"]) == 0
+    outcome = json.loads(capsys.readouterr().out)
+    assert outcome["holes_done"] == outcome["holes_total"] == 8 and station.unfinished() == []
+
+
+def test_the_screen_goes_on_with_what_the_command_line_began(station: Station, board: Path) -> None:
+    journal = default_journal(board)
+    assert main(["run", str(board), "--journal", str(journal), "--tick-hz", "5000", "--rotate", "90"]) == 0
+    journal.write_text("".join(journal.read_text().splitlines(keepends=True)[:4]))
+    (job,) = station.unfinished()
+    assert (job.holes_done, job.again) == (1, (2,))
+    assert station.go_on(job.journal) == ()
+    settle(station)
+    assert read_journal(journal).done == {1, 2, 3, 4}
+
+
+def test_a_job_is_not_gone_on_with_where_something_is_another(station: Station, board: Path) -> None:
+    cut_off(station, board, 1)
+    (job,) = station.unfinished()
+    board.write_text(BOARD.replace("X3.0Y4.0", "X3.0Y4.1"))
+    assert "has changed since the job was begun" in station.go_on(job.journal)[0]
+    board.write_text(BOARD)
+    head = json.loads(Path(job.journal).read_text().splitlines()[0])
+    for name, value, reason in (
+        ("machine", "boiler-drum", "begun on machine boiler-drum; choose that one first"),
+        ("machine_digest", "0" * 16, "machine pcb-drill is not the one that the job was begun on"),
+        ("options", {**head["options"], "offset": [1.0, 0.0]}, "the placing, the order or a table"),
+        ("options", {**head["options"], "peck": "deep"}, "written by another version"),
+    ):
+        lines = Path(job.journal).read_text().splitlines()
+        Path(job.journal).write_text("\n".join([json.dumps({**head, name: value}), *lines[1:], ""]))
+        assert reason in station.go_on(job.journal)[0] and not station.at_work
+
+
+def test_a_job_that_is_given_up_leaves_room_for_a_new_one(station: Station, board: Path) -> None:
+    cut_off(station, board, 1)
+    (job,) = station.unfinished()
+    assert station.give_up(job.journal) == () and station.unfinished() == []
+    assert "can't be taken away" in station.give_up(job.journal)[0]
+    assert station.start(dry=False) == ()
+    assert "still going on" in station.give_up(job.journal)[0]
+    settle(station)
+
+
+def test_a_damaged_journal_is_not_offered_and_stops_nothing(station: Station, board: Path) -> None:
+    cut_off(station, board, 1)
+    journal = Path(station.unfinished()[0].journal)
+    journal.with_name("other.journal").write_text("nonsense\n")
+    journal.with_name("folder.journal").mkdir()
+    assert [job.journal for job in station.unfinished()] == [str(journal)]
+
+
+def test_a_board_is_drilled_from_the_base_that_was_set(station: Station, board: Path) -> None:
+    """Its program initialises, which leaves the base at machine zero, and takes the operator's base again."""
+    station.load(str(board), Asked())
+    station.initialise()
+    settle(station)
+    station.jog("x", 600)
+    settle(station)
+    station.set_base()
+    settle(station)
+    assert station.start(dry=False) == ()
+    settle(station)
+    x, y = station.view().axes[:2]
+    assert (x.position_steps, x.position_mm, y.position_steps) == (600, 0.0, 0)
+    assert read_journal(default_journal(board)).head.options["base"] == [600, 0]
+
+
+def test_what_was_cut_off_goes_on_from_its_own_base(station: Station, board: Path) -> None:
+    station.initialise()
+    settle(station)
+    station.jog("y", 240)
+    settle(station)
+    station.set_base()
+    settle(station)
+    cut_off(station, board, 1)
+    station.initialise()
+    settle(station)
+    assert station.go_on(station.unfinished()[0].journal) == ()
+    settle(station)
+    assert station.view().axes[1].position_steps == 240 and station.view().axes[1].position_mm == 0
+
+
+def test_a_base_from_which_the_board_is_out_of_reach_refuses_the_start(station: Station, board: Path) -> None:
+    station.load(str(board), Asked())
+    station.initialise()
+    settle(station)
+    high = station.machine.reach(0)[1]
+    station.jog("x", high - 20)
+    settle(station)
+    station.set_base()
+    settle(station)
+    assert "out of reach" in station.start(dry=False)[0] and not station.at_work
+
+
+SHIFT = np.array([5.0, 3.0])
+
+
+def measured(*places: tuple[float, float], off: float = 0.0) -> tuple[Measured, ...]:
+    rows = [(*place, *(np.array(place) + SHIFT).tolist()) for place in places]
+    x, y, found_x, found_y = rows[-1]
+    return tuple(Measured(*row) for row in [*rows[:-1], (x, y, found_x + off, found_y)])
+
+
+CORNERS = ((1.0, 1.0), (3.0, 1.0), (1.0, 3.0), (3.0, 4.0))
+
+
+def test_measured_holes_place_the_board_whatever_the_base(station: Station, board: Path) -> None:
+    assert station.load(str(board), Asked(measured=measured(*CORNERS))) == ()
+    placed = station.board()
+    assert placed is not None
+    np.testing.assert_allclose(placed.xy_mm, placed.file_xy_mm + SHIFT, atol=0.03)
+    station.initialise()
+    settle(station)
+    station.jog("x", 120)
+    settle(station)
+    station.set_base()
+    settle(station)
+    moved = station.board()
+    assert moved is not None
+    np.testing.assert_allclose(moved.xy_mm - placed.xy_mm, np.tile([-2.54, 0.0], (4, 1)), atol=0.03)
+
+
+def test_measured_holes_are_judged(station: Station) -> None:
+    found, problems = station.align(measured(*CORNERS), False)
+    assert found is not None and not problems and not found.rejected and max(found.residual_mm) < 1e-9
+    assert found.place_mm((10.0, 10.0)) == pytest.approx((15.0, 13.0))
+    off, _ = station.align(measured(*CORNERS, off=3.0), False)
+    assert off is not None and off.rejected
+    none, problems = station.align(measured((1.0, 1.0), (1.0, 1.0)), False)
+    assert none is None and "the same place" in problems[0]
+
+
+@pytest.mark.parametrize(
+    ("asked", "reason"),
+    [
+        (Asked(measured=measured(*CORNERS), rotate_deg=90.0), "given together with an alignment"),
+        (Asked(panel=PanelOf(2, 1, 0.0, 0.0)), "pitch 0"),
+        (Asked(panel=PanelOf(0, 1, 1.0, 1.0)), "has no board"),
+        (Asked(peck_mm=0.001), "is not a depth"),
+        (Asked(skip_tools=(9,)), "has no tool T9"),
+        (Asked(drills="/nowhere/drills.toml"), "can't be read"),
+        (Asked(format="furlongs"), "bad-format"),
+    ],
+)
+def test_what_cannot_be_done_changes_nothing(station: Station, board: Path, asked: Asked, reason: str) -> None:
+    assert station.load(str(board), Asked()) == ()
+    before = station.board()
+    assert reason in station.load(str(board), asked)[0]
+    assert station.board() is before and len(station.recent()) == 1
+
+
+def test_a_panel_repeats_the_board(station: Station, board: Path) -> None:
+    assert station.load(str(board), Asked(panel=PanelOf(2, 2, 6.0, 7.0))) == ()
+    placed = station.board()
+    assert placed is not None and len(placed.xy_mm) == 16
+    np.testing.assert_allclose(np.ptp(placed.xy_mm, axis=0), [8.0, 10.0], atol=0.03)
+
+
+def test_opened_boards_are_remembered(station: Station, board: Path) -> None:
+    station.load(str(board), Asked(mirror="x"))
+    station.load(str(BLINKER), Asked())
+    assert [(Path(job.file).name, job.asked.mirror) for job in station.recent()] == [
+        ("blinker.drl", None), ("job.drl", "x"),
+    ]  # fmt: skip
+
+
+def test_a_queue_is_no_board(station: Station) -> None:
+    assert "run from the queue editor" in station.load(str(BLINKER.with_name("square.kmd")), Asked())[0]

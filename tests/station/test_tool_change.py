@@ -1,0 +1,126 @@
+"""The tool change on the screen: the queue waits at rest, and goes on, is held, or ends, as the operator says."""
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from drillctl.machine import Library
+from drillctl.panel.console import Asked, ToolWanted
+from drillctl.station.station import Station
+from drillctl.station.toolgate import asks_for_tools
+from drillctl.wiring.machinery import Running
+
+TWO_TOOLS = "M48\nMETRIC\nT1C0.800\nT2C1.000\n%\nT1\nX10.0Y10.0\nT2\nX12.0Y10.0\nM30\n"
+PATIENCE_S = 40.0
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Iterator[Station]:
+    library = Library.standard()
+    made = Station(library, library.machine("pcb-drill").at_rate(5000), Running(pace="real"), tools="ask")
+    (tmp_path / "two.drl").write_text(TWO_TOOLS)
+    assert made.load(str(tmp_path / "two.drl"), Asked(format="mm,decimal")) == ()
+    yield made
+    made.close()
+
+
+def until(station: Station, true: Callable[[], bool]) -> None:
+    deadline_s = time.monotonic() + PATIENCE_S
+    while not true():
+        assert time.monotonic() < deadline_s, station.view()
+        station.turn()
+
+
+def wanted(station: Station) -> ToolWanted | None:
+    return station.view().tool_wanted
+
+
+def test_each_tool_is_waited_for_and_the_job_ends_with_all_holes(station: Station) -> None:
+    assert station.tool_changed() == ("no tool is waited for",)
+    assert station.start(dry=False) == ()
+    until(station, lambda: wanted(station) == ToolWanted(1, 0.8))
+    view = station.view()
+    assert not view.moving and view.position_known and station.at_work
+    tick = view.tick
+    for _ in range(30):
+        station.turn()
+    assert station.view().tick == tick, "a wait for the operator is no tick"
+    assert station.tool_changed() == ()
+    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
+    progress = station.progress()
+    assert progress is not None and progress.holes_done == 1
+    assert station.tool_changed() == ()
+    until(station, lambda: not station.at_work)
+    progress = station.progress()
+    assert progress is not None and progress.holes_done == 2 and wanted(station) is None
+    assert station.view().fault is None
+
+
+def test_a_hold_and_a_stop_are_served_while_a_tool_is_waited_for(station: Station) -> None:
+    station.start(dry=False)
+    until(station, lambda: wanted(station) is not None)
+    assert station.hold() == ()
+    until(station, lambda: station.view().condition == "held")
+    assert station.tool_changed() == ()
+    for _ in range(30):
+        station.turn()
+    assert not station.view().moving, "held: the tool is in, and nothing moves yet"
+    assert station.resume() == ()
+    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
+    assert station.stop() == ()
+    until(station, lambda: not station.at_work)
+    view, progress = station.view(), station.progress()
+    assert view.tool_wanted is None and view.position_known and view.condition == "ready"
+    assert progress is not None and progress.holes_done == 1
+
+
+def test_an_emergency_stop_ends_the_wait(station: Station) -> None:
+    station.start(dry=False)
+    until(station, lambda: wanted(station) is not None)
+    station.emergency_stop()
+    until(station, lambda: not station.at_work)
+    assert station.view().condition == "latched" and wanted(station) is None
+
+
+def test_a_dry_run_asks_for_no_tool(station: Station) -> None:
+    assert station.start(dry=True) == ()
+    until(station, lambda: not station.at_work)
+    progress = station.progress()
+    assert progress is not None and progress.holes_done == 2
+
+
+@pytest.mark.parametrize(
+    ("machine", "simulated", "wish", "asks"),
+    [
+        ("pcb-drill", True, None, False),
+        ("eight-axis", True, None, True),
+        ("pcb-drill", False, None, True),
+        ("eight-axis", True, "assume", False),
+        ("pcb-drill", True, "ask", True),
+    ],
+    ids=["AUTOMATIC", "MANUAL", "no changer on a real port", "--tools assume wins", "--tools ask wins"],
+)
+def test_the_machine_s_file_decides_and_the_option_wins(
+    machine: str, simulated: bool, wish: str | None, asks: bool
+) -> None:
+    assert asks_for_tools(Library.standard().machine(machine), simulated, wish) == asks
+
+
+def test_the_time_left_is_exact_though_the_job_starts_elsewhere_and_waits(station: Station) -> None:
+    """Compared at the second tool: what was left there is what the rest then takes, a poll of the status apart."""
+    station.initialise()
+    until(station, lambda: not station.at_work)
+    station.start(dry=False)
+    until(station, lambda: wanted(station) is not None)
+    station.tool_changed()
+    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
+    before = station.progress()
+    station.tool_changed()
+    until(station, lambda: not station.at_work)
+    after = station.progress()
+    assert before is not None and after is not None and before.seconds_left is not None
+    assert after.seconds_left == 0
+    taken_s = after.machine_seconds - before.machine_seconds
+    assert taken_s > 0.2 and abs(before.seconds_left - taken_s) <= 2 / 5000

@@ -1,0 +1,123 @@
+"""A class hour on a terminal: a board from file to the last hole, a table edited, a fault provoked and put right.
+
+One script, played at two sizes and in two languages by the real program on its own pseudo-terminal. The words come
+from the program's catalogue. The machine runs free, so that a busy computer makes the hour longer and nothing else.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from drillctl.kmd import Fault
+from drillctl.panel.words import FAULT_WORDS
+from drillctl.ui import words
+from tests.support.labels import menu, word
+
+terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev extra) reads what the program draws")
+Act = terminals.Act
+
+NAME, HOLES, SIZE = "lesson.drl", 5, "9.99 x 5.00 mm"
+BOARD = """M48
+METRIC
+T1C0.800
+T2C1.000
+%
+T1
+X5.0Y5.0
+X15.0Y5.0
+X15.0Y10.0
+T2
+X5.0Y10.0
+X10.0Y7.5
+M30
+"""
+BEYOND = ("KMD_INICJALIZACJA", "Enter", "KMD_GOTO_X_Y 999999 0")
+YES = ("Right", "Enter")
+
+
+def made(done: int) -> str:
+    return word("{number} of {total}, {done} done").format(number=HOLES, total=HOLES, done=done)
+
+
+def at_rest(known: str) -> str:
+    return f"{word('at rest')} | {word(known)}"
+
+
+def board() -> Iterator["terminals.Act"]:
+    """Opened, understood, and back to the machine."""
+    yield Act((), (word("No board is loaded."), at_rest("position not known")))
+    yield Act(menu("files"), (NAME,))
+    yield Act(("Down", "Enter"), (SIZE, "T2"))
+    yield Act(("Esc",), (word("Sensors"),))
+
+
+def basing() -> Iterator["terminals.Act"]:
+    """Initialised, and the base taken beside machine zero."""
+    yield Act(menu("drilling", "initialise"), (at_rest("position known"),))
+    yield Act(("Right",), ("0.254", at_rest("position known")))
+    yield Act(("Up",), ("Y      0.254", at_rest("position known")))
+    yield Act(("b",), (word("this place is the working base"),))
+
+
+def drilling() -> Iterator["terminals.Act"]:
+    """After a question; held on the way, and gone on with."""
+    yield Act(("s",), (word("Drill {holes} holes of {name}?").format(holes=HOLES, name=NAME),))
+    yield Act(YES, (word("moving"),))
+    yield Act((" ",), (word("HELD"),))
+    yield Act((" ",), (made(HOLES), at_rest("position known")))
+
+
+def table() -> Iterator["terminals.Act"]:
+    """A cell turned over, saved as one's own copy, driven, and taken away again."""
+    saved = word("Saved. Drive the machine with it now? The position will be lost.")
+    yield Act(menu("phase_editor"), (word("Phase tables"), word("shipped")))
+    yield Act(("Enter",), (word("Phase table") + ": ",))
+    yield Act((" ",), (word(", changed"),))
+    yield Act(("F2",), (saved[:30],))
+    yield Act(YES, (word("your own copy"), at_rest("position not known")))
+    yield Act(("F8",), (word("Question"),))
+    yield Act(YES, (f"({word('shipped')})",))
+
+
+def again() -> Iterator["terminals.Act"]:
+    """The new machine gets its board, and is initialised."""
+    yield Act(menu("files"), (NAME,))
+    yield Act(("Down", "Enter"), (SIZE, "T2"))
+    yield Act(menu("drilling", "initialise"), (at_rest("position known"),))
+
+
+def dry() -> Iterator["terminals.Act"]:
+    """The same journey with the drill up."""
+    yield Act(("d",), (made(HOLES), at_rest("position known")))
+
+
+def fault() -> Iterator["terminals.Act"]:
+    """A queue beyond the range: cause and remedy are read, the fault acknowledged."""
+    told = FAULT_WORDS[Fault.SOFT_LIMIT]
+    yield Act(menu("queue_editor"), (word("Queue of commands"),))
+    yield Act(BEYOND, ("999999", word("sound")))
+    yield Act(("F5",), ("SOFT_LIMIT", word("Cause: ") + word(told.cause)[:30], word(told.remedy)[:30]))
+    yield Act(("Enter",), (word("READY"),))
+
+
+@pytest.fixture(params=words.LANGUAGES)
+def language(request: pytest.FixtureRequest) -> Iterator[str]:
+    words.use(request.param)
+    yield request.param
+    words.use("en")
+
+
+@pytest.mark.parametrize("size", [(80, 24), (160, 50)], ids=str)
+def test_an_hour_at_the_machine(language: str, size: tuple[int, int], tmp_path: Path) -> None:
+    (tmp_path / NAME).write_text(BOARD, "utf-8")
+    terminal = terminals.Terminal("--pace", "free", "--lang", language, folder=tmp_path, size=size)
+    try:
+        for part in (board, basing, drilling, table, fault, again, dry):
+            terminal.play(part())
+            terminal.settle()  # what was asked last has ended, and the machine takes the next
+        terminal.play([Act(("F4",), (word("Question"),))])  # the queue was not saved
+        terminal.press(*YES)
+        assert terminal.exit_code() == 0
+    finally:
+        terminal.close()

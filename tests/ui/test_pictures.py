@@ -1,0 +1,43 @@
+"""The pictures in docs show what the program shows; one that has gone stale is made anew by docs/pictures.py."""
+
+import sys
+from xml.etree import ElementTree
+
+import pytest
+
+pyte = pytest.importorskip("pyte", reason="pyte (the dev extra) reads what the program draws")
+
+from docs import pictures, screen_svg  # noqa: E402 - they need pyte
+from docs.pictures import SESSIONS, Session  # noqa: E402
+
+QUICK = ("work", "editors")  # these in every run; the others show the same screens in another size or language
+
+
+def session_marked(session: Session) -> object:
+    marks = () if session.script.__name__ in QUICK else (pytest.mark.long,)
+    return pytest.param(session, id=session.script.__name__, marks=marks)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the folder that is masked is Linux's")
+@pytest.mark.parametrize("session", [session_marked(session) for session in SESSIONS])
+def test_a_picture_shows_what_the_program_shows_now(session: Session) -> None:
+    for name, svg in pictures.taken(session):
+        kept = (pictures.PICTURES / f"{name}.svg").read_text("utf-8")
+        shown, drawn = "\n".join(screen_svg.read(svg)), "\n".join(screen_svg.read(kept))
+        assert shown == drawn, f"docs/pictures/{name}.svg is stale: .venv/bin/python docs/pictures.py"
+
+
+def test_a_screen_is_read_back_as_it_was_drawn() -> None:
+    screen = pyte.Screen(12, 3)
+    pyte.Stream(screen).feed("\x1b[1;31mred\x1b[0m  <&>\r\n   \x1b[7mturned\x1b[0m x\r\n")
+    svg = screen_svg.drawn(screen, screen.display)
+    assert screen_svg.read(svg) == ["red  <&>", "   turned x", ""]
+    fills = {element.attrib.get("fill") for element in ElementTree.fromstring(svg).iter()}
+    assert screen_svg.COLOURS["red"] in fills
+
+
+def test_every_picture_belongs_to_a_session_and_names_no_folder_of_ours() -> None:
+    for file in pictures.PICTURES.glob("*.svg"):
+        text = file.read_text("utf-8")
+        assert "/tmp/" not in text and str(pictures.ROOT) not in text
+        assert f'"{file.stem}"' in (pictures.ROOT / "docs" / "pictures.py").read_text("utf-8")

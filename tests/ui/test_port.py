@@ -1,0 +1,109 @@
+"""The Port screen: what is in use and what is configured, a test's report, and no real machine without a yes."""
+
+from dataclasses import dataclass, field, replace
+
+import pytest
+
+from drillctl.panel.console import Problems
+from drillctl.panel.ports import PortReport, PortView
+from drillctl.ui import words
+from drillctl.ui.screens.port import PortScreen
+from tests.ui.desk import VIEW, FakeConsole, Program
+from tests.ui.editor_fakes import Shell, press, text_of
+
+PORT = PortView("simulated", False, "REAL", "MEGA", "firmata", False)
+GOOD = PortReport("firmata", ("StandIn 2.5 answers", "outputs: " + " ".join(f"D{n}" for n in range(16, 40))), (("x_min", True), ("x_max", False)))  # fmt: skip  # noqa: E501
+BAD = PortReport("firmata", problem="firmata: no Firmata answers; upload StandardFirmata, and check the baud rate")
+
+
+@dataclass
+class Ports:
+    """A PortDesk."""
+
+    view: PortView = PORT
+    report: PortReport = GOOD
+    answer: Problems = ()
+    done: list[str] = field(default_factory=list)
+
+    def port(self) -> PortView:
+        return self.view
+
+    def test(self) -> PortReport:
+        self.done.append("test")
+        return self.report
+
+    def go_real(self) -> Problems:
+        self.done.append("go_real")
+        return self.answer
+
+    def go_simulated(self) -> Problems:
+        self.done.append("go_simulated")
+        return self.answer
+
+
+def screen(ports: Ports, shell: Shell | None = None) -> PortScreen:
+    return PortScreen(FakeConsole(), shell or Shell(), ports)
+
+
+@pytest.fixture(autouse=True)
+def english() -> None:
+    words.use("en")
+
+
+def test_what_is_in_use_and_what_is_configured() -> None:
+    text = text_of(screen(Ports()))
+    assert all(part in text for part in ("simulated, simulated", "REAL", "MEGA", "firmata", "nothing moves"))
+    text = text_of(screen(Ports(replace(PORT, configured="", overridden=True))))
+    assert "none drives this card" in text and "--port was given and wins" in text
+
+
+@pytest.mark.parametrize("size", [(80, 24), (160, 50), (40, 20)])
+def test_a_report_is_seen_whole_in_every_size(size: tuple[int, int]) -> None:
+    drawn = screen(Ports())
+    press(drawn, "t")
+    text = text_of(drawn, size)
+    assert all(part in text for part in ("StandIn 2.5 answers", "D16", "D39", "It can be used"))
+    lines = [line.split() for line in text.splitlines()]
+    assert ["x_min", "REACHED"] in lines and ["x_max", "clear"] in lines
+    assert all(len(line) <= size[0] for line in text.splitlines())
+
+
+def test_a_failure_is_told_with_its_remedy_and_another_machine_has_no_report() -> None:
+    ports = Ports(report=BAD)
+    drawn = screen(ports)
+    press(drawn, "t")
+    assert "can't be used: firmata: no Firmata answers; upload" in text_of(drawn)
+    ports.view = replace(PORT, card="UNO")
+    drawn.refresh(VIEW)
+    assert "upload" not in text_of(drawn)
+
+
+@pytest.mark.parametrize(("key", "method"), [("r", "go_real"), ("s", "go_simulated")])
+@pytest.mark.parametrize("yes", [False, True])
+def test_the_machine_is_changed_after_a_yes_only(key: str, method: str, yes: bool) -> None:
+    ports, shell = Ports(answer=("the machine is at work",)), Shell(says_yes=yes)
+    press(screen(ports, shell), key)
+    assert len(shell.asked) == 1 and ports.done == ([method] if yes else [])
+    assert shell.told == ([("Nothing changed", ["the machine is at work"])] if yes else [])
+
+
+@pytest.mark.parametrize("answer", ["esc", "enter"])
+def test_a_machine_set_to_real_is_asked_about_once_and_no_is_the_first_answer(answer: str) -> None:
+    console = FakeConsole(now=replace(VIEW, real_wanted="firmata"))
+    program = Program(console)
+    assert "pcb-drill is set to REAL" in program.text()
+    program.press(answer)
+    assert "is set to REAL" not in program.text() and ("go_real",) not in console.asked
+
+
+def test_a_yes_drives_it_and_a_refusal_is_told() -> None:
+    console = FakeConsole(now=replace(VIEW, real_wanted="firmata"), answer=("firmata: no board",))
+    program = Program(console)
+    program.press("right", "enter")
+    assert ("go_real",) in console.asked and "firmata: no board" in program.text()
+
+
+def test_without_a_port_for_the_card_nobody_is_asked_and_the_reason_told() -> None:
+    ports, shell = Ports(replace(PORT, configured=""), answer=("no port drives the card",)), Shell()
+    press(screen(ports, shell), "r")
+    assert shell.asked == [] and shell.told == [("Nothing changed", ["no port drives the card"])]

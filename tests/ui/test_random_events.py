@@ -1,0 +1,119 @@
+"""Keys, clicks and new sizes at random on the whole program, with a machine that runs free behind it.
+
+Nothing is raised, nothing moves but by the few actions that the operator knows to move something, and the emergency
+stop is live in every state that comes up. Spied on is the station: whatever goes down to the machine goes through it.
+"""
+
+import random
+from collections import Counter
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+import urwid
+
+from tests.ui.whole import Event, Whole, at_home
+
+EVENTS = 2000
+MANY_EVENTS = 10_000
+SIZES = [(80, 24), (160, 50), (60, 18)]
+KEYS = [
+    *"abcdefghijklmnopqrstuvwxyzABX0123456789 +-=.,", "enter", "enter", "esc", "esc", "tab", "up", "down", "left",
+    "right", "page up", "page down", "home", "end", "backspace", "delete", "insert", *(f"f{n}" for n in range(1, 10)),
+    "f11", "f12", "meta f", "meta d", "meta t", "meta c", "meta h", "window resize",
+]  # fmt: skip
+# Now and then somebody knows the way: closes what is open, acknowledges, goes where things happen.
+CLOSED = (*("esc",) * 4, "meta d", "a")
+WAYS = [
+    (*CLOSED, "meta d", "a"), (*CLOSED, "meta d", "i"), (*CLOSED, "meta d", "s", "right", "enter", "right", "enter"),
+    (*CLOSED, "meta d", "d"), (*CLOSED, "meta d", "h"), (*CLOSED, "meta f", "o", "down", "enter", "esc"),
+    (*CLOSED, "meta t", "q", *"KMD_RUCHd x=9", "f5"), (*CLOSED, "meta t", "p", "enter"), (*CLOSED, "meta t", "s"),
+    (*CLOSED, "meta t", "r", "enter"), (*CLOSED, "meta t", "o"), (*CLOSED, "meta c", "p", "enter"),
+]  # fmt: skip
+CLICKS = ("mouse press", "mouse release", "mouse drag")
+
+# What the operator knows to move something: a method of a screen. Each is a key of its table or an entry of a menu.
+MOVING = {
+    "Drilling.dry_run", "Drilling.hold_or_resume", "Drilling.initialise", "Drilling.set_base", "AtMachine.jog_on",
+    "AtMachine.jog_back", "Drilling._go_to", "QueueEditor.run_all", "QueueEditor.run_to_cursor", "QueueEditor.run_line",
+    "QueueEditor.tick", "AlignmentScreen.go_there",
+}  # fmt: skip
+CARRIED_ON = "Jogging.carry_on"  # the one step that waits while a jog is on its way; it was asked for by a key
+ANSWERED = "Dialog._closed_by.<locals>.both"  # a button was pressed
+
+
+class Chance(Whole):
+    """The program, and somebody who presses what comes to hand."""
+
+    def __init__(self, seed: int):
+        super().__init__()
+        self.random = random.Random(seed)
+        self.seen: Counter[tuple[str, str]] = Counter()
+        self.waiting = 0  # keys of jogs
+
+    def event(self) -> None:
+        """One, or a way of some; and what the machine makes of it."""
+        events = self.random.choice(WAYS) if self.random.random() < 0.06 else (self._event(),)
+        for event in events:
+            with suppress(urwid.ExitMainLoop):  # Quit was found
+                self.press(event)
+        self.go_on(self.random.choice((0, 1, 5, 50)))
+        if self.random.random() < 0.1:
+            self.text()
+
+    def state(self) -> tuple[str, str]:
+        """What is on top, and over which screen."""
+        return type(self.app.layers.top).__name__, type(self.app.screens[-1]).__name__
+
+    def _event(self) -> Event:
+        if self.random.random() < 0.2:
+            columns, rows = self.paper.size
+            place = self.random.randrange(columns), self.random.randrange(rows)
+            return (self.random.choice(CLICKS), self.random.choice((1, 1, 1, 3, 4, 5)), *place)
+        key = self.random.choice(KEYS)
+        if key == "window resize":
+            self.paper.size = self.random.choice(SIZES)
+        return key
+
+
+def check_moves(chance: Chance) -> None:
+    """What moved since the last look was asked for; what bores or goes on with a job, in answer to a question."""
+    for what, by in chance.station.moved:
+        chance.waiting += {"jog": 1, "run_queue": -int(CARRIED_ON in by and not by & MOVING)}.get(what, 0)
+        assert chance.waiting >= 0, "more steps were made than keys pressed"
+        assert by & MOVING or ANSWERED in by or CARRIED_ON in by, (what, by)
+        assert what not in ("start", "go_on", "tool_changed") or ANSWERED in by, (what, by)
+        assert "App._beat" not in by and "App.turn" not in by, (what, by)
+    chance.station.moved.clear()
+
+
+def check_stop(chance: Chance) -> None:
+    """F10 reaches the machine from here."""
+    before = chance.station.stops
+    chance.press("f10")
+    chance.go_on(100)
+    assert chance.station.stops == before + 1, chance.state()
+    view = chance.station.view()
+    assert view.condition == "latched" and not view.moving, chance.state()
+
+
+@pytest.mark.parametrize(
+    ("seed", "events"),
+    [(1996, EVENTS), *(pytest.param(seed, MANY_EVENTS, marks=pytest.mark.long) for seed in range(5))],
+)
+def test_random_events_raise_nothing_move_nothing_unasked_and_leave_the_stop_alive(
+    seed: int, events: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at_home(tmp_path, monkeypatch)
+    chance = Chance(seed)
+    try:
+        for _ in range(events):
+            chance.event()
+            check_moves(chance)
+            chance.seen[chance.state()] += 1
+            if chance.seen[chance.state()] == 1 or chance.random.random() < 0.005:
+                check_stop(chance)
+        tops, screens = {top for top, _screen in chance.seen}, {screen for _top, screen in chance.seen}
+        assert {"NoneType", "Dialog", "PullDown"} <= tops and len(screens) >= 6, chance.seen
+    finally:
+        chance.station.close()

@@ -1,0 +1,281 @@
+"""The scope on a canvas, upon the run of a real queue."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from drillctl.cli import main
+from drillctl.machine import Library
+from drillctl.panel.console import Problems
+from drillctl.panel.scope import ScopeSource
+from drillctl.station.tracefile import TraceFile
+from drillctl.ui import app, words
+from drillctl.ui.app import App
+from drillctl.ui.screens.scope import Scope
+from drillctl.ui.screens.scope_keys import SCOPE_KEYS, SEARCHES
+from drillctl.ui.screens.scope_view import LACKS
+from tests.ui.desk import FakeConsole, Program
+
+SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
+SIZES = [(80, 24), (160, 50)]
+FIRST_STEP = 6  # the tick after which the first column of a move from rest is out
+
+
+@pytest.fixture(autouse=True)
+def english(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    words.use("en")
+    monkeypatch.setattr(app, "TURNING_S", 0.0)
+    yield
+    words.use("en")
+
+
+@pytest.fixture(scope="module")
+def square(tmp_path_factory: pytest.TempPathFactory) -> TraceFile:
+    file = tmp_path_factory.mktemp("traces") / "square.trace"
+    assert main(["run", str(SQUARE), "--trace", str(file)]) == 0
+    source = TraceFile(file, Library.standard())
+    while source.notices():
+        source.turn()
+    return source
+
+
+class Runs:
+    """A desk with one run, and a file that can be opened."""
+
+    def __init__(self, source: TraceFile, answer: Problems = ()):
+        self.source, self.answer, self.opened = source, answer, [""]
+
+    def running(self) -> ScopeSource:
+        return self.source
+
+    def open_trace(self, file: str) -> tuple[ScopeSource | None, Problems]:
+        self.opened.append(file)
+        return (None, self.answer) if self.answer else (self.source, ())
+
+
+class Scoped(Program):
+    """The program with the scope in front."""
+
+    def __init__(self, source: TraceFile, size: tuple[int, int] = (80, 24), plain: bool = False, live: bool = False):
+        super().__init__(FakeConsole(), size, plain)
+        self.runs = Runs(source)
+        makers = {"scope": lambda console, shell: Scope(console, shell, self.runs, plain, None if live else source)}
+        self.app = App(self.console, plain=plain, terminal=self.paper, makers=makers)
+        scope = self.app.show("scope")
+        assert isinstance(scope, Scope)
+        self.scope = scope
+        self.canvas()  # the first frame tells it its size
+
+    def row(self, name: str) -> str:
+        return next(line for line in self.text().splitlines() if line[1:].startswith(f"{name} "))
+
+    def cursor(self) -> int:
+        line = next(line for line in self.text().splitlines() if line.startswith(("tick ", "takt ")))
+        return int(line.split()[1].rstrip(","))
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_a_frame_has_names_waves_values_and_the_machine_at_the_cursor(
+    square: TraceFile, size: tuple[int, int], language: str
+) -> None:
+    words.use(language)
+    program = Scoped(square, size)
+    rows = program.text().splitlines()
+    assert len(rows) == size[1] and all(len(row) == size[0] for row in rows)
+    text = program.text()
+    for told in ("square.trace (pcb-drill)", "500 Hz", "|20", "1 KMD_INICJALIZACJA", words._("at cursor")):
+        assert told in text
+    assert words._("A and B: not set") in text and "▼" in rows[3]
+
+
+def test_the_first_wave_of_the_homing_is_drawn_from_the_tick_in_which_it_came(square: TraceFile) -> None:
+    program = Scoped(square)
+    wave = program.row("x.2a")[12:]
+    assert wave.startswith("▁" * (FIRST_STEP + 1) + "▔")
+    assert Scoped(square, plain=True).row("x.2a")[12:].startswith("_" * (FIRST_STEP + 1) + "-")
+
+
+def test_numbers_stand_in_lanes_and_the_values_at_the_right_follow_the_cursor(square: TraceFile) -> None:
+    program = Scoped(square)
+    assert "0      │-1 │" in program.row("x.state") and program.row("x.state").endswith(" 0")
+    program.press(*["right"] * 7)
+    assert program.cursor() == 7 and program.row("x.state").endswith("-1")
+    assert "X -1, column 11, -1" in program.text()
+
+
+def test_the_phase_table_stands_beside_with_the_column_of_that_tick(square: TraceFile) -> None:
+    program = Scoped(square, (160, 50))
+    program.press(*["right"] * 7)
+    text = program.text()
+    assert "X  column 11, ramp -1 of 3" in text and "xxx......x[x]x" in text and "[2a]" in text
+
+
+def test_a_plain_terminal_gets_ascii(square: TraceFile) -> None:
+    program = Scoped(square, plain=True)
+    program.press("w")
+    assert program.text().isascii() and "#" in program.row("x.1a") and "v" in program.text().splitlines()[3]
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_whole_run_shows_where_something_moved_and_where_not(square: TraceFile, size: tuple[int, int]) -> None:
+    program = Scoped(square, size)
+    program.press("w")
+    busy, still = program.row("x.1a"), program.row("y.1a")
+    assert "▒▒▒" in busy and "▔▔▔" in busy + still and f"ticks 0..{square.last_tick}" in program.text()
+
+
+def test_every_search_goes_to_its_event_and_back_or_says_that_there_is_none(square: TraceFile) -> None:
+    program = Scoped(square)
+    for search in SEARCHES:
+        program.press("home", search.letter)
+        found = square.find(search.what, 0, 1, 0)
+        assert program.cursor() == (found or 0)
+        assert (search.none in program.text()) == (found is None)
+        program.press("end", search.letter.upper())
+        assert program.cursor() == (square.find(search.what, square.last_tick, -1, 0) or square.last_tick)
+    assert square.find("command", 0, 1, 0) and square.find("sensor", 0, 1, 0)
+
+
+def test_every_word_is_asked_for_a_tick_that_has_it(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a command is called may depend on the job, so on when it was."""
+    asked, shown = [], square.shown
+    monkeypatch.setattr(square, "shown", lambda *words: (asked.append(words), shown(*words))[1])
+    program = Scoped(square, (160, 50))
+    for key in ("w", "c", *["+"] * 12):
+        program.press(key)
+        program.canvas()
+    assert len(asked) > 1000
+    assert all(square.at(tick).values[signal] == value for signal, value, tick in asked)
+
+
+def test_what_is_not_found_yet_is_a_question_mark(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    derived = [row for row, signal in enumerate(square.signals()) if signal.name in ("column", "position", "state")]
+    monkeypatch.setattr(square, "known_to", lambda row: 30 if row in derived else square.last_tick + 1)
+    program = Scoped(square)
+    wave = program.row("x.column")[12:70]
+    assert wave.rstrip().lstrip("?") and wave.index("?") == 30 and set(wave[30:]) == {"?"}
+    program.press("end")
+    assert set(program.row("x.column")[12:70]) == {"?"} and program.row("x.column").endswith("?")
+    assert "?" not in program.row("x.1a")
+
+
+def test_two_marks_tell_ticks_milliseconds_and_hertz_between(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press(*["right"] * 10, "a", *["right"] * 25, "b")
+    assert "A 10 B 35: 25 ticks, 50 ms, 20 Hz" in program.text()
+    ruler = program.text().splitlines()[3]
+    assert ruler[12 + 10] == "A" and "▼" in ruler  # B stands under the cursor
+    program.press("left")
+    assert program.text().splitlines()[3][12 + 35] == "B"
+    program.press("right", "b", "a")
+    assert "A 35" in program.text() and "B 35" not in program.text()
+
+
+def test_zooming_by_keys_and_wheel_keeps_what_is_pointed_at(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press(*["right"] * 20, "-", "-")
+    assert program.cursor() == 20 and "a column: 5 = 10 ms" in program.text()
+    program.press("w", ("mouse press", 1, 40, 8))
+    there = program.cursor()
+    assert there > 1000
+    program.press(("mouse press", 4, 40, 8))
+    assert program.cursor() == there and program.text().splitlines()[3][40] == "▼"
+
+
+def test_a_click_moves_the_bar_too_and_one_on_a_name_does_nothing(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press(("mouse press", 1, 30, 9))
+    assert program.text().splitlines()[9].startswith(">x.24a") and program.cursor() == 18
+    program.press(("mouse press", 1, 3, 12))
+    assert program.cursor() == 18
+
+
+def test_rows_are_hidden_isolated_scrolled_and_shown_again(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press("down", "h")
+    assert "x.1a" not in program.text() and ">x.1b" in program.text()
+    program.press("i")
+    assert "y.1a" not in program.text() and "x.state" in program.text() and "x.1a" in program.text()
+    program.press("v", *["page down"] * 9)
+    assert ">fault" in program.text() and "command" not in program.row("fault")
+
+
+def test_going_to_a_typed_tick_and_to_one_that_is_none(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press("g", "backspace", *"5000", "enter")
+    assert program.cursor() == 5000
+    program.press("g", *["backspace"] * 9, *"soon", "enter")
+    assert "a tick is a whole number, not 'soon'" in program.text() and program.cursor() == 5000
+
+
+def test_a_live_run_is_followed_until_the_cursor_is_moved(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    end = square.last_tick
+    monkeypatch.setattr(square, "last_tick", 1000)
+    program = Scoped(square, live=True)
+    assert program.cursor() == 1000 and "following" in program.text()
+    square.last_tick = 1500
+    program.app.turn()
+    assert program.cursor() == 1500
+    program.press("left")
+    square.last_tick = end
+    program.app.turn()
+    assert program.cursor() == 1499 and "following" not in program.text()
+    program.press(" ")
+    assert program.cursor() == end and "following" in program.text()
+
+
+def test_a_run_without_a_tick_says_so_and_takes_every_key(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(square, "last_tick", -1)
+    program = Scoped(square, live=True)
+    assert "Nothing was run yet." in program.text()
+    for name in (name for key in SCOPE_KEYS for name in key.names if name not in ("g", "o")):
+        program.press(name)
+    assert "Nothing was run yet." in program.text()
+
+
+def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile) -> None:
+    program = Scoped(square, live=True)
+    program.press("o", *"a.trace", "enter")
+    assert program.runs.opened[-1] == "a.trace" and "following" not in program.text() and program.cursor() == 0
+    program.runs.answer = ("a.trace:3: torn",)
+    program.press("right", "o", "enter")
+    assert "a.trace:3: torn" in program.text()
+    program.press("enter")
+    assert program.cursor() == 1
+    program.press("m")
+    assert "following" in program.text()
+
+
+def test_it_is_opened_from_the_menu(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.app.back()
+    program.press("meta t", "c", "t")
+    assert "square.trace" in program.text()
+    program.press("meta t", "c", "o")
+    assert "Open a trace" in program.text()
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_the_help_tells_of_every_key_and_no_key_is_told_twice(square: TraceFile, language: str) -> None:
+    words.use(language)
+    program = Scoped(square, (80, 70))
+    program.press("f1")
+    text = program.text()
+    for key in SCOPE_KEYS:
+        assert f"{key.printed:<12}{words._(key.help)}"[:66] in text
+    names = [name for key in SCOPE_KEYS for name in key.names]
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_what_a_run_lacks_is_said_in_the_operators_language(
+    square: TraceFile, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    from drillctl.panel.scope import Notice
+
+    words.use(language)
+    monkeypatch.setattr(square, "notices", lambda: tuple(Notice(lack, 7) for lack in LACKS))
+    text = Scoped(square, (160, 50)).text()
+    assert all(words._(told).format(value=7) in text for told in LACKS.values())

@@ -1,0 +1,121 @@
+"""The whole program in one process: every screen on paper, and a station whose machine runs free behind them.
+
+Rule: only the terminal is a stand-in; the station notes what sets its machine going, and by which actions of the
+screens. Used by the tests that try everything on every screen.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+from drillctl.cli.benches import Benches
+from drillctl.machine import Library, shipped_tables
+from drillctl.panel.console import Problems
+from drillctl.panel.jobs import Asked
+from drillctl.station.station import Station
+from drillctl.ui import app, words
+from drillctl.wiring.machinery import Running
+from tests.ui.desk import Paper
+
+BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
+SCREENS = (
+    "drilling", "files", "phase_editor", "ramp_editor", "queue_editor", "signals", "scope", "configuration", "port",
+)  # fmt: skip
+PARTS = re.compile(r"/drillctl/(ui|station)/")
+Event = str | tuple[str, int, int, int]
+
+
+def at_home(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The user's folders are here, with a board in them; a beat takes no time of its own."""
+    words.use("en")
+    for name in ("XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME", "HOME"):
+        monkeypatch.setenv(name, str(home))
+    monkeypatch.chdir(home)
+    monkeypatch.setattr(app, "TURNING_S", 0.0)
+    (home / BLINKER.name).write_bytes(BLINKER.read_bytes())
+
+
+def actions() -> set[str]:
+    """The functions of screens and station that are on their way just now."""
+    found, frame = set(), sys._getframe(1)
+    while frame.f_back is not None:
+        frame = frame.f_back
+        if PARTS.search(frame.f_code.co_filename):
+            found.add(frame.f_code.co_qualname)
+    return found
+
+
+class Watched(Station):
+    """Notes whatever sets the machine going, and by which actions; reads one board only, whichever is chosen."""
+
+    def __init__(self) -> None:
+        library = Library((shipped_tables(),))
+        super().__init__(library, library.machine("pcb-drill"), Running("simulated", "free"), tools="ask")
+        self.moved: list[tuple[str, set[str]]] = []
+        self.stops = 0
+
+    def load(self, file: str, asked: Asked) -> Problems:
+        return super().load(str(BLINKER), asked)
+
+    def start(self, dry: bool) -> Problems:
+        return self._noted("dry" if dry else "start", super().start(dry))
+
+    def go_on(self, journal: str) -> Problems:
+        return self._noted("go_on", super().go_on(journal))
+
+    def tool_changed(self) -> Problems:
+        return self._noted("tool_changed", super().tool_changed())
+
+    def run_queue(self, text: str) -> Problems:
+        return self._noted("run_queue", super().run_queue(text))
+
+    def initialise(self) -> Problems:
+        return self._noted("initialise", super().initialise())
+
+    def jog(self, axis: str, steps: int) -> Problems:
+        return self._noted("jog", super().jog(axis, steps))
+
+    def go_to(self, x_mm: float, y_mm: float) -> Problems:
+        return self._noted("go_to", super().go_to(x_mm, y_mm))
+
+    def resume(self) -> Problems:
+        return self._noted("resume", super().resume())
+
+    def emergency_stop(self) -> Problems:
+        self.stops += 1
+        return super().emergency_stop()
+
+    def _noted(self, what: str, problems: Problems) -> Problems:
+        if not problems:
+            self.moved.append((what, actions()))
+        return problems
+
+
+class Whole:
+    """The program at a size, in the language that is spoken. To be closed."""
+
+    def __init__(self, size: tuple[int, int] = (80, 24)):
+        self.station = Watched()
+        self.paper = Paper()
+        self.paper.size = size
+        makers = Benches(Library((shipped_tables(),)), self.station, plain=False).makers()
+        self.app = app.App(self.station, makers=makers, terminal=self.paper)
+
+    def press(self, *events: Event) -> None:
+        """As the loop does it: filter, widgets, and what is left."""
+        for event in events:
+            self.app.loop.screen_size = self.paper.size
+            self.app.loop.process_input(self.app.filtered([event], []))
+
+    def go_on(self, turns: int) -> None:
+        """The machine works, and the screen shows it."""
+        for _ in range(turns):
+            self.station.turn()
+        self.app.turn()
+
+    def text(self) -> str:
+        """The screen, row by row, without its colours."""
+        canvas = self.app.loop.widget.render(self.paper.size, focus=True)
+        return "\n".join(row.decode() for row in canvas.text)
