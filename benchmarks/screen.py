@@ -1,0 +1,144 @@
+"""What the screen costs: time to the first frame, processor time while a board is drilled, and what a hang disturbs.
+
+    .venv/bin/python benchmarks/screen.py [--seconds 10]
+
+Goals: the first frame within 0.5 s of the start; under 10 % of a core while drilling at the machine's own rate; no late
+tick for a screen that stands still. Needs Linux (/proc) and pyte; prints the computer's load, which all of it rests on.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from tests.support.terminal import Act, Terminal
+
+ROOT = Path(__file__).resolve().parent.parent
+BOARD = ROOT / "examples" / "blinker.drl"
+STARTS = 7
+SIZES = ((80, 24), (160, 50))
+FRAME_S = 0.01  # what is drawn without a pause so long is one frame
+HANGS, HANG_S = 10, 0.3  # a desk that is silent for 0.4 s gets its machine held: SPEC, 1.15
+WHOLE = ("Configuration", "No board is loaded.", "E-STOP", "F4 Quit")
+LATE = re.compile(r"(\d+) late")
+DRILLING = (
+    Act(("f",), (BOARD.name,)),
+    Act(("Down", "Enter"), ("33.00 x 20.00 mm",)),
+    Act(("Esc",), ("Sensors",)),
+    Act(("s",), ("Question",)),
+    Act(("Right", "Enter"), ("moving", "1 of 26")),
+)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=10.0, help="of drilling that are measured; default: 10")
+    seconds = parser.parse_args().seconds
+    print(f"load {os.getloadavg()[0]:.2f} on {os.cpu_count()} cores")
+    print(f"drillctl --help: {_help_cpu_s():.3f} s of processor time, median of {STARTS}")
+    for pace in ("real", "free"):
+        _starts(pace)
+    for size in SIZES:
+        _drilling(size, seconds)
+    _hang()
+
+
+@contextmanager
+def program(*options: str, size: tuple[int, int] = (80, 24)) -> Iterator[Terminal]:
+    """Started in a folder of its own, with a board in it."""
+    with tempfile.TemporaryDirectory(prefix="drillctl-") as folder:
+        shutil.copy(BOARD, folder)
+        terminal = Terminal("--lang", "en", *options, folder=Path(folder), size=size)
+        try:
+            yield terminal
+        finally:
+            terminal.close()
+
+
+def _help_cpu_s() -> float:
+    return statistics.median(_cpu_s_of([sys.executable, "-m", "drillctl", "--help"]) for _ in range(STARTS))
+
+
+def _cpu_s_of(command: list[str]) -> float:
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, cwd=ROOT)
+    _pid, _status, used = os.wait4(process.pid, 0)
+    process.returncode = 0
+    return used.ru_utime + used.ru_stime
+
+
+def _starts(pace: str) -> None:
+    wall_s, cpu_s = zip(*(_first_frame(pace) for _ in range(STARTS)), strict=True)
+    print(
+        f"first frame, --pace {pace}: {statistics.median(wall_s):.3f} s ({min(wall_s):.3f} to {max(wall_s):.3f}), "
+        f"{statistics.median(cpu_s):.3f} s of processor time, median of {STARTS}"
+    )
+
+
+def _first_frame(pace: str) -> tuple[float, float]:
+    with program("--pace", pace) as terminal:
+        terminal.wait_for(*WHOLE)
+        return time.monotonic() - terminal.begun_s, _cpu_s(terminal.pid)
+
+
+def _drilling(size: tuple[int, int], seconds: float) -> None:
+    """The desk's process alone: the ticks have one of their own."""
+    with program("--pace", "real", size=size) as terminal:
+        terminal.wait_for(*WHOLE)
+        terminal.play(DRILLING)
+        begun_s, begun_cpu_s = time.monotonic(), _cpu_s(terminal.pid)
+        frames = terminal.frames(seconds, FRAME_S)
+        wall_s, cpu_s = time.monotonic() - begun_s, _cpu_s(terminal.pid) - begun_cpu_s
+        assert "moving" in terminal.text, f"it drills no more:\n{terminal.text}"
+        share = cpu_s / wall_s
+        print(f"drilling at {size[0]}x{size[1]}: {share:.1%} of a core, {frames / wall_s:.1f} frames a second")
+
+
+def _hang() -> None:
+    """Stopped and set going again, below the silence that holds the machine; and once above it."""
+    with program("--pace", "real") as terminal:
+        terminal.wait_for(*WHOLE)
+        terminal.play(DRILLING)
+        before = _late(terminal)
+        terminal.frames(2 * HANGS * HANG_S, FRAME_S)
+        running = _late(terminal)
+        for _ in range(HANGS):
+            _stand_still(terminal, HANG_S)
+            terminal.frames(HANG_S, FRAME_S)
+        hung = _late(terminal)
+        whole_s = 2 * HANGS * HANG_S
+        print(f"late ticks in {whole_s:.0f} s: {running - before} running, {hung - running} with {HANGS} hangs")
+        _stand_still(terminal, 2 * HANG_S)
+        terminal.wait_for("HELD")
+        print(f"a hang of {2 * HANG_S:.1f} s: the machine is held, position known: {'position known' in terminal.text}")
+
+
+def _stand_still(terminal: Terminal, seconds: float) -> None:
+    os.kill(terminal.pid, signal.SIGSTOP)
+    time.sleep(seconds)
+    os.kill(terminal.pid, signal.SIGCONT)
+
+
+def _late(terminal: Terminal) -> int:
+    found = LATE.search(terminal.text)
+    assert found, f"no late ticks are told of:\n{terminal.text}"
+    return int(found[1])
+
+
+def _cpu_s(pid: int) -> float:
+    """Of the process so far."""
+    fields = Path(f"/proc/{pid}/stat").read_text("ascii").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+if __name__ == "__main__":
+    main()
