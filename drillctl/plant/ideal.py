@@ -1,31 +1,29 @@
 """The ideal plant: motors without inertia, friction or lag; carriages, end sensors, the drill bit and the board.
 
-Rule: everything follows from the output image; the inputs follow from where the carriages are. It is blind to
-speed, ramp and forcing. Called by portio/simulated; the wiring reads the rotors and ``touches``.
+Rule: it moves when its image changes, at once. It is blind to speed, ramp and forcing. Called by portio/simulated;
+the wiring reads the rotors and ``touches``.
 """
 
-from drillctl.machine import Machine, Sensor
+from math import inf
+
+from drillctl.machine import Machine
+from drillctl.plant.base import Plant
+from drillctl.plant.carriage import Carriage, Switch
 from drillctl.plant.rotor import rotor_of
 
 
-class IdealPlant:
-    """A machine beyond the ports.
+class IdealPlant(Plant):
+    """A machine of rotors that go where they are pulled."""
 
-    inputs   the input image, 1 where a sensor's wire is high
-    touches  how often the first head's bit has met the board, coming down
-    """
+    described = "ideal"
 
     def __init__(self, machine: Machine):
-        self.rotors = tuple(rotor_of(axis) for axis in machine.axes)
-        self.carriages = tuple(_Carriage(machine, index) for index in range(len(machine.axes)))
-        self.image = 0
-        self.inputs = 0
-        self.touches = 0
-        self._head = machine.drill_axes[0]
-        self._surface = machine.board_surface[self._head]
-        self._in_board = False
-        for index in range(len(self.rotors)):
-            self._carry(index)
+        rotors = [rotor_of(table) for table in machine.axes]
+        carriages = [
+            Carriage(table, [Switch(sensor) for sensor in machine.sensors if sensor.axis == index])
+            for index, table in enumerate(machine.axes)
+        ]
+        super().__init__(machine, rotors, carriages)
 
     def drive(self, image: int) -> None:
         """A new output image stands at the card."""
@@ -39,54 +37,22 @@ class IdealPlant:
                 if rotor.pull(pattern):
                     self._carry(index)
 
-    def position_steps(self, axis: int) -> float:
-        """Where a carriage is, in steps from machine zero as the machine's file means it."""
-        return self.carriages[axis].place(self.rotors[axis].columns)
+    def quiet_steps(self, axis: int) -> tuple[float, float]:
+        """Between these places (neither included) no sensor of an axis changes and no bit comes to the board or off."""
+        bounds = [sensor.changes_at() for sensor in self.carriages[axis].sensors]
+        if axis == self._head and self._surface is not None:
+            bounds.append((self._surface, inf) if self._in_board else (-inf, self._surface))
+        return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
-    def _carry(self, index: int) -> None:
-        steps = self.position_steps(index)
-        for sensor in self.carriages[index].sensors:
-            if sensor.moved_to(steps):
+    def memory(self, axis: int) -> tuple[bool, ...]:
+        """What an axis's sensors remember, and for the first head whether its bit is in the board."""
+        in_board = axis == self._head and self._in_board
+        return in_board, *(sensor.reached for sensor in self.carriages[axis].sensors)
+
+    def recall(self, axis: int, memory: tuple[bool, ...]) -> None:
+        """As it was when ``memory`` was asked."""
+        if axis == self._head:
+            self._in_board = memory[0]
+        for sensor, reached in zip(self.carriages[axis].sensors, memory[1:], strict=True):
+            if sensor.recall(reached):
                 self.inputs ^= sensor.bit
-        if index == self._head and self._surface is not None:
-            in_board = steps >= self._surface
-            self.touches += in_board and not self._in_board
-            self._in_board = in_board
-
-
-class _Carriage:
-    """What a rotor moves, and the sensors that it passes."""
-
-    def __init__(self, machine: Machine, index: int):
-        table = machine.axes[index]
-        self.start = table.start_steps
-        self.steps_per_column = (-1 if table.invert else 1) / table.columns_per_step
-        self.sensors = [_Switch(sensor) for sensor in machine.sensors if sensor.axis == index]
-
-    def place(self, columns: float) -> float:
-        return self.start + columns * self.steps_per_column
-
-
-class _Switch:
-    """A sensor with hysteresis: its wire's level now, and whether a move has changed it."""
-
-    def __init__(self, sensor: Sensor):
-        self.bit = 1 << sensor.bit
-        self.level = 0
-        self._reached = False
-        self._active_level = sensor.active_level
-        self._outward = -1 if sensor.end == "min" else 1
-        self._edge = sensor.edge_steps * self._outward
-        self._hysteresis = sensor.hysteresis_steps
-
-    def moved_to(self, steps: float) -> bool:
-        """True when the wire's level has changed: on from the edge outwards, off again a hysteresis inwards."""
-        outward = steps * self._outward
-        if outward >= self._edge:
-            self._reached = True
-        elif outward <= self._edge - self._hysteresis:
-            self._reached = False
-        level = self._active_level if self._reached else 1 - self._active_level
-        changed = level != self.level
-        self.level = level
-        return changed

@@ -26,13 +26,18 @@ class Rotor:
         self.mask = sum(1 << bit for bit in table.wire_bits)
         self.columns_per_cycle = motor.columns_per_cycle
         self.half_rest = HALF_TURN / motor.rests_per_cycle
-        self.zero = self.degrees = motor.zero_degrees
+        self.zero = motor.zero_degrees
+        self.degrees: float = self.zero
         self.slips = 0
         self.seen = 0
 
     def pull(self, pattern: int) -> bool:
         """The axis's bits of the port image have changed; True when the rotor has moved."""
         raise AssertionError("a rotor has windings or a drive")
+
+    def see(self, pattern: int) -> None:
+        """These bits stand already; nothing moves."""
+        self.seen = pattern
 
     @property
     def columns(self) -> float:
@@ -86,6 +91,11 @@ class PulseRotor(Rotor):
         self.direction = 1 << bits[motor.direction]
         self.forward = self.direction if forward else 0
         self.was_high = False
+
+    def see(self, pattern: int) -> None:
+        """These bits stand already; nothing moves."""
+        super().see(pattern)
+        self.was_high = bool(pattern & self.pulse)
 
     def pull(self, pattern: int) -> bool:
         """Counts a rising edge of the pulse by the direction that stands beside it."""

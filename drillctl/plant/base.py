@@ -1,0 +1,62 @@
+"""What every plant offers to the card in front of it and to the wiring that reads it.
+
+Rule: everything follows from the output images; the inputs follow from where the carriages are.
+"""
+
+from collections.abc import Sequence
+
+from drillctl.machine import Machine
+from drillctl.plant.carriage import Carriage
+from drillctl.plant.rotor import Rotor
+
+
+class Plant:
+    """A machine beyond the ports.
+
+    described  the plant in a word or some, for a trace; ``seed`` is what its scatter comes from
+    inputs     the input image, 1 where a sensor's wire is high
+    touches    how often the first head's bit has met the board, coming down
+    """
+
+    described = ""
+    seed = 0
+
+    def __init__(self, machine: Machine, rotors: Sequence[Rotor], carriages: Sequence[Carriage]):
+        self.rotors, self.carriages = tuple(rotors), tuple(carriages)
+        self.image = 0
+        self.inputs = 0
+        self.touches = 0
+        self._head = machine.drill_axes[0]
+        self._surface = machine.board_surface[self._head]
+        self._in_board = False
+        for index in range(len(self.rotors)):
+            self._carry(index)
+
+    def drive(self, image: int) -> None:
+        """An output image stands at the card, for a tick. Called once a tick, changed or not."""
+        raise AssertionError("a plant is ideal or dynamic")
+
+    def position_steps(self, axis: int) -> float:
+        """Where a carriage is, in steps from machine zero as the machine's file means it."""
+        return self.carriages[axis].place(self.rotors[axis].columns)
+
+    def lost_steps(self, axis: int, travelled: int) -> float:
+        """How far a rotor is from the place of a controller that put ``travelled`` columns out, in its steps: 0
+        within the right rest."""
+        scale = self.carriages[axis].steps_per_column
+        turned = -travelled if scale < 0 else travelled
+        return self.rotors[axis].columns_lost(turned) * scale
+
+    def behind_steps(self, axis: int, travelled: int) -> float:
+        """How far a carriage is from where the controller has it, as far as this plant can tell."""
+        return self.lost_steps(axis, travelled)
+
+    def _carry(self, index: int) -> None:
+        steps = self.position_steps(index)
+        for sensor in self.carriages[index].sensors:
+            if sensor.moved_to(steps):
+                self.inputs ^= sensor.bit
+        if index == self._head and self._surface is not None:
+            in_board = steps >= self._surface
+            self.touches += in_board and not self._in_board
+            self._in_board = in_board

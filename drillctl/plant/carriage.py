@@ -1,0 +1,61 @@
+"""What a rotor moves, and the sensors that it passes. Made by the plants; perfect here, worn in plant/dynamic.
+
+Places are steps from machine zero as the machine's file means it.
+"""
+
+from collections.abc import Sequence
+from math import inf
+
+from drillctl.machine import AxisTable, Sensor
+
+
+class Switch:
+    """A sensor with hysteresis: whether it is reached, its wire's level now, and whether a move has changed that."""
+
+    def __init__(self, sensor: Sensor):
+        self.bit = 1 << sensor.bit
+        self.level = 0
+        self.reached = False
+        self._active_level = sensor.active_level
+        self._outward = -1 if sensor.end == "min" else 1
+        self._edge = float(sensor.edge_steps * self._outward)
+        self._hysteresis = sensor.hysteresis_steps
+
+    def moved_to(self, steps: float) -> bool:
+        """True when the wire's level has changed."""
+        level = self._active_level if self._answers(steps * self._outward) else 1 - self._active_level
+        changed = level != self.level
+        self.level = level
+        return changed
+
+    def changes_at(self) -> tuple[float, float]:
+        """Between these places (neither included) it stays as it is."""
+        beyond = (self._edge - self._hysteresis if self.reached else self._edge) * self._outward
+        return (beyond, inf) if self.reached == (self._outward > 0) else (-inf, beyond)
+
+    def recall(self, reached: bool) -> bool:
+        """As it was; True when that changes the wire's level."""
+        before, self.reached = self.level, reached
+        self.level = self._active_level if reached else 1 - self._active_level
+        return self.level != before
+
+    def _answers(self, outward: float) -> bool:
+        """On from the edge outwards, off again a hysteresis inwards."""
+        if outward >= self._edge:
+            self.reached = True
+        elif outward <= self._edge - self._hysteresis:
+            self.reached = False
+        return self.reached
+
+
+class Carriage:
+    """Fixed to its rotor: as many steps from its start as the rotor has turned."""
+
+    def __init__(self, table: AxisTable, sensors: Sequence[Switch]):
+        self.start = table.start_steps
+        self.steps_per_column = (-1 if table.invert else 1) / table.columns_per_step
+        self.sensors = sensors
+
+    def place(self, columns: float) -> float:
+        """Where it is once the rotor has turned by so many columns."""
+        return self.start + columns * self.steps_per_column

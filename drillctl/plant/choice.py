@@ -1,0 +1,44 @@
+"""Which plant stands behind a simulated card, as it is asked for and as a trace's header tells it.
+
+Called by the wiring. ``ideal``, or ``dynamic`` with its faults: ``dynamic blunt=20 loose.x=0.4``.
+"""
+
+from dataclasses import dataclass
+
+from drillctl.machine import Machine
+from drillctl.plant.base import Plant
+from drillctl.plant.dynamic.plant import DynamicPlant
+from drillctl.plant.faults import PlantRefused
+from drillctl.plant.ideal import IdealPlant
+
+IDEAL, DYNAMIC, NONE = "ideal", "dynamic", "none"
+
+
+@dataclass(frozen=True, slots=True)
+class PlantChoice:
+    """A kind of plant, the faults told to it, and the seed of its scatter."""
+
+    kind: str = IDEAL
+    faults: tuple[str, ...] = ()
+    seed: int = 0
+
+    @classmethod
+    def of_header(cls, described: str, seed: str) -> "PlantChoice":
+        """As a trace's header has it; ideal for a trace of a real machine. Raises PlantRefused."""
+        kind, *faults = described.split() or [""]
+        if kind == NONE:
+            return IDEAL_PLANT
+        if kind not in (IDEAL, DYNAMIC):
+            raise PlantRefused(f"plant {described[:60]!r} is none that can be built")
+        return cls(kind, tuple(faults), int(seed[:20]) if seed.isdecimal() else 0)
+
+    def build(self, machine: Machine) -> Plant:
+        """The plant. Raises PlantRefused where the machine can't have it."""
+        if self.kind == DYNAMIC:
+            return DynamicPlant(machine, self.faults, self.seed)
+        if self.faults:
+            raise PlantRefused("only the dynamic plant can have faults: say --plant dynamic")
+        return IdealPlant(machine)
+
+
+IDEAL_PLANT = PlantChoice()

@@ -1,0 +1,86 @@
+"""The dynamic plant: motors that lag, swing and lose steps, sensors that scatter, a drill that grows blunt.
+
+Rule: one tick of time for each image, so it must be driven once a tick; what it does follows from the images, the
+tables, the faults told to it and the seed, to the bit. Called by portio/simulated.
+"""
+
+from collections.abc import Sequence
+
+from drillctl.machine import Machine
+from drillctl.plant.base import Plant
+from drillctl.plant.dynamic.drilling import Bit
+from drillctl.plant.dynamic.rotor import DynamicRotor
+from drillctl.plant.dynamic.worn import LooseCarriage, WornSwitch
+from drillctl.plant.faults import Faults, PlantRefused
+
+
+class DynamicPlant(Plant):
+    """A machine all of whose axes have dynamics. Raises PlantRefused for another, and for faults it can't have.
+
+    motors, belts   its rotors and carriages, as what they are here
+    """
+
+    def __init__(self, machine: Machine, faults: Sequence[str] = (), seed: int = 0):
+        self.described = " ".join(("dynamic", *faults))
+        self.seed = seed
+        told = Faults(faults, machine)
+        _check_dynamics(machine)
+        self.motors = [DynamicRotor(a, machine.tick_hz, told.of("jammed", a.name) or 1.0) for a in machine.axes]
+        self.belts = [_belt(machine, index, told, seed) for index in range(len(machine.axes))]
+        super().__init__(machine, self.motors, self.belts)
+        self._others = [axis for axis in range(len(machine.axes)) if axis != self._head]
+        self._scales = [axis.steps_per_mm for axis in machine.axes]
+        self.bit = self._mounted_bit(machine, told)
+        self._resting = False
+
+    def drive(self, image: int) -> None:
+        """One tick with this image at the card. What a whole tick left as it was, to the bit, is left out."""
+        if self._resting and image == self.image:
+            return
+        self.image = image
+        self._resist()
+        self._resting = True
+        for index, motor in enumerate(self.motors):
+            moved = motor.pull(image & motor.mask)
+            if moved or self.belts[index].flutters:
+                self._carry(index)
+                self._resting = False
+
+    def behind_steps(self, axis: int, travelled: int) -> float:
+        """Lag, friction, play and lost steps together."""
+        belt = self.belts[axis]
+        return belt.start + travelled * abs(belt.steps_per_column) - self.position_steps(axis)
+
+    def _mounted_bit(self, machine: Machine, told: Faults) -> Bit | None:
+        if told.of("broken"):
+            self._surface = None
+        if self._surface is None:
+            return None
+        return Bit(machine.axes[self._head], self._surface, machine.surroundings, told.of("blunt") or 0.0)
+
+    def _resist(self) -> None:
+        """The board's resistance for the tick to come, from where the head is now."""
+        if self.bit is None:
+            return
+        torque_nm = 0.0
+        if self._in_board:
+            over_mm = [self.position_steps(axis) / self._scales[axis] for axis in self._others]
+            torque_nm = self.bit.torque_nm(self.position_steps(self._head), over_mm)
+        self.motors[self._head].resist(torque_nm)
+
+
+def _check_dynamics(machine: Machine) -> None:
+    lacking = [axis.name for axis in machine.axes if axis.dynamics is None]
+    if lacking:
+        names = ", ".join(lacking)
+        raise PlantRefused(f"{machine.name} has no dynamics for {names}; docs/PLANT.md says how to name some")
+
+
+def _belt(machine: Machine, index: int, told: Faults, seed: int) -> LooseCarriage:
+    table = machine.axes[index]
+    switches = [
+        WornSwitch(sensor, table.steps_per_mm, machine.surroundings.scatter_mm, told, seed)
+        for sensor in machine.sensors
+        if sensor.axis == index
+    ]
+    return LooseCarriage(table, switches, told.of("loose", table.name) or 0.0)

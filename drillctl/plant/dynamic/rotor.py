@@ -1,0 +1,76 @@
+"""A rotor with inertia, as its axis of the machine sees it: driven by port images, read in columns.
+
+Rule: time goes on by one tick with each image. Steps are lost in whole cycles: a rotor that holds the field, or would
+find back to it, has lost none, however far it lags or friction keeps it from its rest. Driven by plant.py.
+"""
+
+from dataclasses import replace
+
+from drillctl.machine import AxisTable
+from drillctl.machine.dynamics import WINDING_DEGREES
+from drillctl.plant.dynamic.axis import DynamicAxis
+from drillctl.plant.dynamic.coefficients import Supply, Wires, coefficients
+from drillctl.plant.rotor import FULL_TURN, Rotor
+
+
+class DynamicRotor(Rotor):
+    """The motor of an axis that has dynamics; ``friction`` multiplies the table's Coulomb friction."""
+
+    def __init__(self, table: AxisTable, tick_hz: int, friction: float = 1.0):
+        super().__init__(table)
+        assert table.dynamics is not None
+        self._dynamics = replace(table.dynamics, coulomb_nm=table.dynamics.coulomb_nm * friction)
+        self._wires = wires_of(table)
+        self._invert = table.invert
+        self._supplies: dict[int, Supply] = {}
+        self.axis = DynamicAxis(coefficients(self._dynamics, tick_hz), self.zero / FULL_TURN)
+
+    def pull(self, pattern: int) -> bool:
+        """One tick of this image; False while the rotor rests, to the bit, in what it had before."""
+        supply = self._supplies.get(pattern)
+        if supply is None:
+            supply = self._supplies[pattern] = self._wires.supply(pattern, self._dynamics)
+        moved = self.axis.tick(supply)
+        self.degrees = self.axis.cycles * FULL_TURN
+        return moved
+
+    def resist(self, torque_nm: float) -> None:
+        """What stands in the way of the axis's next steps up, from now on; nothing does on its way back."""
+        forward, backward = (0.0, torque_nm) if self._invert else (torque_nm, 0.0)
+        self.axis.load(forward, backward)
+
+    def columns_lost(self, travelled: int) -> float:
+        """In whole cycles."""
+        return round(self.columns_behind(travelled) / self.columns_per_cycle) * self.columns_per_cycle
+
+    def columns_behind(self, travelled: int) -> float:
+        """How far the rotor is from the middle of a column: lag, what friction holds, and what was lost."""
+        return travelled - self.columns
+
+
+def wires_of(table: AxisTable) -> Wires:
+    """Where the half windings of an axis with dynamics hang at the port."""
+    assert table.dynamics is not None
+    bits = {name: 1 << bit for name, bit in zip(table.phase.wire_names(), table.wire_bits, strict=True)}
+    at = {degrees % FULL_TURN: name for name, degrees in table.motor.windings}
+    names = [at[degrees] for degrees in WINDING_DEGREES]
+    feeds = [(bits[wire], fed) for wire, fed in table.dynamics.forcing if wire in bits]
+    first, second, third, fourth = (bits[name] for name in names)
+    forced = (sum(bit for bit, fed in feeds if name in fed) for name in names)
+    return Wires((first, second, third, fourth), (next(forced), next(forced), next(forced), next(forced)))
+
+
+def rest_cycles(table: AxisTable, columns: int) -> float:
+    """Where the field holds a rotor, in electrical cycles, once ``columns`` have been put out since power-up.
+
+    Raises ValueError where a column's windings cancel each other.
+    """
+    phase, motor = table.phase, table.motor
+    shown = (columns - 1) % phase.columns
+    on = frozenset(wire.name for wire in phase.wires if wire.forward[shown] and not wire.forcing)
+    angle = motor.equilibrium_degrees(on)
+    if angle is None:
+        raise ValueError(f"column {shown + 1} of {phase.name} holds no rotor")
+    nominal = motor.zero_degrees + columns * FULL_TURN / motor.columns_per_cycle
+    off = (angle - nominal + FULL_TURN / 2) % FULL_TURN - FULL_TURN / 2
+    return (nominal + off) / FULL_TURN

@@ -1,0 +1,87 @@
+"""What can be wrong with a simulated machine, as an operator tells it: ``NAME=VALUE`` or ``NAME.PART=VALUE``.
+
+Rule: a fault is one number, of a sensor, an axis or the drill; the dynamic plant alone has them. Read by choice.py.
+"""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from drillctl.machine import Machine
+
+
+class PlantRefused(Exception):
+    """A plant that this machine can't have. ``str()`` says why, and what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class FaultKind:
+    """What a fault's value means, within which bounds; ``part`` is what it belongs to: sensor, axis, or nothing."""
+
+    part: str
+    least: float
+    most: float
+    meaning: str
+
+
+FAULT_KINDS = {
+    "stuck": FaultKind("sensor", 0, 1, "answers never (0) or always (1)"),
+    "dirty": FaultKind("sensor", -20, 20, "answers so many mm too late"),
+    "bouncing": FaultKind("sensor", 1, 1000, "flutters for so many ticks after each change"),
+    "loose": FaultKind("axis", 0, 20, "mm of play in the belt"),
+    "jammed": FaultKind("axis", 1, 1000, "the guide's friction, so many times the table's"),
+    "blunt": FaultKind("", 0, 1000, "metres of board that the drill has cut already"),
+    "broken": FaultKind("", 1, 1, "the drill is off and meets no board"),
+}
+_FORM = re.compile(r"([a-z]+)(?:\.([A-Za-z0-9_-]+))?=(-?\d+(?:\.\d+)?)")
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One that is told: ``part`` is the name of a sensor or an axis, or empty."""
+
+    name: str
+    part: str
+    value: float
+
+
+class Faults:
+    """All that is wrong with a machine; ``of`` asks for one. Raises PlantRefused for what can't be told of it."""
+
+    def __init__(self, texts: Iterable[str], machine: Machine):
+        parts = {"sensor": [sensor.name for sensor in machine.sensors], "axis": machine.axis_names, "": [""]}
+        told = [parse_fault(text) for text in texts]
+        for fault in told:
+            kind = FAULT_KINDS[fault.name].part
+            if fault.part not in parts[kind]:
+                known = ", ".join(parts[kind])
+                raise PlantRefused(f"fault {fault.name}: {machine.name} has no {kind} {fault.part!r}; it has {known}")
+        self._values = {(fault.name, fault.part): fault.value for fault in told}
+
+    def of(self, name: str, part: str = "") -> float | None:
+        """The value of a fault, or None where it was not told."""
+        return self._values.get((name, part))
+
+
+def parse_fault(text: str) -> Fault:
+    """A fault from its text. Raises PlantRefused."""
+    found = _FORM.fullmatch(text)
+    kind = FAULT_KINDS.get(found[1]) if found else None
+    if found is None or kind is None:
+        known = ", ".join(_usage(name) for name in FAULT_KINDS)
+        raise PlantRefused(f"fault {text[:60]!r}: not known; there are {known}")
+    if bool(found[2]) != bool(kind.part):
+        raise PlantRefused(f"fault {text[:60]!r}: it is told as {_usage(found[1])}")
+    if not kind.least <= float(found[3]) <= kind.most:
+        raise PlantRefused(f"fault {text[:60]!r}: {kind.meaning}: from {kind.least:g} to {kind.most:g}")
+    return Fault(found[1], found[2] or "", float(found[3]))
+
+
+def fault_lines() -> list[str]:
+    """How each is told and what it means, a line each."""
+    return [f"{_usage(name):20} {kind.meaning}" for name, kind in FAULT_KINDS.items()]
+
+
+def _usage(name: str) -> str:
+    part = FAULT_KINDS[name].part
+    return f"{name}.{part.upper()}=N" if part else f"{name}=N"

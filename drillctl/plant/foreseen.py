@@ -1,0 +1,144 @@
+"""The ideal plant foreseen: where its rotors will be after many columns, without driving it through each of them.
+
+Rule: a rotor that follows its phase table rests where the column's equilibrium is nearest to what was commanded; a
+table that a rotor could not follow is not foreseen at all. Handed by the wiring to execution/fastforward, which knows
+it as its world.
+"""
+
+from itertools import product
+from typing import Any
+
+from drillctl.machine import AxisTable, Machine
+from drillctl.plant.ideal import IdealPlant
+from drillctl.plant.rotor import FULL_TURN, HALF_TURN, PulseRotor, Rotor, WindingRotor
+
+Memory = tuple[Any, ...]
+
+
+class ForeseenPlant:
+    """An ideal plant with a machine's tables beside it. Travel is in columns since power-up, as the wires have it."""
+
+    def __init__(self, machine: Machine, plant: IdealPlant):
+        self._plant = plant
+        pairs = zip(plant.rotors, machine.axes, strict=True)
+        self._follows = [_foreseen(rotor, table) for rotor, table in pairs]
+
+    @property
+    def inputs(self) -> int:
+        """The input image."""
+        return self._plant.inputs
+
+    @property
+    def touches(self) -> int:
+        """How often the bit has met the board."""
+        return self._plant.touches
+
+    def stands(self, axis: int, travel: int) -> bool:
+        """Whether the rotor is where so many columns have put it, and will follow any further."""
+        return self._follows[axis].stands(travel)
+
+    def free(self, axis: int) -> tuple[float, float]:
+        """Between these travels (neither included) no sensor changes and no bit meets the board."""
+        low, high = self._plant.quiet_steps(axis)
+        carriage, slack = self._plant.carriages[axis], self._follows[axis].slack_columns
+        ends = sorted((steps - carriage.start) / carriage.steps_per_column for steps in (low, high))
+        return ends[0] + slack, ends[1] - slack
+
+    def follow(self, axis: int, travel: int) -> None:
+        """The rotor has moved, and is where so many columns put it."""
+        self._plant.rotors[axis].degrees = self._follows[axis].degrees_at(travel)
+
+    def memory(self, axis: int) -> Memory:
+        """All that an axis's rotor and sensors remember."""
+        return self._plant.rotors[axis].degrees, *self._plant.memory(axis)
+
+    def recall(self, axis: int, memory: Memory) -> None:
+        """As it was when ``memory`` was asked."""
+        self._plant.rotors[axis].degrees = memory[0]
+        self._plant.recall(axis, memory[1:])
+
+    def settle(self, image: int, touches: int) -> None:
+        """The whole output image as it stands at last; the bit has met the board so many times more."""
+        self._plant.image = image
+        self._plant.touches += touches
+        for rotor in self._plant.rotors:
+            rotor.see(image & rotor.mask)
+
+
+class _Winding:
+    """A stepper that follows: at most ``slack`` degrees off what is commanded, by column of its phase table."""
+
+    def __init__(self, rotor: WindingRotor, table: AxisTable):
+        self._rotor, self._length = rotor, table.phase.columns
+        self._angles = _equilibria(rotor, table)
+        self._degrees = FULL_TURN / rotor.columns_per_cycle
+        off = [_nearest(angle, self._commanded(c + 1)) - self._commanded(c + 1) for c, angle in enumerate(self._angles)]
+        self._slack = max(map(abs, off), default=float(FULL_TURN))
+        whole_cycles = self._length % rotor.columns_per_cycle == 0
+        self._followable = bool(off) and whole_cycles and 2 * self._slack + self._degrees < HALF_TURN
+        self.slack_columns = self._slack / self._degrees
+
+    def stands(self, travel: int) -> bool:
+        """Within the slack of what is commanded, so that the next column draws it there."""
+        return self._followable and abs(self._commanded(travel) - self._rotor.degrees) <= self._slack
+
+    def degrees_at(self, travel: int) -> int:
+        """The equilibrium of the column that is reached (the first one forward is column 0)."""
+        return _nearest(self._angles[(travel - 1) % self._length], self._commanded(travel))
+
+    def _commanded(self, travel: int) -> float:
+        return travel * self._degrees + self._rotor.zero
+
+
+class _Pulsed:
+    """A drive whose table is one pulse long: it counts whole steps."""
+
+    slack_columns = 1.0
+
+    def __init__(self, rotor: PulseRotor, table: AxisTable):
+        self._rotor = rotor
+        pulse = next(wire for wire in table.phase.wires if wire.name == table.motor.pulse)
+        once = all(sum(wire) == 1 and wire[0] for wire in (pulse.forward, pulse.backward))
+        self._followable = once and table.phase.columns == rotor.columns_per_cycle == table.columns_per_step
+
+    def stands(self, travel: int) -> bool:
+        """Just where it was sent."""
+        return self._followable and self._rotor.degrees == self.degrees_at(travel)
+
+    def degrees_at(self, travel: int) -> int:
+        """One turn of the count for each step."""
+        return self._rotor.zero + travel // self._rotor.columns_per_cycle * FULL_TURN
+
+
+def _foreseen(rotor: Rotor, table: AxisTable) -> _Winding | _Pulsed:
+    if isinstance(rotor, PulseRotor):
+        return _Pulsed(rotor, table)
+    assert isinstance(rotor, WindingRotor)
+    return _Winding(rotor, table)
+
+
+def _equilibria(rotor: WindingRotor, table: AxisTable) -> list[int]:
+    """By column, where it pulls the rotor; none at all where a column pulls nowhere, or otherwise when reversing."""
+    found = []
+    for column in range(table.phase.columns):
+        angles = {rotor.equilibrium[on & rotor.winding_mask] for on in _patterns(table, column)}
+        angle = angles.pop()
+        if angle is None or angles:
+            return []
+        found.append(angle)
+    return found
+
+
+def _patterns(table: AxisTable, column: int) -> list[int]:
+    """What may be on in a column: forward and backward, with and without forcing."""
+    found = []
+    for way, cold in product(("forward", "backward"), (False, True)):
+        pairs = zip(table.phase.wires, table.wire_bits, strict=True)
+        wires = ((wire, bit) for wire, bit in pairs if not (cold and wire.forcing))
+        found.append(sum(1 << bit for wire, bit in wires if getattr(wire, way)[column]))
+    return found
+
+
+def _nearest(angle: int, commanded: float) -> int:
+    """The angle, whole turns added, that is nearest to what is commanded."""
+    return angle + FULL_TURN * round((commanded - angle) / FULL_TURN)
