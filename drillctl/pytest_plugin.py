@@ -1,4 +1,4 @@
-"""Wiring: ``*.trace`` files are tests, in anybody's repository that has drillctl installed.
+"""Wiring: ``*.trace`` and ``*.seg`` files are tests, in anybody's repository that has drillctl installed.
 
 A trace is replayed with the tables at hand; the test fails at the first tick that differs. Only files that begin
 with the magic line are collected. ``--drillctl-rewrite`` records goldens anew on the simulated machine.
@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from drillctl.machine import Library, TableError
-from drillctl.trace import TraceError, is_trace
+from drillctl.trace import TraceError, is_segments, is_trace
 
+FORMS = {".trace": is_trace, ".seg": is_segments}
 NO_TRACES = pytest.ExitCode.NO_TESTS_COLLECTED
 
 
@@ -30,7 +31,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "TraceFile | None":
     """Traces by their first line; other files that happen to be called so are left alone."""
-    if file_path.suffix == ".trace" and is_trace(file_path):
+    if file_path.suffix in FORMS and FORMS[file_path.suffix](file_path):
         return TraceFile.from_parent(parent, path=file_path)
     return None
 
@@ -44,7 +45,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 class TraceFile(pytest.File):
-    """One ``.trace`` file: one test."""
+    """One file: one test."""
 
     def collect(self) -> "Iterable[TraceItem]":
         """The file's only item."""

@@ -9,6 +9,7 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
     jobs.py     the options of a job         operating.py the operator at the terminal while a job runs
     screen.py   work at the machine; what no verb means      scope.py    a trace on the screen
     benches.py  the screens that edit and look
+    plot.py     what the motors did in a run     drawing.py   a picture in the terminal or in a file
 """
 
 import argparse
@@ -18,12 +19,12 @@ from collections.abc import Sequence
 from typing import NoReturn, TextIO
 
 from drillctl import __version__
-from drillctl.cli import convert, estimate, inspect, latency, ports, replay, resume, run, scope, screen, tables
+from drillctl.cli import convert, estimate, inspect, latency, plot, ports, replay, resume, run, scope, screen, tables
 from drillctl.wiring.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope)
+VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope, plot)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "
@@ -100,15 +101,17 @@ def _is_refusal(error: Exception) -> bool:
     from drillctl.generation.errors import JobError
     from drillctl.generation.journal import JournalError
     from drillctl.generation.placing import PlacingError
+    from drillctl.lab.errors import LabError
     from drillctl.lab.latency import LatencyError
     from drillctl.machine import TableError
     from drillctl.ports import PortError
     from drillctl.trace import TraceError
+    from drillctl.ui.plotted import PictureRefused
     from drillctl.wiring.outputs import OutputError
 
     refusals = (
         JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError,
-        JournalError, LatencyError, screen.ScreenError,
+        JournalError, LatencyError, LabError, PictureRefused, screen.ScreenError,
     )  # fmt: skip
     return isinstance(error, refusals)
 

@@ -28,8 +28,8 @@ class Feeder:
         return len(self._ends)
 
     def hold_back(self) -> None:
-        """Nothing goes before it is released."""
-        self._limit = self.put
+        """No hole is drilled before it is released."""
+        self.release(0)
 
     def release(self, holes: int) -> None:
         """So many holes may be drilled, with all that stands before each, and the way to the next; after the last
@@ -51,6 +51,10 @@ class Feeder:
         if not self._gates or self.put < self._gates[0]:
             return None
         return int(self.program["args"][self._gates[0], 0])
+
+    def gated(self, hole: int) -> bool:
+        """Whether a tool is to be changed before the program's hole of this number, from 1, can be drilled."""
+        return bool(self._gates) and self._gates[0] < self._begins[hole - 1]
 
     def open_gate(self) -> None:
         """The tool has been changed."""

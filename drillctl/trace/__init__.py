@@ -9,14 +9,19 @@ read.
     text       Trace -> text file, the form of golden files
     reader     text file -> Trace, or a TraceError that names file and line
     diff       the first tick at which two traces answer differently, and the command it happened in
+    tapes      strips of port images, and what was put out as slices of them
+    segments   a trace in the segment form; segment_file: as a file
     vcd        Trace -> VCD for GTKWave, PulseView and friends
     shape      a signal as a dense array, one value a tick
+    lanes      the changes of a run that goes on, a lane a signal or a bit of one: what the scope looks into
     target     a path or an open file, for all that write
 """
 
 from drillctl.trace.diff import Difference, first_difference, render
 from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Recorder, Signal, Trace
+from drillctl.trace.segment_file import is_segments, read_segments, segment_bytes
+from drillctl.trace.segments import Segments
 from drillctl.trace.shape import dense
 from drillctl.trace.text import is_trace, write_text
 from drillctl.trace.values import named_signal_kind, pack_command
@@ -25,6 +30,7 @@ from drillctl.trace.vcd import VcdLayout, VcdVar, write_vcd
 __all__ = [
     "Difference",
     "Recorder",
+    "Segments",
     "Signal",
     "Trace",
     "TraceError",
@@ -32,11 +38,14 @@ __all__ = [
     "VcdVar",
     "dense",
     "first_difference",
+    "is_segments",
     "is_trace",
     "named_signal_kind",
     "pack_command",
+    "read_segments",
     "read_text",
     "render",
+    "segment_bytes",
     "write_text",
     "write_vcd",
 ]

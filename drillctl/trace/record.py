@@ -7,7 +7,7 @@ sampler fills a Recorder after each tick; everything else only reads the Trace i
 
 from array import array
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -130,6 +130,10 @@ class Trace:
         """The signal's value in `tick` as text. Raises as `value_at`."""
         return self.signals[self.index_of(name)].show(self.value_at(name, tick))
 
+    def with_header(self, header: Header) -> "Trace":
+        """The same run, of which other things are said."""
+        return replace(self, header=tuple(header))
+
     def header_values(self, key: str) -> tuple[str, ...]:
         """All values of a header key, in order; none if it is absent."""
         return tuple(value for name, value in self.header if name == key)
@@ -176,6 +180,14 @@ class Recorder:
             self._ticks.append(tick)
             self._signal.append(index)
             self._values.append(value)
+
+    def extend(self, index: int, ticks: Values, values: Values) -> None:
+        """Signal `index` has these values (n,) from these rising ticks on, none before the last one `set`."""
+        if len(ticks):
+            self._last[index] = int(values[-1])
+            self._ticks.frombytes(ticks.astype(np.int64).tobytes())
+            self._signal.frombytes(np.full(len(ticks), index, np.intc).tobytes())
+            self._values.frombytes(values.astype(np.int64).tobytes())
 
     def finish(self, end_tick: int, header: Header = (), trailer: Iterable[str] = ()) -> Trace:
         """The trace of the ticks 0..end_tick-1. Raises as `Trace.of_changes`."""

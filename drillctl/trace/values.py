@@ -14,6 +14,7 @@ each other. Called by record (checks, words), reader (read), diff and vcd (words
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,13 +29,14 @@ WIDEST_BITS = 32  # a port word; also what a VCD `integer` holds
 NAMED_SIGNALS = (
     (re.compile(r"(out|in)\.\d+"), "word", False),
     (re.compile(r"kmd"), "command", False),
-    (re.compile(r"request|fault"), "name", False),
+    (re.compile(r"request|hand|fault"), "name", False),
     (re.compile(r".+\.(column|position|state)|plant\..+"), "count", True),
     (re.compile(r".+"), "count", False),
 )
 
 Vocabulary = dict[str, int]  # the words of one signal met so far, each with its index
 Values = NDArray[np.int64]
+Whole = TypeVar("Whole", int, NDArray[np.int64])
 
 
 @dataclass(frozen=True)
@@ -56,8 +58,8 @@ def named_signal_kind(name: str) -> tuple[str, bool]:
     return next((kind, derived) for pattern, kind, derived in NAMED_SIGNALS if pattern.fullmatch(name))
 
 
-def pack_command(sequence: int, opcode: int) -> int:
-    """The value of a `command` signal while command `sequence` is current; idle is 0."""
+def pack_command(sequence: Whole, opcode: Whole) -> Whole:
+    """The value of a `command` signal while command `sequence` is current, of one or of many (n,); idle is 0."""
     return sequence * OPCODES + opcode
 
 

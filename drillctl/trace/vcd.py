@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from vcd import VCDWriter
 
 from drillctl.trace.record import Signal, Trace
 from drillctl.trace.target import Target, opened
@@ -69,6 +68,8 @@ def write_vcd(trace: Trace, target: Target, layout: VcdLayout) -> None:
     (KeyError). Raises ValueError for a tick rate that is no whole number in 1..10^6, a part of what is no
     command, or a value without a label; OSError as `open`. A refused trace leaves the target alone.
     """
+    from vcd import VCDWriter
+
     comment, clock = _comment(trace), _Clock(_tick_hz(trace))
     ticks, variable, values = _merged([_changes(trace, var) for var in layout])
     times = clock.times(np.append(ticks, trace.end)).tolist()

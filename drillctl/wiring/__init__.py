@@ -2,6 +2,8 @@
 
     ticker    layers 3 and 4: runs ticks         desk      layers 1 and 2: takes a job down the queue
     link      the desk's end of a ticker         paced     ... in a process of its own, with guard beside it
+    fast_ticker  ... as fast as may be               tape_recorder  its record in segments
+    trace_files  files of traces, in either form
     machinery opens a port, a ticker behind it   session   one run of a job, with its journal
     sampler   which number is which signal       replay    a recorded run again
     estimate  what a job will take               outputs   files reserved before anything moves

@@ -149,10 +149,13 @@ class Desk:
         return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left, self.held)
 
     def _feed(self) -> None:
-        """With a journal: a hole is written down before its commands may go, and only one is ahead."""
+        """With a journal: a hole is written down before its commands may go, and only one is ahead. One that waits for
+        its tool has not begun.
+        """
         wanted = min(self.confirmed + 1, self.feeder.holes)
         stopping = self.trouble or self._told_to_stop
-        if self.journal is not None and self.feeder.released_holes < wanted and not stopping:
+        next_one = self.feeder.released_holes < wanted and not self.feeder.gated(wanted)
+        if self.journal is not None and next_one and not stopping:
             try:
                 self.journal.begun(self.job.hole_number(wanted))
                 self.feeder.release(wanted)

@@ -24,6 +24,7 @@ from drillctl.wiring.tape_recorder import TapeRecorder
 from drillctl.wiring.ticker import NEVER, Ticker
 
 FAST, TICK = "fast", "tick"
+MOST_TICKS = 1 << 22  # of a course whose images are put together at once; a command that is longer is ticked
 FAR_SIGHT = 4096  # commands that may wait: a look ahead costs the same for few as for many
 
 Records = NDArray[np.void]
@@ -76,6 +77,8 @@ class FastTicker(Ticker):
         assert isinstance(self.queue, Queue)
         while len(self.queue) and not self.gate.paused and self.engine.between:
             waiting, left = self.queue.waiting(), before - self.controller.tick
+            if self.traced and not self.taped:
+                left = min(left, MOST_TICKS)
             course = self.engine.course(waiting) if self.foresees else None
             if course is not None and course.end > left:
                 course = self.engine.course(waiting[: np.searchsorted(course.starts, left, side="right") - 1])
@@ -113,16 +116,24 @@ class FastTicker(Ticker):
 
     def _tick_through(self, command: Records, before: int) -> None:
         """One command by tick, noted where it may come again."""
-        m, plant = self.controller, self.plant
-        assert plant is not None
+        m = self.controller
         recording = self.engine.recording(command)
-        going_on, undisturbed = True, True
+        if recording is None:
+            self.run(before - m.tick, lambda: not self._goes_on())
+            return
+        going_on = True
         while going_on:
-            touches = plant.touches
+            touches = self._touches
             self.run(1)
-            if recording is not None:
-                recording.note(self.places() if plant.touches != touches else None)
-            undisturbed = m.condition == Condition.READY and not (m.served or m.late)
-            going_on = m.busy and undisturbed and m.tick < before
-        if recording is not None and undisturbed and not m.busy:
+            recording.note(self.places() if self._touches != touches else None)
+            going_on = self._goes_on() and m.tick < before
+        if self._undisturbed() and not m.busy:
             recording.end()
+
+    def _goes_on(self) -> bool:
+        return self.controller.busy and self._undisturbed()
+
+    def _undisturbed(self) -> bool:
+        """No stop, no fault, and nothing was asked in this tick."""
+        m = self.controller
+        return m.condition == Condition.READY and not (m.served or m.late)

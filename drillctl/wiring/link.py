@@ -20,6 +20,7 @@ from drillctl.wiring.loading import take_tables
 from drillctl.wiring.ticker import Ticker
 
 Header = list[tuple[str, str]]
+MOMENT_TICKS = 250  # some ten milliseconds: requests wait no longer
 
 
 class Touch(NamedTuple):
@@ -82,7 +83,9 @@ class Link(Protocol):
 
 @dataclass
 class LocalLink:
-    """A ticker in this process, running free: a turn is as many ticks as the queue is sure to last for."""
+    """A ticker in this process, running free: a turn is as many ticks as the queue is sure to last for, and on to the
+    end of the command in execution, in which the queue can't run dry.
+    """
 
     ticker: Ticker
 
@@ -130,8 +133,10 @@ class LocalLink:
         return reason
 
     def turn(self) -> None:
-        """As far as the queue is sure to last."""
+        """As far as the queue is sure to last, or for a moment."""
         self.ticker.turn(self.ticker.over)
+        if self.ticker.controller.busy:
+            self.ticker.advance(MOMENT_TICKS, lambda: not self.ticker.controller.busy)
 
     def status(self) -> np.void:
         """Written now; a copy, so that it stays what it was."""

@@ -74,6 +74,12 @@ def pace_of(running: Running) -> str:
     return pace
 
 
+def is_soon_over(running: Running) -> bool:
+    """Whether a run takes no longer than foreseeing it would: nobody needs to be told the time left."""
+    plain = running.plant == IDEAL_PLANT and not running.derived
+    return plain and running.engine != TICK and pace_of(running) == FREE
+
+
 def start(machine: Machine, running: Running, status_file: Path, keeper: RingRecorder | None = None) -> Link:
     """A running ticker. Raises PortError for a port, a rate or a pace that is not to be had, or a plant;
     nothing has moved then.

@@ -33,7 +33,7 @@ class Output:
         except OSError as error:
             raise OutputError(f"{path}: can't be written: {error.strerror}") from error
 
-    def write(self, fill: Callable[[TextIO], None]) -> None:
+    def write(self, fill: Callable[[TextIO], object]) -> None:
         """Calls ``fill`` with an open text file (LF ends). Raises OutputError; the old file then still stands."""
         target = self._temporary or self.path
         try:
@@ -46,6 +46,10 @@ class Output:
                 self._temporary = None
         except OSError as error:
             raise OutputError(f"{self.path}: can't be written: {error.strerror}") from error
+
+    def write_bytes(self, data: bytes) -> None:
+        """As ``write``, for a file that is no text."""
+        self.write(lambda file: file.buffer.write(data))
 
     def drop(self) -> None:
         """Takes the reservation back; nothing stays behind."""

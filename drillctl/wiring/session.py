@@ -14,7 +14,7 @@ from drillctl.generation.recipe import Recipe
 from drillctl.lab import forecast
 from drillctl.machine import Machine
 from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
-from drillctl.wiring.machinery import Running, start
+from drillctl.wiring.machinery import Running, is_soon_over, start
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,8 @@ class Session:
 
     def run(self, watcher: Watcher) -> Run:
         """Raises JournalError or PortError before anything moves."""
-        # A queue written by hand can only be foreseen by running it; nobody wants to wait for that twice.
-        foreseen = forecast(self.job.program, self.job.machine).ticks if self.job.work else None
+        wanted = self.job.work and not is_soon_over(self.running)
+        foreseen = forecast(self.job.program, self.job.machine).ticks if wanted else None
         done_before = len(self.known.done) if isinstance(self.known, Account) else 0
         with ExitStack() as opened:
             journal = None

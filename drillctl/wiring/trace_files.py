@@ -6,7 +6,7 @@ replay and by the scope.
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TextIO, TypeVar
+from typing import TypeVar
 
 from drillctl.trace import Segments, Trace, TraceError, is_segments, read_segments, read_text, segment_bytes, write_text
 from drillctl.wiring.outputs import Output, OutputError
@@ -41,8 +41,7 @@ def write_record(record: Trace | Segments, output: Output) -> None:
     """In the form that the file's name asks for. Raises OutputError."""
     if output.path.suffix.lower() == SEGMENTS:
         segments = record if isinstance(record, Segments) else Segments.of_trace(record)
-        data = segment_bytes(segments)
-        output.write(lambda file: _write_bytes(file, data))
+        output.write_bytes(segment_bytes(segments))
     else:
         trace = record.trace() if isinstance(record, Segments) else record
         output.write(lambda file: write_text(trace, file))
@@ -53,7 +52,3 @@ def _read(file: Path, reader: Callable[[Path], Read]) -> Read:
         return reader(file)
     except OSError as error:
         raise TraceError(str(file), None, f"can't be read: {error.strerror}") from error
-
-
-def _write_bytes(file: TextIO, data: bytes) -> None:
-    file.buffer.write(data)

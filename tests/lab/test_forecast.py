@@ -93,11 +93,9 @@ def test_a_program_that_ends_in_a_fault_says_which() -> None:
 
 
 def test_the_quick_way_and_the_long_way_agree() -> None:
-    """The board's shortcut against running the same program whole."""
-    from drillctl.lab.forecast import _run_whole
-
+    """The same program foreseen and ticked through."""
     rng = np.random.default_rng(720)
     points = [(float(x), float(y)) for x, y in rng.uniform(0, 30, (12, 2)).round(3)]
     job = board_job(points, [1] * 6 + [2] * 6, Wishes(order="nearest", peck_mm=2.0), "pcb-drill")
-    quick, whole = forecast(job.program, job.machine), _run_whole(job.program, job.machine)
+    quick, whole = forecast(job.program, job.machine), forecast(job.program, job.machine, engine="tick")
     assert np.array_equal(quick.ticks, whole.ticks)

@@ -1,0 +1,44 @@
+"""A picture to where the operator wants it: a PNG or SVG file, else the terminal. For plot and sweep."""
+
+import shutil
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from drillctl.panel.picture import Picture
+
+ROWS = 14  # of a chart in characters
+
+
+@contextmanager
+def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[Picture], None]]":
+    """What draws a picture; a file is reserved first. Raises OutputError, PictureRefused before anything is reckoned."""
+    from drillctl.ui.plotted import check_format, picture_bytes
+    from drillctl.wiring.outputs import reserved
+
+    kind = check_format(file.suffix) if file is not None else ""
+    with reserved([file], inputs) as (output,):
+
+        def draw(picture: "Picture") -> None:
+            if output is None:
+                _print(picture)
+                return
+            content = picture_bytes(picture, kind)
+            output.write_bytes(content)
+            print("\n".join((f"{file}: {picture.title}", *picture.notes)))
+
+        yield draw
+
+
+def _print(picture: "Picture") -> None:
+    from drillctl.ui.charts import Look, picture_lines
+
+    columns = shutil.get_terminal_size((100, 30)).columns
+    plain = not (sys.stdout.encoding or "").lower().startswith("utf")
+    look = Look(columns - 1, ROWS, sys.stdout.isatty() and not plain, plain)
+    print("\n".join(picture_lines(picture, look)))

@@ -1,0 +1,167 @@
+"""How many of the commands that wait can be foreseen, and what course they make.
+
+Rule: all are judged at once. The course ends before a command that is of another kind, or would be refused, or moves an
+axis to where a sensor answers, or is a stroke that nobody has seen yet. Called by engine.py.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution.controller import Controller
+from drillctl.execution.fastforward.course import Course, Stroked
+from drillctl.execution.fastforward.journey import Journey
+from drillctl.execution.fastforward.stride import Stride
+from drillctl.execution.fastforward.strokes import Stroke, Strokes
+from drillctl.execution.fastforward.world import World
+from drillctl.kmd import Op
+from drillctl.kmd.commands import Flag
+from drillctl.ports import with_bits
+from drillctl.trace.tapes import Count
+
+MOVES = (Op.GOTO_DXDY, Op.GOTO_X_Y, Op.RUCH, Op.RUCH_D)
+STROKES = (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
+STILL = (Op.CZEKAJ, Op.PREDKOSC, Op.NARZEDZIE, Op.WYJSCIE, Op.WRZECIONO, Op.KONIEC)
+
+Rows = NDArray[np.bool_]
+Records = NDArray[np.void]
+StrideOf = Callable[[int, int, int], Stride]  # by axis, direction and floor
+
+
+def foresee(m: Controller, world: World, strokes: Strokes, stride: StrideOf, commands: Records) -> Course | None:
+    """The course of as many commands, dtype kmd.RECORD (n,), as can be foreseen; None where that is none."""
+    stroked = _stroked(commands, strokes.heads)
+    commands = commands[: _beginning(_of_a_kind(m, commands, stroked, strokes.heads))]
+    heads = strokes.heads if stroked.any() else ()
+    journeys = [
+        None if index in heads else _journey(m, index, partial(stride, index), commands) for index in range(len(m.axes))
+    ]
+    clear = [_clear(m, world, index, j) for index, j in enumerate(journeys) if j is not None]
+    commands = commands[: _beginning(np.logical_and.reduce([*clear, np.ones(len(commands), bool)]))]
+    rows, known = _known(strokes, commands, np.flatnonzero(stroked[: len(commands)]))
+    commands = commands[: rows[len(known)] if len(known) < len(rows) else len(commands)]
+    rows, made = rows[: len(known)], [j and j.upto(len(commands)) for j in journeys]
+    if not len(commands) or not all(j is None or j.timed() for j in made):
+        return None
+    return Course(
+        commands=commands,
+        ticks=_ticks(commands, made, rows, known),
+        journeys=made,
+        stroked=Stroked.of(heads, strokes.here(), rows, known),
+        switched=_switched(m, commands),
+        tools=_latest(commands["args"][:, 0], commands["opcode"] == Op.NARZEDZIE, m.tool),
+        holes=_latest(commands["tag"], _begins_hole(commands), m.hole_begun),
+        inputs_before=world.inputs,
+        still_inputs=world.inputs & ~(strokes.mask if len(rows) else 0),
+    )
+
+
+def is_stroke(commands: Records, heads: Sequence[int]) -> Rows:
+    """The commands that heads alone carry out, (n,)."""
+    alone = commands["axes"] & ~_mask(heads) == 0
+    moves = np.isin(commands["opcode"], MOVES) & (commands["axes"] > 0)
+    stroke: Rows = (np.isin(commands["opcode"], STROKES) | moves) & alone
+    return stroke
+
+
+def _stroked(commands: Records, heads: Sequence[int]) -> Rows:
+    """The strokes; none where the first command that moves a head moves another axis too."""
+    stroke, moves = is_stroke(commands, heads), np.isin(commands["opcode"], (*MOVES, *STROKES))
+    touching = np.flatnonzero(stroke | (moves & (commands["axes"] & _mask(heads) > 0)))
+    return stroke if len(touching) and stroke[touching[0]] else np.zeros(len(commands), bool)
+
+
+def _mask(axes: Sequence[int]) -> np.uint8:
+    return np.uint8(sum(1 << axis for axis in axes))
+
+
+def _of_a_kind(m: Controller, commands: Records, stroked: Rows, heads: Sequence[int]) -> Rows:
+    """Moves of axes that don't stroke, strokes, and what moves nothing; not discarded, and with an output that is."""
+    ops, first = commands["opcode"], commands["args"][:, 0]
+    busy = _mask(heads if stroked.any() else ())
+    moves = np.isin(ops, MOVES) & (commands["axes"] & busy == 0) & (commands["flags"] & Flag.LINKED == 0)
+    there = np.array([m.output_mask >> bit & 1 for bit in range(256)], bool)[first & 0xFF]
+    still = np.isin(ops, STILL) & (there | (ops != Op.WYJSCIE))
+    return (moves | stroked | still) & (commands["epoch"] == m.epoch)
+
+
+def _journey(m: Controller, index: int, strides: Callable[[int, int], Stride], commands: Records) -> Journey:
+    sent = np.isin(commands["opcode"], MOVES) & (commands["axes"] >> index & 1 > 0)
+    absolute = commands["flags"] & Flag.ABSOLUTE > 0
+    given, floor = commands["args"][:, index].astype(np.int64), commands["floor_ticks"].astype(np.int64)
+    return Journey.of(m.axes[index], strides, given, absolute, sent, floor)
+
+
+def _clear(m: Controller, world: World, index: int, journey: Journey) -> Rows:
+    """Nothing would be refused, and no sensor answers on the way or is already met."""
+    axis, target = m.axes[index], journey.position[1:]
+    absolute = journey.absolute & journey.sent
+    within = (axis.low <= target) & (target <= axis.high)
+    allowed = within if m.position_known else ~absolute & (np.abs(journey.steps) <= axis.span)
+    travel = axis.travelled + (journey.position - axis.position) * axis.columns_per_step
+    low, high = world.free(index)
+    met = (world.inputs ^ m.polarity) & (axis.limits[1] | axis.limits[-1])
+    free = (low < travel * axis.sense) & (travel * axis.sense < high) & (met == 0)
+    clear: Rows = (allowed | ~journey.sent) & ((free[1:] & free[:-1]) | (journey.steps == 0))
+    return clear
+
+
+def _known(strokes: Strokes, commands: Records, rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], list[Stroke]]:
+    """All rows of strokes, and what the first of them do, as far as that is known: from place to place."""
+    place, known = strokes.here(), []
+    for command in signatures(commands[rows]):
+        stroke = place.known.get(command)
+        if stroke is None:
+            break
+        known.append(stroke)
+        place = stroke.after
+    return rows, known
+
+
+def signatures(commands: Records) -> list[bytes]:
+    """All that a stroke's motion depends on, for each command."""
+    plain = commands.copy()
+    for name in ("sequence", "epoch", "tag"):
+        plain[name] = 0
+    data, size = plain.tobytes(), plain.itemsize
+    return [data[begin : begin + size] for begin in range(0, len(data), size)]
+
+
+def _ticks(commands: Records, journeys: Sequence[Journey | None], rows: NDArray[np.intp], known: list[Stroke]) -> Count:
+    """The longest of what a command waits for, and at least 1."""
+    waits = np.where(commands["opcode"] == Op.CZEKAJ, commands["args"][:, 0], 1).astype(np.int64)
+    ticks = np.maximum.reduce([np.maximum(waits, 1), *(j.ticks for j in journeys if j is not None)])
+    ticks[rows] = [stroke.ticks for stroke in known]
+    return ticks
+
+
+def _switched(m: Controller, commands: Records) -> NDArray[np.uint64]:
+    """The output bits that are no axis's, as each command leaves them."""
+    switched, values = m.switched, np.zeros(len(commands) + 1, np.uint64)
+    changes = np.flatnonzero(np.isin(commands["opcode"], (Op.WYJSCIE, Op.WRZECIONO)))
+    values[0] = switched
+    for row in changes.tolist():
+        op, (first, second) = commands["opcode"][row], commands["args"][row, :2].tolist()
+        bits, on = (1 << (first & 0xFF), second) if op == Op.WYJSCIE else (m.spindle_mask, first > 0)
+        switched = with_bits(switched, bits, on)
+        values[row + 1] = switched
+    latest = np.zeros(len(commands), np.intp)
+    latest[changes] = changes + 1
+    return values[np.maximum.accumulate(latest)]
+
+
+def _begins_hole(commands: Records) -> Rows:
+    return np.isin(commands["opcode"], (*MOVES, Op.WIERTLO_DOL)) & (commands["tag"] != 0)
+
+
+def _latest(values: NDArray[np.int32], rows: Rows, before: int) -> Count:
+    """The value of the last of these rows so far, (n,)."""
+    all_values = np.concatenate(([before], values))
+    return all_values[np.maximum.accumulate(np.where(rows, np.arange(1, len(rows) + 1), 0))]
+
+
+def _beginning(good: Rows) -> int:
+    """How many rows from the first are good."""
+    return len(good) if good.all() else int(np.argmin(good))

@@ -1,0 +1,127 @@
+"""Strokes of the heads: what ends on a sensor is run by tick once from each place it begins at, and then known.
+
+Rule: on a plant that always answers alike, the same command from the same place is the same stroke, tick by tick. The
+place is all that a head's automaton, its rotor and its sensors remember. The ticks of an unknown stroke
+are noted by a Recording, which engine.py hands out; plan.py goes from place to place by what is ``known``.
+"""
+
+from collections.abc import Hashable
+from dataclasses import dataclass, field
+from typing import Any
+
+from drillctl.execution.axis import Axis
+from drillctl.execution.controller import Controller
+from drillctl.execution.fastforward.world import World
+from drillctl.trace.tapes import Reel
+
+COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
+TABLES = ("ramp", "interval", "shown", "resting", "limits", "line")
+REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES))
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """What a stroke does. ``strips``: by head, where its images lie in the reel; each is ``ticks`` long.
+
+    inputs   (tick, the heads' sensors as latched), changes only, from tick 0 to the first tick after the stroke
+    touches  (tick, place of each head in steps) where the bit met the board
+    grown    by head, what it adds to the COUNTERS
+    last     by head, whether its forcing is still on in the last tick, and its bits then
+    after    the place it ends at
+    """
+
+    ticks: int
+    strips: tuple[int, ...]
+    inputs: tuple[tuple[int, int], ...]
+    touches: tuple[tuple[int, tuple[float, ...]], ...]
+    grown: tuple[tuple[int, ...], ...]
+    last: tuple[tuple[bool, int], ...]
+    after: "Place"
+
+
+@dataclass(eq=False)
+class Place:
+    """Where heads may stand, with what is known of the strokes that begin there (by the command's bytes)."""
+
+    axes: tuple[tuple[Any, ...], ...]
+    memories: tuple[tuple[Any, ...], ...]
+    known: dict[bytes, Stroke] = field(default_factory=dict)
+
+    @property
+    def rests(self) -> tuple[int, ...]:
+        """By head, the image that it holds here."""
+        return tuple(state[REMEMBERED.index("cold")] for state in self.axes)
+
+
+class Strokes:
+    """All strokes and places of one machine's heads."""
+
+    def __init__(self, m: Controller, world: World, reel: Reel):
+        self._m, self._world, self._reel = m, world, reel
+        self.heads = m.machine.drill_axes
+        self.mask = sum(1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads)
+        self._places: dict[Hashable, Place] = {}
+
+    def here(self) -> Place:
+        """The place where the heads stand, their forcing off."""
+        axes = [self._m.axes[head] for head in self.heads]
+        states = tuple(tuple(_cooled(axis, slot) for slot in REMEMBERED) for axis in axes)
+        memories = tuple(self._world.memory(head) for head in self.heads)
+        key = states, memories, self._m.position_known
+        return self._places.setdefault(key, Place(states, memories))
+
+    def lay(self, strip: list[int]) -> int:
+        """A head's images into the reel."""
+        return self._reel.add(strip)
+
+
+def _cooled(axis: Axis, slot: str) -> Any:
+    """A slot's value once the forcing has gone off."""
+    if slot == "cooling":
+        return False
+    return axis.cold if slot == "bits" else getattr(axis, slot)
+
+
+class Recording:
+    """One stroke while it is run by tick: ``note`` after each tick, ``end`` after the last."""
+
+    def __init__(self, m: Controller, world: World, strokes: Strokes, signature: bytes):
+        self._m, self._world, self._strokes, self._signature = m, world, strokes, signature
+        self._axes = [m.axes[head] for head in strokes.heads]
+        self._start = strokes.here()
+        self._counters = self._count()
+        self._strips: list[list[int]] = [[] for _ in self._axes]
+        self._inputs: list[tuple[int, int]] = []
+        self._touches: list[tuple[int, tuple[float, ...]]] = []
+        self._touched = world.touches
+
+    def note(self, places: tuple[float, ...] | None) -> None:
+        """After a tick: ``places`` are all axes', where the bit has just met the board."""
+        tick = len(self._strips[0])
+        self._see(tick, self._m.inputs)
+        for strip, axis in zip(self._strips, self._axes, strict=True):
+            strip.append(axis.bits)
+        if places is not None:
+            self._touches.append((tick, tuple(places[head] for head in self._strokes.heads)))
+
+    def end(self) -> None:
+        """From now on the stroke is known."""
+        ticks = len(self._strips[0])
+        self._see(ticks, self._world.inputs)
+        grown = [
+            tuple(after - before for after, before in zip(now, then, strict=True))
+            for now, then in zip(self._count(), self._counters, strict=True)
+        ]
+        strips = tuple(map(self._strokes.lay, self._strips))
+        last = tuple((axis.cooling, axis.bits) for axis in self._axes)
+        self._start.known[self._signature] = Stroke(
+            ticks, strips, tuple(self._inputs), tuple(self._touches), tuple(grown), last, self._strokes.here()
+        )
+
+    def _see(self, tick: int, inputs: int) -> None:
+        seen = inputs & self._strokes.mask
+        if not self._inputs or self._inputs[-1][1] != seen:
+            self._inputs.append((tick, seen))
+
+    def _count(self) -> list[tuple[int, ...]]:
+        return [tuple(getattr(axis, counter) for counter in COUNTERS) for axis in self._axes]

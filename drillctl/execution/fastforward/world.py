@@ -1,0 +1,38 @@
+"""What the engine must know of what lies beyond the port, and how it leaves that as if ticked.
+
+Rule: execution sees no plant; whoever builds the engine hands it one that answers to this. plant/foreseen.py does.
+"""
+
+from typing import Any, Protocol
+
+
+class World(Protocol):
+    """A plant that always answers alike. Travel is in columns of the phase table since power-up, as the wires have
+    it (an inverted axis counts against its controller).
+    """
+
+    @property
+    def inputs(self) -> int:
+        """The input image that the next latch will see."""
+
+    @property
+    def touches(self) -> int:
+        """How often the bit has met the board."""
+
+    def stands(self, axis: int, travel: int) -> bool:
+        """Whether the rotor is where so many columns have put it, and will follow any further."""
+
+    def free(self, axis: int) -> tuple[float, float]:
+        """Between these travels (neither included) no sensor changes and no bit meets the board."""
+
+    def follow(self, axis: int, travel: int) -> None:
+        """The rotor has moved, and is where so many columns put it, within ``free``."""
+
+    def memory(self, axis: int) -> tuple[Any, ...]:
+        """All that an axis's rotor and sensors remember, its output bits left out."""
+
+    def recall(self, axis: int, memory: Any) -> None:
+        """As it was when ``memory`` was asked."""
+
+    def settle(self, image: int, touches: int) -> None:
+        """The whole output image as it stands at last; the bit has met the board so many times more."""

@@ -1,0 +1,165 @@
+"""Segments as a file, and back; or a refusal by file and reason. The form is told in segments.py and docs/TRACES.md.
+
+Rule: the same segments give the same bytes. Columns are kept as indexes into the few different values that they have,
+low bytes apart from high ones: a job repeats itself, and zlib sees it then. Called by the wiring.
+"""
+
+import os
+import struct
+import zlib
+from collections.abc import Iterator
+from dataclasses import replace
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.trace.reader import TraceError, read_text
+from drillctl.trace.record import Trace
+from drillctl.trace.segments import OUTPUT, Segments
+from drillctl.trace.tapes import Tape
+from drillctl.trace.text import write_text
+from drillctl.trace.values import Values
+
+MAGIC = b"drillctl-segments 1\n"
+LEVEL = 6
+LARGEST_BYTES = 1 << 31  # unpacked; what claims more is no file of ours
+COUNT = struct.Struct("<Q")
+SUMS = struct.Struct("<QIBBB")  # ticks, CRC-32 of the images, bits of an image, tapes, 1: commands without numbers
+INDEXES = (np.dtype("<u1"), np.dtype("<u2"), np.dtype("<u4"))
+NUMBERED = "command"
+Pairs = tuple[tuple[str, str], ...]
+
+
+def is_segments(path: str | os.PathLike[str]) -> bool:
+    """Whether the file begins as segments. Raises OSError as `open`."""
+    with open(path, "rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
+
+
+def segment_bytes(segments: Segments) -> bytes:
+    """The whole file."""
+    bits = segments.reel.dtype.itemsize * 8
+    bare = _bare(segments.header)
+    sums = SUMS.pack(segments.end, segments.checksum, bits, len(segments.tapes), bare is not None)
+    words = "\n".join(" ".join(signal.names) for signal in segments.signals)
+    blocks = [sums, _head_text(segments, bare or segments.header).encode(), words.encode(), _planes(segments.reel)]
+    for tape in segments.tapes:
+        blocks += [_column(tape.start), _column(tape.ticks)]
+    for signal in segments.rest.signals:
+        blocks += [_column(np.diff(column, prepend=0)) for column in segments.rest.changes_of(signal.name)]
+    packed = b"".join(COUNT.pack(len(block)) + block for block in blocks)
+    return MAGIC + zlib.compress(packed, LEVEL)
+
+
+def read_segments(path: str | os.PathLike[str]) -> Segments:
+    """The segments in a file. Raises TraceError for a file that is not whole, OSError as `open`."""
+    data = Path(path).read_bytes()
+    if not data.startswith(MAGIC):
+        raise TraceError(str(path), None, f"not segments: the first line must be {MAGIC.decode().strip()!r}")
+    try:
+        return _unpacked(_blocks(data[len(MAGIC) :]))
+    except (zlib.error, struct.error, ValueError, IndexError, TraceError, UnicodeDecodeError) as error:
+        raise TraceError(str(path), None, f"damaged ({error}); record it again") from error
+
+
+def _blocks(data: bytes) -> Iterator[bytes]:
+    unpacker = zlib.decompressobj()
+    file = BytesIO(unpacker.decompress(data, LARGEST_BYTES))
+    if not unpacker.eof:
+        raise ValueError("cut short, or too large")
+    while length := file.read(COUNT.size):
+        yield file.read(COUNT.unpack(length)[0])
+
+
+def _unpacked(blocks: Iterator[bytes]) -> Segments:
+    end, checksum, bits, tape_count, bare = SUMS.unpack(next(blocks))
+    head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
+    reel = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
+    tapes = [Tape(_uncolumn(next(blocks)), _uncolumn(next(blocks))) for _ in range(tape_count)]
+    kept = [signal for signal in head.signals if not OUTPUT.fullmatch(signal.name)]
+    changes = [(_uncolumn(next(blocks)).cumsum(), _uncolumn(next(blocks)).cumsum()) for _ in kept]
+    rows = [np.full(len(ticks), number) for number, (ticks, _) in enumerate(changes)]
+    columns = [np.concatenate(column) for column in ([t for t, _ in changes], rows, [v for _, v in changes])]
+    rest = Trace.of_changes(head.header, kept, columns[0], columns[1], columns[2], end, head.trailer)
+    for tape in tapes:
+        _check(tape, end, len(reel))
+    segments = Segments(rest, head.signals, reel, tuple(tapes))
+    if segments.checksum != checksum:
+        raise ValueError("the checksum of its images is another")
+    return segments
+
+
+def _check(tape: Tape, end: int, words: int) -> None:
+    inside = (tape.start >= 0) & (tape.ticks > 0) & (tape.start + tape.ticks <= words)
+    if not inside.all() or int(tape.ticks.sum()) != end:
+        raise ValueError("a tape runs off its reel")
+
+
+def _bare(header: Pairs) -> Pairs | None:
+    """The header with commands that don't say their numbers, where these count from 1; else None."""
+    found, number = [], 0
+    for key, value in header:
+        number += key == NUMBERED
+        counted, _, bare = value.partition(" ")
+        if key == NUMBERED and counted != str(number):
+            return None
+        found.append((key, bare if key == NUMBERED else value))
+    return tuple(found)
+
+
+def _numbered(header: Pairs) -> Pairs:
+    """``_bare`` undone."""
+    found, number = [], 0
+    for key, value in header:
+        number += key == NUMBERED
+        found.append((key, f"{number} {value}" if key == NUMBERED else value))
+    return tuple(found)
+
+
+def _head_text(segments: Segments, header: Pairs) -> str:
+    """Header, signals and trailer as a text trace of no ticks has them."""
+    file, empty = StringIO(), np.zeros(0, np.int64)
+    plain = Trace(header, segments.signals, empty, empty.astype(np.int32), empty, 0, segments.rest.trailer)
+    write_text(plain, file, derived=True)
+    return file.getvalue()
+
+
+def _head(text: str, words: str, bare: bool) -> Trace:
+    """What ``_head_text`` told, the signals with their words."""
+    plain = read_text(StringIO(text))
+    named = zip(plain.signals, words.split("\n"), strict=True)
+    signals = tuple(replace(signal, names=tuple(names.split())) for signal, names in named)
+    return replace(plain, header=_numbered(plain.header) if bare else plain.header, signals=signals)
+
+
+def _column(values: Values) -> bytes:
+    """How many values, how many different ones, these, and the index of each as narrow as may be."""
+    different, index = np.unique(values, return_inverse=True)
+    width = next(dtype for dtype in INDEXES if len(different) <= 1 << 8 * dtype.itemsize)
+    head = COUNT.pack(len(values)) + COUNT.pack(len(different))
+    return head + _planes(np.diff(different, prepend=0)) + _planes(index.astype(width))
+
+
+def _uncolumn(block: bytes) -> Values:
+    count, kinds = (COUNT.unpack_from(block, at)[0] for at in (0, COUNT.size))
+    begin = 2 * COUNT.size
+    different = _unplaned(block[begin : begin + 8 * kinds], np.dtype("<i8")).cumsum()
+    width = next(dtype for dtype in INDEXES if kinds <= 1 << 8 * dtype.itemsize)
+    index = _unplaned(block[begin + 8 * kinds :], width)
+    if len(index) != count:
+        raise ValueError("a column is cut short")
+    return different[index]
+
+
+def _planes(values: NDArray[np.generic]) -> bytes:
+    """All lowest bytes first, then the next ones."""
+    little = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"), copy=False))
+    return np.ascontiguousarray(little.view(np.uint8).reshape(len(little), -1).T).tobytes()
+
+
+def _unplaned(block: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
+    planes = np.frombuffer(block, np.uint8).reshape(dtype.itemsize, -1)
+    return np.ascontiguousarray(planes.T).view(dtype).ravel()

@@ -1,0 +1,118 @@
+"""The segment form of a trace: slices of strips for the outputs, changes for everything else. Exact, and small.
+
+Rule: nothing is lost: ``trace`` gives every change back, and the checksum of the array of images, one a tick, says so.
+An image at any tick is found by a search, not by running up to it. Files: segment_file.py. Called by the wiring.
+"""
+
+import re
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from drillctl.trace.record import Header, Signal, Trace
+from drillctl.trace.shape import dense
+from drillctl.trace.tapes import Images, Tape, images
+from drillctl.trace.values import WIDEST_BITS, Values
+
+OUTPUT = re.compile(r"out\.(\d+)")
+CHUNK_TICKS = 1 << 20  # of the image array at once, where the whole of it is gone through
+WORD = (1 << WIDEST_BITS) - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """A whole run. ``rest`` is the trace without its outputs; ``signals`` are all, in their order.
+
+    reel    images, shape (k,), uint32 or uint64: card n's word in bits 32 n and up
+    tapes   slices of the reel, each ``rest.end`` ticks long; what was put out is the OR of them
+    """
+
+    rest: Trace
+    signals: tuple[Signal, ...]
+    reel: Images
+    tapes: tuple[Tape, ...]
+
+    @classmethod
+    def of_trace(cls, trace: Trace) -> "Segments":
+        """Any trace, its outputs as one long strip: exact, and as large as they are long."""
+        reel = np.zeros(trace.end, np.uint64)
+        for signal in trace.signals:
+            if match := OUTPUT.fullmatch(signal.name):
+                reel |= dense(trace, signal.name).astype(np.uint64) << np.uint64(WIDEST_BITS * int(match[1]))
+        return cls(without_outputs(trace), trace.signals, reel, (Tape.whole(0, trace.end),))
+
+    def like(self, other: "Segments") -> bool:
+        """Whether both tell of the same run, whatever their slices and headers are."""
+        same_rest = replace(self.rest, header=other.rest.header, trailer=other.rest.trailer) == other.rest
+        alike = self.reel.dtype == other.reel.dtype and len(self.tapes) == len(other.tapes)
+        same_slices = alike and np.array_equal(self.reel, other.reel) and all(map(Tape.same, self.tapes, other.tapes))
+        return same_rest and (same_slices or self.checksum == other.checksum)
+
+    @property
+    def end(self) -> int:
+        """How many ticks were run."""
+        return self.rest.end
+
+    def images(self, first: int, end: int) -> Images:
+        """The images of ticks first..end-1."""
+        return images(self.reel, self.tapes, np.empty(end - first, self.reel.dtype), first)
+
+    def image_at(self, tick: int) -> int:
+        """The image in a tick."""
+        return int(self.images(tick, tick + 1)[0])
+
+    @cached_property
+    def checksum(self) -> int:
+        """CRC-32 of the array of images, little-endian, one a tick."""
+        found = 0
+        for part in self._parts():
+            found = zlib.crc32(np.ascontiguousarray(part, part.dtype.newbyteorder("<")).data, found)
+        return found
+
+    def trace(self) -> Trace:
+        """Every change of every signal."""
+        numbers = {signal.name: number for number, signal in enumerate(self.signals)}
+        rows = [self._changes(int(match[1]), number) for name, number in numbers.items()
+                if (match := OUTPUT.fullmatch(name))]  # fmt: skip
+        for signal in self.rest.signals:
+            ticks, values = self.rest.changes_of(signal.name)
+            rows.append((ticks, np.full(len(ticks), numbers[signal.name]), values))
+        when, which, values = (np.concatenate(column) for column in zip(*rows, strict=True))
+        return Trace.of_changes(self.rest.header, self.signals, when, which, values, self.end, self.rest.trailer)
+
+    @property
+    def header(self) -> tuple[tuple[str, str], ...]:
+        """As the trace's."""
+        return self.rest.header
+
+    def with_header(self, header: Header) -> "Segments":
+        """The same run, of which other things are said."""
+        return replace(self, rest=self.rest.with_header(header))
+
+    def _parts(self) -> Iterator[Images]:
+        for first in range(0, self.end, CHUNK_TICKS):
+            yield self.images(first, min(first + CHUNK_TICKS, self.end))
+
+    def _changes(self, card: int, number: int) -> tuple[Values, Values, Values]:
+        """Ticks, signal and words at which a card's outputs change."""
+        ticks, words, first, before = [], [], 0, -1
+        for part in self._parts():
+            word = ((part >> np.array(WIDEST_BITS * card, part.dtype)) & np.array(WORD, part.dtype)).astype(np.int64)
+            changes = np.flatnonzero(np.diff(word, prepend=before))
+            ticks.append(first + changes)
+            words.append(word[changes])
+            first, before = first + len(part), int(word[-1])
+        all_ticks = np.concatenate([np.zeros(0, np.int64), *ticks])
+        return all_ticks, np.full(len(all_ticks), number), np.concatenate([np.zeros(0, np.int64), *words])
+
+
+def without_outputs(trace: Trace) -> Trace:
+    """The trace's other signals alone."""
+    kept = [number for number, signal in enumerate(trace.signals) if not OUTPUT.fullmatch(signal.name)]
+    rows = np.isin(trace.signal, kept)
+    renumbered = np.searchsorted(kept, trace.signal[rows]).astype(np.int32)
+    signals = tuple(trace.signals[number] for number in kept)
+    return Trace(trace.header, signals, trace.ticks[rows], renumbered, trace.values[rows], trace.end, trace.trailer)

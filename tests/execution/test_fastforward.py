@@ -1,0 +1,145 @@
+"""The fast engine against the law: images, events, holes, and all that is remembered, on every machine.
+
+Programs hold every command; holds, stops, emergency stops, gaps in time and refused commands come at any tick.
+"""
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, seed, settings
+from hypothesis import strategies as st
+
+from drillctl.generation.job import names_of
+from drillctl.kmd import Request, parse_program
+from drillctl.machine import Library, Machine, shipped_tables
+from drillctl.trace import first_difference, render
+from drillctl.wiring.fast_ticker import FastTicker
+from tests.support.twins import remembered, trace, twins
+
+SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
+LIBRARY = Library((shipped_tables(),))
+MACHINES = ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis", "boiler-drum", "mega-28byj48", "cnc-shield"]
+STEPS = st.one_of(st.integers(-40, 40), st.integers(-700, 700), st.just(0))
+
+
+@st.composite
+def commands(draw: st.DrawFn, machine: Machine) -> str:
+    """One command of any kind, most of them such as a job holds."""
+    axis = st.sampled_from(machine.axis_names)
+    some = draw(st.lists(axis, min_size=1, max_size=2, unique=True))
+    places = " ".join(f"{name}={abs(draw(STEPS))}" for name in some)
+    ways = " ".join(f"{name}={draw(STEPS)}" for name in some)
+    forms = [
+        *[f"KMD_GOTO_X_Y {abs(draw(STEPS))} {abs(draw(STEPS))}"] * 3, f"KMD_GOTOdXdY {draw(STEPS)} {draw(STEPS)}",
+        *["KMD_WIERTLO_DOL"] * 2, *["KMD_WIERTLO_GORA"] * 3,
+        f"KMD_WIERTLO_DOL {some[0]}", f"KMD_WIERTLO_GORA {some[0]}",
+        f"KMD_RUCH {places}", f"KMD_RUCHd {ways}", f"KMD_LINIA {places}", f"KMD_LINIAd {ways}",
+        "KMD_BAZA", f"KMD_BAZA {some[0]}", f"KMD_PREDKOSC {draw(st.sampled_from([0, 1, 2, 3, 5, 9, 40]))}",
+        f"KMD_CZEKAJ {draw(st.sampled_from([0, 1, 2, 77, 5000]))}", "KMD_WRZECIONO 9", "KMD_WRZECIONO 0",
+        "KMD_NARZEDZIE 3", "KMD_INICJALIZACJA", f"KMD_FAZY_WYL {some[0]}", "KMD_FAZY_WYL",
+        *(f"KMD_WYJSCIE {name} {level}" for name, _ in machine.outputs for level in (0, 1)),
+        *(f"KMD_CZEKAJ_WE {s.name} {level} 9" for s in machine.sensors for level in (0, 1)),
+    ]  # fmt: skip
+    return draw(st.sampled_from(forms))
+
+
+REQUESTS = [*(1 << r for r in (Request.HOLD, Request.RESUME, Request.STOP, Request.ESTOP, Request.ACK)), -3, -9, -60]
+disturbances = st.dictionaries(st.integers(0, 9000), st.sampled_from(REQUESTS), max_size=3)
+
+
+def check(machine: Machine, text: str, asked: dict[int, int], ticks: int) -> FastTicker:
+    program = parse_program(text, names_of(machine))
+    program["tag"] = np.arange(len(program)) // 3
+    slow, fast = twins(machine, program, asked, ticks)
+    difference = first_difference(trace(slow), trace(fast))
+    assert difference is None, render(difference)
+    assert trace(slow) == trace(fast)
+    assert remembered(slow) == remembered(fast)
+    return fast
+
+
+@pytest.mark.parametrize("name", MACHINES)
+@seed(720)
+@settings(max_examples=20, deadline=None)
+@given(data=st.data())
+def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.DataObject) -> None:
+    machine = LIBRARY.machine(name)
+    known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
+    text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=12)))
+    asked = data.draw(st.one_of(st.just({}), disturbances))
+    ticks = data.draw(st.integers(6000, 14000))
+    check(machine, text, asked, ticks)
+
+
+HOLES = np.random.default_rng(720).integers(0, 300, (5, 2)).tolist()
+BOARD = "KMD_INICJALIZACJA\n" + "\n".join(f"KMD_GOTO_X_Y {x} {y}\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA" for x, y in HOLES)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
+    """So that the tests above compare two engines, and not tick with itself."""
+    machine = LIBRARY.machine(name)
+    fast = FastTicker.ideal(machine)
+    fast.queue.put(parse_program(BOARD, names_of(machine)))
+    ticked = [course for course in fast.courses() if course is None]
+    moves_the_head_too = len(machine.axes) == 2
+    assert len(ticked) <= (1 + 2 * len(HOLES) if moves_the_head_too else 5)
+    assert len(fast.touched) == len(HOLES)
+    check(machine, BOARD, {}, 10**9)
+
+
+@pytest.mark.parametrize(("name", "distances"), [("pcb-drill", (0, 20)), ("eight-axis", (0, 48))])
+def test_every_distance_both_ways(name: str, distances: tuple[int, int]) -> None:
+    """Up to where head and tail of a move don't touch, both axes at different ones; and beyond a strip's length."""
+    machine = LIBRARY.machine(name)
+    moves = [f"KMD_GOTOdXdY {d} {-d // 2}\nKMD_GOTOdXdY {-d} {d // 3}" for d in range(*distances)]
+    check(machine, "\n".join([*moves, "KMD_GOTOdXdY 4300 7", "KMD_GOTOdXdY -4096 1"]), {}, 10**9)
+
+
+@pytest.mark.parametrize("ticks", range(48, 56))
+def test_wherever_it_is_looked_at(ticks: int) -> None:
+    """The last step is made in the 52nd tick and ends on a forced column: on at first, off in the next tick."""
+    check(LIBRARY.machine("pcb-drill"), "KMD_GOTOdXdY 31 3\nKMD_GOTOdXdY -3 20", {}, ticks)
+
+
+@pytest.mark.parametrize("floor", [1, 3, 7, 8, 100_000])
+def test_every_feed(floor: int) -> None:
+    """The last is so slow that its strips would be too long: it is ticked."""
+    machine = LIBRARY.machine("pcb-drill-ramp-lab")
+    text = f"KMD_INICJALIZACJA\nKMD_PREDKOSC {floor}\nKMD_GOTO_X_Y 40 2\nKMD_GOTO_X_Y 0 30"
+    check(machine, text, {}, 20_000)
+
+
+def test_a_reversed_axis_and_a_table_that_reverses_otherwise() -> None:
+    plain = LIBRARY.machine("pcb-drill")
+    x = plain.axes[0]
+    wires = tuple(replace(wire, backward=wire.backward[1:] + wire.backward[:1]) for wire in x.phase.wires)
+    other = replace(x, invert=True, phase=replace(x.phase, wires=wires))
+    for axes in ((replace(x, invert=True), *plain.axes[1:]), (other, *plain.axes[1:])):
+        check(replace(plain, axes=axes), "KMD_GOTOdXdY 100 0\nKMD_GOTOdXdY -33 5\nKMD_GOTOdXdY -1 0", {}, 10**9)
+
+
+def test_a_table_that_the_rotor_can_not_follow_is_ticked() -> None:
+    """A column without current in each half: the rotor slips, and nothing is foreseen."""
+    plain = LIBRARY.machine("pcb-drill")
+    x = plain.axes[0]
+    wires = tuple(replace(wire, forward=(False, *wire.forward[1:])) for wire in x.phase.wires)
+    machine = replace(plain, axes=(replace(x, phase=replace(x.phase, wires=wires)), *plain.axes[1:]))
+    fast = check(machine, "KMD_GOTOdXdY 100 0\nKMD_GOTOdXdY -33 5", {}, 10**9)
+    fast.queue.put(parse_program("KMD_GOTOdXdY 5 0", names_of(machine)))
+    assert all(course is None for course in fast.courses())
+
+
+def test_two_engines_in_two_processes_give_the_same_bytes(tmp_path: Path) -> None:
+    def told(engine: str, name: str) -> list[bytes]:
+        files = [tmp_path / f"{name}.{suffix}" for suffix in ("trace", "csv")]
+        call = [sys.executable, "-m", "drillctl", "run", str(SQUARE), "--json", "--engine", engine,
+                "--trace", str(files[0]), "--holes", str(files[1])]  # fmt: skip
+        done = subprocess.run(call, capture_output=True, timeout=60, check=True)
+        return [done.stdout, *(file.read_bytes() for file in files)]
+
+    assert told("tick", "a") == told("fast", "b") == told("fast", "c")
