@@ -12,7 +12,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
-PAGES = [*sorted(ROOT.glob("docs/*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+FOLDERS = ("docs/*.md", "docs/lab/*.md", "README.md", "CONTRIBUTING.md")
+PAGES = [page for pattern in FOLDERS for page in sorted(ROOT.glob(pattern))]
 
 
 def generator() -> ModuleType:
