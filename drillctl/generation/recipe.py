@@ -49,12 +49,13 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     base: tuple[int, int] = (0, 0)
 
     @classmethod
-    def of_options(cls, told: Mapping[str, Any]) -> "Recipe":
-        """From a journal. Raises JobError for one of another version, or damaged."""
+    def of_options(cls, told: Mapping[str, Any], journal: Path) -> "Recipe":
+        """From the first line of a journal. Raises JobError for one of another version, or damaged."""
         try:
             return msgspec.convert(told, cls)
         except msgspec.ValidationError as error:
-            raise JobError([f"the journal was written by another version of this program: {error}"]) from error
+            reason = f"the journal was written by another version of this program: {error}"
+            raise JobError([f"{journal}:1: {reason}"]) from error
 
     def options(self) -> dict[str, Any]:
         """As it stands in a journal."""

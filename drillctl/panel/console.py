@@ -66,6 +66,7 @@ class MachineView:
     notices: tuple[str, ...]
     tool_wanted: ToolWanted | None = None
     real_wanted: str = ""  # the port that the machine's file asks for (mode REAL) while a simulated one is in use
+    at_work: bool = False  # a job, a jog or an initialisation is on its way
     paused: bool = False  # ticks come only as they are granted (panel/handwork.py)
 
 
@@ -102,8 +103,10 @@ class BoardView:
 class Console(Protocol):
     """The operator's desk, as screens use it. ``turn`` is called some twenty times a second."""
 
-    def turn(self) -> None:
-        """Lets the machine's news in: call it often; it returns at once."""
+    def turn(self) -> bool:
+        """Lets the machine's news in: call it often; it returns at once. True: at work, and bound by no clock, it gets
+        on as often as it is called.
+        """
 
     def view(self) -> MachineView:
         """The machine now."""

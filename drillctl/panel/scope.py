@@ -96,6 +96,10 @@ class ScopeSource(Protocol):
     def last_tick(self) -> int:
         """The latest; below ``first_tick`` while nothing has run."""
 
+    @property
+    def opening_tick(self) -> int:
+        """Where a finished run is looked at first."""
+
     def turn(self) -> None:
         """Lets what is new in; returns soon."""
 

@@ -24,6 +24,7 @@ from drillctl.panel.console import BoardView, Problems
 from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
 from drillctl.station.recent import RecentJobs
 from drillctl.station.views import board_view
+from drillctl.station.wholefile import keeps_waiting
 from drillctl.station.workingbase import Base
 from drillctl.wiring.desk import Desk
 from drillctl.wiring.estimate import foresee
@@ -61,6 +62,8 @@ class Boards:
 
     def load(self, file: Path, asked: Asked, machine: Machine, base: Base) -> Problems:
         """A drill file, as asked."""
+        if problems := keeps_waiting(file) or (keeps_waiting(Path(asked.drills)) if asked.drills else ()):
+            return problems
         recipe = recipe_of(asked, machine, base)
         if problems := self._planned(file, recipe, machine):
             return problems

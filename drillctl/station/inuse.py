@@ -15,7 +15,7 @@ from drillctl.ports import PortError
 from drillctl.station.scope import Recording
 from drillctl.wiring.link import Link
 from drillctl.wiring.loading import same_but_tables
-from drillctl.wiring.machinery import REAL, Running, card_port, on_port, plant_of, simulated, start
+from drillctl.wiring.machinery import FREE, REAL, Running, card_port, on_port, pace_of, plant_of, simulated, start
 
 
 class InUse:
@@ -59,6 +59,11 @@ class InUse:
     def go_simulated(self) -> Problems:
         """Where it started, the position unknown."""
         return self._change(self.machine, simulated(self._asked))
+
+    @property
+    def runs_free(self) -> bool:
+        """As fast as it is turned, by no clock."""
+        return pace_of(self.running) == FREE
 
     @property
     def port(self) -> PortView:

@@ -12,6 +12,7 @@ from drillctl.machine import Machine
 from drillctl.panel.console import Problems
 from drillctl.panel.queues import CommandHelp
 from drillctl.panel.tables import Finding
+from drillctl.station.wholefile import keeps_waiting
 from drillctl.wiring.outputs import write_text
 
 LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it is checked at every key
@@ -38,6 +39,8 @@ class QueueBench:
 
     def open_queue(self, file: str) -> tuple[str, Problems]:
         """UTF-8."""
+        if problems := keeps_waiting(Path(file)):
+            return "", problems
         try:
             with Path(file).open("rb") as stream:
                 data = stream.read(LARGEST_QUEUE_BYTES + 1)

@@ -37,6 +37,7 @@ class RunScope:
         self._index = {(signal.group, signal.name): number for number, signal in enumerate(self._signals)}
         self.lanes = Lanes([lane for _signal, lane in self._laid], most_rows)
         self.last_tick = -1
+        self.opening_tick = 0
 
     @property
     def tick_hz(self) -> int:

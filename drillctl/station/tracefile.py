@@ -1,7 +1,7 @@
-"""Wiring: the run of a ``.trace`` file as the scope sees it. What the text leaves out is found by running it again.
+"""Wiring: the run of a trace file as the scope sees it. What the file leaves out is found by running it again.
 
-Rule: the file is shown at once; columns, positions and states follow, a little at every turn, so that nothing has to
-wait for a long run. Created by the scope verb and by scopebench.
+Rule: the file is shown at once, and the axes at the cursor with it; the waves of columns, positions and states follow,
+a little at every turn, so that nothing has to wait for a long run. Created by the scope verb and by scopebench.
 """
 
 import time
@@ -15,9 +15,9 @@ from drillctl.machine import Library, Machine
 from drillctl.panel.scope import Notice
 from drillctl.station.scope import RunScope
 from drillctl.trace import Signal, Trace, TraceError
-from drillctl.trace.ring import RingRecorder
 from drillctl.trace.values import IDLE, Values
-from drillctl.wiring.replay import machine_of, rerun, same_tables
+from drillctl.wiring.recorded import check_tick, machine_of, same_tables
+from drillctl.wiring.rerun import AxisState, Jumps, rerun
 from drillctl.wiring.sampler import signals
 from drillctl.wiring.trace_files import read_trace
 
@@ -26,23 +26,28 @@ MOST_ROWS = 20_000_000  # 16 bytes each
 
 
 class TraceFile(RunScope):
-    """A ScopeSource. Raises TraceError for a file that is no trace, TableError for its machine."""
+    """A ScopeSource, opened at a tick. Raises TraceError for a file that is no trace or has no such tick, TableError
+    for its machine.
+    """
 
-    def __init__(self, file: Path, library: Library):
+    def __init__(self, file: Path, library: Library, from_tick: int = 0):
         recorded = read_trace(file)
         machine = machine_of(recorded, file, library)
+        check_tick(recorded, file, from_tick)
         derived = [signal for signal in signals(machine, False, True) if signal.derived]
         missing = [signal for signal in derived if not recorded.has(signal.name)]
         own, values = _idle_first(recorded)
         super().__init__(f"{file.name} ({machine.name})", machine, (*own, *missing), MOST_ROWS)
         self.lanes.append(recorded.ticks, recorded.signal, values)
-        self.last_tick = recorded.end - 1
+        self.last_tick, self.opening_tick = recorded.end - 1, from_tick
         self._commands = dict(value.split(" ", 1) for value in recorded.header_values("command") if " " in value)
         self._missing = {signal.name for signal in missing}
         self._other_tables = not same_tables(recorded, machine, file)
         self._trouble: Notice | None = None
         self._derivation = self._derived(recorded, machine, file) if missing else iter(())
         self._known_to = 0 if missing else recorded.end
+        self._jumps = self._able_to_jump(recorded, machine, file) if missing else None
+        self._here: tuple[int, tuple[AxisState, ...]] = (-1, ())
 
     def turn(self) -> None:
         """The run again, for as long as a screen can wait."""
@@ -65,20 +70,41 @@ class TraceFile(RunScope):
             found.append(Notice("other tables"))
         return tuple(found)
 
+    def _value(self, signal: int, tick: int) -> int | None:
+        """Of an axis also where the run has not come to yet."""
+        if self._known_to <= tick <= self.last_tick and self._source(signal).name in self._missing:
+            return self._far_value(signal, tick)
+        return super()._value(signal, tick)
+
+    def _far_value(self, signal: int, tick: int) -> int | None:
+        """By a jump, and None where that can't tell: then no later tick can be told by one."""
+        if self._jumps is not None and self._here[0] != tick:
+            self._here = tick, self._jumps.at(tick)
+            if not self._here[1]:
+                self._jumps = None
+        states = dict(zip(self.machine.axis_names, self._here[1], strict=False)) if self._here[0] == tick else {}
+        shown = self._signals[signal]
+        value: int | None = getattr(states.get(shown.group), shown.name, None)
+        return value
+
+    def _able_to_jump(self, recorded: Trace, machine: Machine, file: Path) -> Jumps | None:
+        try:
+            return Jumps(recorded, machine, file)
+        except TraceError as error:
+            self._trouble = Notice("underivable", error.reason)
+            return None
+
     def _derived(self, recorded: Trace, machine: Machine, file: Path) -> Iterator[int]:
         """Runs the trace again, its derived signals into the lanes; gives the tick up to which they are known."""
-        sampled = signals(machine, False, True)
-        ring = RingRecorder(len(sampled))
-        place = self._places(sampled)
+        place = self._places(signals(machine, False, True))
         try:
-            for ticks in rerun(recorded, machine, file, ring):
-                changes = ring.drain()
-                changes = changes[place[changes["signal"]] >= 0]
-                if len(self.lanes) + len(changes) > MOST_ROWS:
+            for stretch in rerun(recorded, machine, file):
+                rows = np.flatnonzero(place[stretch.signal] >= 0)
+                if len(self.lanes) + len(rows) > MOST_ROWS:
                     self._trouble = Notice("too long", self._known_to)
                     return
-                self.lanes.append(changes["tick"], place[changes["signal"]], changes["value"])
-                yield ticks
+                self.lanes.append(stretch.ticks[rows], place[stretch.signal[rows]], stretch.values[rows])
+                yield stretch.end
             yield recorded.end
         except TraceError as error:
             self._trouble = Notice("underivable", error.reason)

@@ -1,5 +1,6 @@
 """Wiring: status record, machine and job as the records that screens draw. Called by station."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +44,7 @@ def machine_view(
     moving = bool(status["moving"])
     image = int(status["image"])
     code = link.lost() or int(status["fault"])
-    return MachineView(
+    view = MachineView(
         machine=machine.name,
         port=port,
         tick=int(status["tick"]),
@@ -64,6 +65,12 @@ def machine_view(
         notices=tuple(link.notices()),
         paused=link.gate.paused,
     )
+    return _gone(view) if link.lost() else view
+
+
+def _gone(view: MachineView) -> MachineView:
+    """What a ticker wrote before it was lost holds no longer: the guard has dropped the outputs."""
+    return replace(view, condition="latched", moving=False, position_known=False, command="", queued=0)
 
 
 def _axis_view(axis: AxisTable, index: int, status: np.void, image: int, base_steps: int) -> AxisView:

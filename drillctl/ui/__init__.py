@@ -5,6 +5,8 @@
     summary.py   how a job ended, in words
     latency.py   how punctual this computer is
     board.py     holes as braille dots
+    charts.py    pictures of numbers in characters
+    plotted.py   the same as PNG or SVG, by matplotlib
 
 The program on the screen, in urwid:
 

@@ -9,10 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 import urwid
 
-from drillctl.panel.console import Console, Problems
-from drillctl.ui import dialogs
+from drillctl.panel.console import Console
 from drillctl.ui.alerts import Alerts
-from drillctl.ui.forms import Choice, Field, Form, offer
+from drillctl.ui.boxes import Boxes
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
 from drillctl.ui.layers import Layers
@@ -27,33 +26,35 @@ from drillctl.ui.words import _
 
 BEAT_S = 0.05
 FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off
-# Of each beat, the console is given so long: a machine that runs free gets on in it, a paced one has its queue filled.
+# Of each beat, the console is given so long: a paced machine has its queue filled in it. One that runs free gets on in
+# it, and is given more while it works, the keys and the picture the rest.
 TURNING_S = 0.01
+FREE_TURNING_S = 0.035
 
 Maker = Callable[[Console, Shell], urwid.Widget]
 Pressed = str | tuple[str, int, int, int]
 
 
-class App:
+class App(Boxes):
     """The shell of the screens. ``makers`` gives the further screens, by the names that the menus use."""
 
     def __init__(
         self, console: Console, theme: str = "colour", plain: bool = False, makers: Mapping[str, Maker] | None = None,
         terminal: urwid.display.common.BaseScreen | None = None,
     ):  # fmt: skip
-        self._console = console
+        self._console, self._plain = console, plain
         self._makers: dict[str, Maker] = {
             "files": lambda console, shell: Files(console, shell, plain),
             "drilling": lambda console, shell: Drilling(console, shell, plain, lambda: self.show("files")),
             **(makers or {}),
         }
         self._made: dict[str, urwid.Widget] = {}
-        first = self._screen("drilling")
-        assert first is not None
-        self.screens = [first]
+        self._first = self._makers["drilling"](console, self)
+        self._made["drilling"] = self._first
+        self.screens = [self._first]
         self.frame = MainFrame(self.screens[0])
         terminal = terminal or urwid.display.raw.Screen()
-        self.layers = Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows)
+        super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows))
         self._alerts = Alerts(console, self.layers)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
@@ -63,15 +64,16 @@ class App:
     def run(self, interrupts: Sequence[int] = ()) -> None:
         """Until the operator leaves. ``interrupts``: signals that came; one whose exception was lost ends it too."""
         self._interrupts = interrupts
+        urwid.set_encoding("ascii" if self._plain else "utf-8")  # of what it writes to, whatever the locale says
         self.loop.set_alarm_in(0, self._beat)
         self.loop.set_alarm_in(FIRST_LOOK_S, lambda _loop, _data: offer_unfinished(self._console, self))
         self.loop.run()
 
     def turn(self) -> None:
         """The machine's news in, and what changed on the screen."""
-        until_s = time.monotonic() + TURNING_S
-        while time.monotonic() < until_s:
-            self._console.turn()
+        began_s, for_s = time.monotonic(), TURNING_S
+        while time.monotonic() < began_s + for_s:
+            for_s = FREE_TURNING_S if self._console.turn() else TURNING_S
         view = self._console.view()
         self.frame.show_machine(view)
         if isinstance(self.screens[-1], Live):
@@ -95,39 +97,17 @@ class App:
             return self._drop(self.frame.bar.lettered(pressed.removeprefix("meta ")))
         return called(self, FRAME_KEYS, pressed)
 
-    def message(self, title: str, lines: Sequence[str]) -> None:
-        """See Shell."""
-        self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop))
-
-    def ask(self, question: str, yes: Callable[[], None]) -> None:
-        """See Shell."""
-        self.layers.push_dialog(dialogs.question(question, yes, self.layers.pop))
-
-    def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
-        """See Shell."""
-        self.layers.push_dialog(dialogs.entry(title, prompt, text, accept, self.layers.pop))
-
-    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
-        """See Shell."""
-        self.layers.push_dialog(Form(title, fields, accept, self.layers.pop))
-
-    def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
-        """See Shell."""
-        self.layers.push_dialog(Choice(title, lines, chosen, self.layers.pop))
-
-    def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
-        """See Shell."""
-        self.layers.push_dialog(offer(title, lines, ways, self.layers.pop))
-
     def open(self, screen: urwid.Widget) -> None:
         """See Shell. A screen that is open already comes to the top."""
         self.screens = [other for other in self.screens if other is not screen] + [screen]
         self._refresh_top()
 
     def back(self) -> None:
-        """See Shell."""
+        """See Shell. The first screen is not closed: it goes to the bottom again."""
         if len(self.screens) > 1:
-            self.screens.pop()
+            top = self.screens.pop()
+            if top is self._first:
+                self.screens.insert(0, top)
             self._refresh_top()
 
     def show(self, name: str) -> urwid.Widget | None:
@@ -154,8 +134,8 @@ class App:
 
     def notices(self) -> None:
         """What the second line has no room for."""
-        told = self._console.view().notices
-        self.message(_("Notices"), [_(notice) for notice in told] or [_("There is nothing to be said.")])
+        notices = self._console.view().notices
+        self.message(_("Notices"), [told(notice) for notice in notices] or [_("There is nothing to be said.")])
 
     def about(self) -> None:
         """What this is."""
@@ -208,7 +188,7 @@ class App:
         return self._made.get(name)
 
     def _refresh_top(self) -> None:
-        self.frame.show_screen(self.screens[-1])
+        self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)
         self.turn()
 
     def _clicked(self, event: str, _button: int, column: int, row: int) -> bool:

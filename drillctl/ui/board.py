@@ -1,6 +1,6 @@
 """A board drawn in the terminal: holes as braille dots, to scale, Y upwards. Functions of points and a size.
 
-Called by the inspect verb, and by screens/board_view.py, which lays progress and the head over it.
+Called by the inspect verb, by screens/board_view.py, which lays progress and the head over it, and by charts.py.
 """
 
 from dataclasses import dataclass
@@ -46,9 +46,15 @@ class Sheet:
         """A line of characters for each row of cells; all points must lie on the sheet."""
         grid = np.zeros((self.height, self.width), bool)
         grid[tuple(self.dots(xy_mm).T)] = True
-        cells = grid.reshape(self.height // CELL_DOTS[0], CELL_DOTS[0], self.width // CELL_DOTS[1], CELL_DOTS[1])
-        codes = (cells * DOT_BITS[None, :, None, :]).sum(axis=(1, 3)) + BRAILLE
-        return ["".join(map(chr, row)) for row in codes.tolist()]
+        return ["".join(row) for row in braille_cells(grid)]
+
+
+def braille_cells(grid: NDArray[np.bool_]) -> list[list[str]]:
+    """The characters of a grid of dots (rows, columns), whole cells of CELL_DOTS."""
+    down, across = CELL_DOTS
+    cells = grid.reshape(len(grid) // down, down, grid.shape[1] // across, across)
+    codes = (cells * DOT_BITS[None, :, None, :]).sum(axis=(1, 3)) + BRAILLE
+    return [[*map(chr, row)] for row in codes.tolist()]
 
 
 def board_rows(xy_mm: NDArray[np.float64], columns: int, rows: int) -> list[str]:

@@ -12,6 +12,7 @@ from drillctl.panel.console import MachineView
 from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
 from drillctl.ui.lines import Line, Size, boxed, packed
 from drillctl.ui.menus import MENUS, hot_letter, label_markup, plain_label
+from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
 # Condition: how it is shown, and its word.
@@ -82,10 +83,11 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
         super().__init__(screen, header=header, footer=self._keys)
 
-    def show_screen(self, screen: urwid.Widget) -> None:
-        """Another screen between, its keys below."""
+    def show_screen(self, screen: urwid.Widget, lowest: bool = True) -> None:
+        """Another screen between, its keys below; from the ``lowest`` there is no way back."""
         self.body = screen
-        self._keys.show([EMERGENCY, *screen_keys(screen), *FRAME_KEYS[1:]])
+        frame_keys = [key for key in FRAME_KEYS if key is not EMERGENCY and not (lowest and key.method == "back")]
+        self._keys.show([EMERGENCY, *screen_keys(screen), *frame_keys])
 
     def show_machine(self, view: MachineView) -> None:
         """The line on the machine."""
@@ -99,7 +101,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
         markup: Line = [title, place, shown, f" {moving} | ", known]
         if view.notices:
-            markup += [" | ", ("warning", _(view.notices[-1]))]
+            markup += [" | ", ("warning", told(view.notices[-1]))]
         if markup != self._shown:
             self._shown = markup
             self._machine.set_text(list(markup))

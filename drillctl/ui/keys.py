@@ -36,7 +36,7 @@ FRAME_KEYS = (
     EMERGENCY,
     Key(("f1",), "F1", "help", N_("this help"), N_("Help")),
     Key(("f9",), "F9", "menu", N_("the menu; or Alt with a letter of it"), N_("Menu")),
-    Key(("esc",), "Esc", "back", N_("closes what is on top")),
+    Key(("esc",), "Esc", "back", N_("closes what is on top"), N_("Back")),
     Key(("f4",), "F4", "leave", N_("ends the program; the outputs are made safe"), N_("Quit")),
 )
 
@@ -53,12 +53,12 @@ def called(target: object, keys: Iterable[Key], pressed: str) -> bool:
 
 def key_parts(keys: Sequence[Key]) -> list[list[str | tuple[str, str]]]:
     """Marked text of each key with a short word, for the bottom lines."""
-    return [[(_attribute(key), key.printed), f" {_(key.short)}  "] for key in keys if key.short]
+    return [[(_attribute(key), _(key.printed)), f" {_(key.short)}  "] for key in keys if key.short]
 
 
 def help_lines(keys: Sequence[Key]) -> list[str]:
     """A line a key."""
-    return [f"{key.printed:<12}{_(key.help)}" for key in keys]
+    return [f"{_(key.printed):<12}{_(key.help)}" for key in keys]
 
 
 def _attribute(key: Key) -> str:

@@ -1,6 +1,7 @@
 """Boards on the operator's desk: placed by measured holes, repeated, drilled from a base, cut off and gone on with."""
 
 import json
+import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,6 +13,7 @@ from drillctl.cli import main
 from drillctl.generation.journal import read_journal
 from drillctl.machine import Library
 from drillctl.panel.jobs import Asked, Measured, PanelOf
+from drillctl.station.queuebench import QueueBench
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.session import default_journal
@@ -282,3 +284,35 @@ def test_opened_boards_are_remembered(station: Station, board: Path) -> None:
 
 def test_a_queue_is_no_board(station: Station) -> None:
     assert "run from the queue editor" in station.load(str(BLINKER.with_name("square.kmd")), Asked())[0]
+
+
+def test_a_pipe_is_refused_at_once(station: Station, tmp_path: Path) -> None:
+    """Opening one waits for whoever writes into it, and the screen with it."""
+    os.mkfifo(tmp_path / "pipe.drl")
+    refused = (f"{tmp_path / 'pipe.drl'}: a pipe or a device, not a file",)
+    assert station.load(str(tmp_path / "pipe.drl"), Asked()) == refused
+    assert QueueBench(lambda: station.machine).open_queue(str(tmp_path / "pipe.drl")) == ("", refused)
+    assert station.load(str(BLINKER), Asked(drills=str(tmp_path / "pipe.drl"))) == refused
+
+
+def test_a_hole_is_done_when_the_head_is_up_again(station: Station, board: Path) -> None:
+    def on_its_way_up() -> bool:
+        view = station.view()
+        return view.command.startswith("KMD_WIERTLO_GORA") and view.axes[2].position_steps > 20
+
+    assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
+    turn_until(station, on_its_way_up)
+    told = station.progress()
+    assert told is not None and told.holes_done == 0
+
+
+def test_a_turn_takes_a_machine_that_runs_free_far(station: Station, board: Path) -> None:
+    """The screen turns it a few hundred times a second at most."""
+    assert station.turn() is False, "at rest there is nothing to hurry for"
+    assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
+    turns = 1
+    while station.turn():
+        turns += 1
+    told = station.progress()
+    assert told is not None and told.holes_done == told.holes_total and told.ticks > 40 * turns
+    assert told.seconds_left is None

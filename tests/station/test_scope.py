@@ -11,15 +11,17 @@ import pytest
 from drillctl.cli import main
 from drillctl.generation.job import names_of
 from drillctl.kmd import parse_program
+from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Library
 from drillctl.panel.scope import BACKWARDS, FORWARDS, Find, Notice, ScopeSignal
 from drillctl.station import scope, tracefile
+from drillctl.station.operating import BUSY
 from drillctl.station.scope import RunScope
 from drillctl.station.scope_layout import lanes_of
 from drillctl.station.scopebench import ScopeBench
-from drillctl.station.station import BUSY, Station
+from drillctl.station.station import Station
 from drillctl.station.tracefile import TraceFile
-from drillctl.trace import Trace, dense, read_text, write_text
+from drillctl.trace import Trace, TraceError, dense, read_text, write_text
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.sampler import signals
 from drillctl.wiring.ticker import Ticker
@@ -71,7 +73,6 @@ def test_a_file_is_known_at_once_and_its_columns_follow(file: Path, truth: Trace
     source = TraceFile(file, LIBRARY)
     x_column, x_1a = index(source, "x", "column"), index(source, "x", "1a")
     assert (source.first_tick, source.last_tick, source.tick_hz) == (0, truth.end - 1, 500)
-    assert source.at(100).values[x_column] is None and source.at(100).axes == ()
     assert source.known_to(x_1a) == truth.end and source.known_to(x_column) == 0
     assert source.notices() == (Notice("running", 0),)
     run_through(source)
@@ -174,9 +175,35 @@ def test_signals_that_a_file_has_itself_are_not_run_again(truth: Trace, file: Pa
     assert drawn(source, index(source, "plant", "x")) == dense(truth, "plant.x").tolist()
 
 
+HOMED = "KMD_INICJALIZACJA\nKMD_RUCHd x=20\n"
+
+
+@pytest.mark.parametrize("form", [".trace", ".seg"])
+@pytest.mark.parametrize("options", [(), ("--plant", "dynamic", "--seed", "3")])
+def test_the_axes_at_any_tick_are_known_before_the_run_has_come_there(
+    form: str, options: tuple[str, ...], tmp_path: Path
+) -> None:
+    """By a jump, or where the inputs are another plant's not at all; never wrongly."""
+    (tmp_path / "job.kmd").write_text(HOMED)
+    file = tmp_path / f"job{form}"
+    assert main(["run", str(tmp_path / "job.kmd"), "--trace", str(file), *options]) == 0
+    far, whole = TraceFile(file, LIBRARY), run_through(TraceFile(file, LIBRARY))
+    assert whole.known_to(index(whole, "x", "column")) == whole.last_tick + 1
+    for tick in (whole.last_tick, whole.last_tick - 30, whole.last_tick // 2, 6, 0):
+        there = far.at(tick)
+        assert there == whole.at(tick) or (options and there.axes == ())
+    assert far.known_to(index(far, "x", "column")) == 0
+
+
+def test_a_run_may_be_opened_anywhere_in_it(file: Path, truth: Trace) -> None:
+    assert TraceFile(file, LIBRARY, 700).opening_tick == 700
+    with pytest.raises(TraceError, match=f"no tick {truth.end}: it has {truth.end} ticks"):
+        TraceFile(file, LIBRARY, truth.end)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "lacks"),
-    [("digest ", "digest 0", {"running", "other tables"}), ("plant ideal", "overrun 1", {"underivable"}),
+    [("digest ", "digest 0", {"other tables"}), ("plant ideal", "overrun 1", {"underivable"}),
      ("KMD_GOTO_X_Y 60", "KMD_NONSENSE 60", {"underivable"})],
 )  # fmt: skip
 def test_what_can_not_be_found_is_said(file: Path, old: str, new: str, lacks: set[str]) -> None:
@@ -188,13 +215,18 @@ def test_what_can_not_be_found_is_said(file: Path, old: str, new: str, lacks: se
 
 
 def test_a_run_that_would_take_too_much_memory_is_known_in_part(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tracefile, "MOST_ROWS", len(TraceFile(file, LIBRARY).lanes) + 500)
+    job, file = file.with_suffix(".kmd"), file.with_suffix(".seg")
+    job.write_text("KMD_RUCHd x=3\nKMD_RUCHd x=-3\n" * CAPACITY)
+    assert main(["run", str(job), "--trace", str(file)]) == 0
+    monkeypatch.setattr(tracefile, "MOST_ROWS", len(TraceFile(file, LIBRARY).lanes) + 16 * CAPACITY)
     source = TraceFile(file, LIBRARY)
     while source.notices()[0].lack == "running":
         source.turn()
     known = source.known_to(index(source, "x", "column"))
     assert source.notices() == (Notice("too long", known),) and 0 < known < source.last_tick
-    assert source.at(known - 1).axes and not source.at(known).axes and source.first_tick == 0
+    x_column = index(source, "x", "column")
+    assert source.window(x_column, known - 9, known + 9).ticks[-1] < known and source.first_tick == 0
+    assert source.at(known - 1).axes and source.at(known).axes
 
 
 @pytest.fixture

@@ -1,5 +1,7 @@
 """The operator's console without a screen: what is asked happens, what can't be is refused with a reason."""
 
+import os
+import signal
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,6 +12,7 @@ from drillctl.machine import Library
 from drillctl.panel.console import Asked
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
+from drillctl.wiring.paced import PacedLink
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 PATIENCE_S = 40.0
@@ -136,3 +139,21 @@ def test_a_busy_desk_at_rest_loses_nothing_and_a_moving_machine_takes_no_board(s
     station.jog("x", 9000)
     assert station.load(str(EXAMPLES / "blinker.drl"), Asked())[0].startswith("the machine is at work")
     settle(station)
+
+
+def test_a_ticker_that_was_killed_is_told_of_and_started_anew(station: Station) -> None:
+    station.initialise()
+    settle(station)
+    station.jog("x", 3000)
+    assert isinstance(station.link, PacedLink)
+    os.kill(station.link._ticker.pid, signal.SIGKILL)
+    settle(station)
+    view = station.view()
+    assert view.fault is not None and view.fault.name == "TICKER_LOST" and view.fault.position == "lost"
+    assert (view.condition, view.moving, view.position_known, view.command) == ("latched", False, False, "")
+    assert "acknowledge" in station.initialise()[0]
+    assert station.acknowledge() == ()
+    assert station.view().fault is None
+    assert station.initialise() == ()
+    settle(station)
+    assert station.view().position_known

@@ -50,6 +50,14 @@ def refusals() -> set[str]:
     return {bare for text in found if len(re.findall(r"[a-z]{2,}", bare := without_place(text))) >= 3 and " " in bare}
 
 
+def editors_findings() -> set[str]:
+    """What the editors of queues and tables find wrong with a text, or dangerous."""
+    files = ("kmd/text.py", "machine/hazards.py", "machine/ramp.py", "machine/phase.py", "machine/settings.py")
+    nodes = [node for file in files for node in ast.walk(ast.parse((PACKAGE / file).read_text("utf-8")))]
+    forms = {form for node in nodes if isinstance(node, ast.JoinedStr) for form in texts(node)}
+    return {bare for form in forms if len(re.findall(r"[a-z]{2,}", bare := without_place(form))) >= 3}
+
+
 def without_place(text: str) -> str:
     """What follows the place that a sentence begins with."""
     return re.sub(r"^(\{\}(:\{\}|:1)*: )+", "", text)

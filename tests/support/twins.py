@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from drillctl.execution.axis import Axis
 from drillctl.kmd import Request
 from drillctl.machine import Machine
-from drillctl.trace import Trace
+from drillctl.trace import Recorder, Trace
 from drillctl.wiring.fast_ticker import FastTicker
+from drillctl.wiring.sampler import Sampler, signals
 from drillctl.wiring.ticker import Ticker
 
 Disturbances = Mapping[int, int]  # by tick: requests as bits of the mailbox, or below 0 a gap of so many periods
@@ -45,8 +46,10 @@ def disturb(ticker: Ticker, what: int) -> None:
 
 def twins(machine: Machine, program: NDArray[np.void], disturbances: Disturbances, ticks: int
           ) -> tuple[Ticker, FastTicker]:  # fmt: skip
-    """The law and the fast one, after the same."""
-    slow, fast = Ticker.simulated(machine, traced=True), FastTicker.ideal(machine, traced=True)
+    """The law and the fast one, after the same; both keep columns, positions and states, and no rotors."""
+    kept = signals(machine, with_plant=False, derived=True)
+    slow, fast = Ticker.simulated(machine), FastTicker.ideal(machine, traced=True, keeper=Recorder(kept))
+    slow.sampler = Sampler(slow.controller, None, True)
     return ran(slow, program, disturbances, ticks), ran(fast, program, disturbances, ticks)
 
 

@@ -58,8 +58,9 @@ class FakeConsole:
     recent_jobs: list[RecentJob] = field(default_factory=list)
     unfinished_jobs: list[UnfinishedJob] = field(default_factory=list)
 
-    def turn(self) -> None:
+    def turn(self) -> bool:
         """Nothing is new."""
+        return False
 
     def view(self) -> MachineView:
         return self.now

@@ -99,7 +99,8 @@ def test_every_word_of_the_key_line_is_read(
     for program in opened(name):
         line = told("\n".join(program.text().splitlines()[-6:]))
         for key in (EMERGENCY, *screen_keys(program.app.screens[-1]), *FRAME_KEYS):
-            assert f"{key.printed} {words._(key.short)}".strip() in line or not key.short
+            shown = bool(key.short) and (key.method != "back" or len(program.app.screens) > 1)
+            assert not shown or f"{words._(key.printed)} {words._(key.short)}" in line
 
 
 def opened(name: str) -> Iterator[Whole]:

@@ -36,7 +36,7 @@ CLICKS = ("mouse press", "mouse release", "mouse drag")
 MOVING = {
     "Drilling.dry_run", "Drilling.hold_or_resume", "Drilling.initialise", "Drilling.set_base", "AtMachine.jog_on",
     "AtMachine.jog_back", "Drilling._go_to", "QueueEditor.run_all", "QueueEditor.run_to_cursor", "QueueEditor.run_line",
-    "QueueEditor.tick", "AlignmentScreen.go_there",
+    "QueueEditor.tick", "AlignmentScreen.go_there", "Signals.toggle",
 }  # fmt: skip
 CARRIED_ON = "Jogging.carry_on"  # the one step that waits while a jog is on its way; it was asked for by a key
 ANSWERED = "Dialog._closed_by.<locals>.both"  # a button was pressed

@@ -235,6 +235,13 @@ def test_a_run_without_a_tick_says_so_and_takes_every_key(square: TraceFile, mon
     assert "Nothing was run yet." in program.text()
 
 
+def test_a_run_is_opened_at_the_tick_that_was_asked_for(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert Scoped(square).cursor() == 0
+    monkeypatch.setattr(square, "opening_tick", 4321)
+    program = Scoped(square)
+    assert program.cursor() == 4321
+
+
 def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile) -> None:
     program = Scoped(square, live=True)
     program.press("o", *"a.trace", "enter")
@@ -264,7 +271,7 @@ def test_the_help_tells_of_every_key_and_no_key_is_told_twice(square: TraceFile,
     program.press("f1")
     text = program.text()
     for key in SCOPE_KEYS:
-        assert f"{key.printed:<12}{words._(key.help)}"[:66] in text
+        assert f"{words._(key.printed):<12}{words._(key.help)}"[:66] in text
     names = [name for key in SCOPE_KEYS for name in key.names]
     assert len(names) == len(set(names))
 

@@ -46,3 +46,14 @@ def test_a_signal_leaves_cleanly(terminal: "terminals.Terminal", number: signal.
     terminal.wait_for("No board is loaded")
     os.kill(terminal.pid, number)
     assert terminal.exit_code() == 128 + number
+
+
+def test_a_terminal_that_takes_no_utf8_has_a_screen_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+    made = terminals.Terminal("--lang", "pl", folder=tmp_path, size=(80, 24))
+    try:
+        made.wait_for("Nie wczytano plytki")
+        made.press("F1")
+        made.wait_for("wierci plytke; najpierw pyta")
+    finally:
+        made.close()

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from drillctl.generation.drillfile import read
 from drillctl.generation.drillfile.errors import REFUSALS, WARNINGS
+from drillctl.kmd import KmdError, Names, parse_program
 from drillctl.ui import words
 from drillctl.ui.told import told
-from tests.support.sentences import form_of, refusals
+from tests.support.sentences import editors_findings, form_of, refusals
 from tests.ui.test_words import POLISH
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
@@ -54,6 +55,27 @@ def test_in_english_nothing_changes() -> None:
 @pytest.mark.parametrize("sentence", sorted(refusals()))
 def test_every_refusal_and_warning_of_generation_has_its_polish(sentence: str) -> None:
     assert sentence in {form_of(source) for source in POLISH}
+
+
+@pytest.mark.parametrize("sentence", sorted(editors_findings()))
+def test_every_finding_of_the_editors_has_its_polish(sentence: str) -> None:
+    assert sentence in {form_of(source) for source in POLISH}
+
+
+@pytest.mark.parametrize(
+    ("line", "word"),
+    [
+        ("KMD_BAZZA", "nieznany rozkaz 'KMD_BAZZA'; może KMD_BAZA?"),
+        ("KMD_GOTOdXdY 1", "argumentów: 1; zapis: KMD_GOTOdXdY dX dY"),
+        ("KMD_GOTOdXdY 1 b", "'b' to nie liczba całkowita"),
+        ("KMD_WYJSCIE lampa 1", "nieznana nazwa 'lampa' (wyjście); ta maszyna nie ma żadnych"),
+        ("KMD_RUCH q=1", "nie ma osi 'q'; są x, y"),
+    ],
+)
+def test_a_wrong_line_of_a_queue_is_told(line: str, word: str) -> None:
+    with pytest.raises(KmdError) as refused:
+        parse_program(line, Names(("x", "y"), {}, {}))
+    assert told(f"3:1: {refused.value.reason}") == f"3:1: {word}"
 
 
 @pytest.mark.parametrize("code", [*REFUSALS, *WARNINGS])

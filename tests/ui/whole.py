@@ -14,6 +14,7 @@ from drillctl.cli.benches import Benches
 from drillctl.machine import Library, shipped_tables
 from drillctl.panel.console import Problems
 from drillctl.panel.jobs import Asked
+from drillctl.station import handbench
 from drillctl.station.station import Station
 from drillctl.ui import app, words
 from drillctl.wiring.machinery import Running
@@ -34,6 +35,7 @@ def at_home(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setenv(name, str(home))
     monkeypatch.chdir(home)
     monkeypatch.setattr(app, "TURNING_S", 0.0)
+    monkeypatch.setattr(handbench, "HandBench", WatchedHands)
     (home / BLINKER.name).write_bytes(BLINKER.read_bytes())
 
 
@@ -60,37 +62,46 @@ class Watched(Station):
         return super().load(str(BLINKER), asked)
 
     def start(self, dry: bool) -> Problems:
-        return self._noted("dry" if dry else "start", super().start(dry))
+        return self.noted("dry" if dry else "start", super().start(dry))
 
     def go_on(self, journal: str) -> Problems:
-        return self._noted("go_on", super().go_on(journal))
+        return self.noted("go_on", super().go_on(journal))
 
     def tool_changed(self) -> Problems:
-        return self._noted("tool_changed", super().tool_changed())
+        return self.noted("tool_changed", super().tool_changed())
 
     def run_queue(self, text: str) -> Problems:
-        return self._noted("run_queue", super().run_queue(text))
+        return self.noted("run_queue", super().run_queue(text))
 
     def initialise(self) -> Problems:
-        return self._noted("initialise", super().initialise())
+        return self.noted("initialise", super().initialise())
 
     def jog(self, axis: str, steps: int) -> Problems:
-        return self._noted("jog", super().jog(axis, steps))
+        return self.noted("jog", super().jog(axis, steps))
 
     def go_to(self, x_mm: float, y_mm: float) -> Problems:
-        return self._noted("go_to", super().go_to(x_mm, y_mm))
+        return self.noted("go_to", super().go_to(x_mm, y_mm))
 
     def resume(self) -> Problems:
-        return self._noted("resume", super().resume())
+        return self.noted("resume", super().resume())
 
     def emergency_stop(self) -> Problems:
         self.stops += 1
         return super().emergency_stop()
 
-    def _noted(self, what: str, problems: Problems) -> Problems:
+    def noted(self, what: str, problems: Problems) -> Problems:
+        """Handed on as it is."""
         if not problems:
             self.moved.append((what, actions()))
         return problems
+
+
+class WatchedHands(handbench.HandBench):
+    """An output that is switched by hand is noted as well."""
+
+    def set_output(self, bit: int, on: bool) -> Problems:
+        assert isinstance(self._station, Watched)
+        return self._station.noted("set_output", super().set_output(bit, on))
 
 
 class Whole:

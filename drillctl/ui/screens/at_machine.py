@@ -11,10 +11,10 @@ from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
 JOG_KEYS = (
-    Key(("left",), "Left", "jog_back", N_("first axis back by a step size"), argument=0),
-    Key(("right",), "Right", "jog_on", N_("first axis on by a step size"), argument=0),
-    Key(("down",), "Down", "jog_back", N_("second axis back by a step size"), argument=1),
-    Key(("up",), "Up", "jog_on", N_("second axis on by a step size"), argument=1),
+    Key(("left",), N_("Left"), "jog_back", N_("first axis back by a step size"), argument=0),
+    Key(("right",), N_("Right"), "jog_on", N_("first axis on by a step size"), argument=0),
+    Key(("down",), N_("Down"), "jog_back", N_("second axis back by a step size"), argument=1),
+    Key(("up",), N_("Up"), "jog_on", N_("second axis on by a step size"), argument=1),
     Key(("page up",), "PgUp", "jog_back", N_("third axis back: the head up"), argument=2),
     Key(("page down",), "PgDn", "jog_on", N_("third axis on: the head down"), argument=2),
     Key(("+", "="), "+", "step_size", N_("the next step size of a jog"), argument=1),

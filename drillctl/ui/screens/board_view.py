@@ -32,6 +32,7 @@ class BoardPicture(urwid.Widget):
     _sizing = frozenset([urwid.Sizing.BOX])
 
     def __init__(self, plain: bool = False):
+        super().__init__()
         self._plain = plain
         self._state: tuple[BoardView | None, int, bool, Place | None] = (None, 0, False, None)
 

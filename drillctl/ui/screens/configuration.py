@@ -19,6 +19,7 @@ from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
 LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
@@ -29,8 +30,8 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
 
     title = N_("Configuration")
     keys = (
-        Key(("up",), "Up", "go", N_("the field above"), argument=-1),
-        Key(("down", "enter", "tab"), "Down", "go", N_("the field below"), argument=1),
+        Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
+        Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
         Key(("f6",), "F6", "cycle", N_("the next choice, where a field has choices"), N_("Choice")),
         Key(("f2",), "F2", "save", N_("saves to your own copy; a wrong value is never saved"), N_("Save")),
         Key(("f3",), "F3", "diff", N_("what differs from the shipped file"), N_("Diff")),
@@ -149,7 +150,8 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
             return
         edit = self._edits[self._list.focus_position]
         if field.locked and edit.edit_text != field.value:
-            self._shell.message(_("Locked"), self._form.refusal(field, str(edit.edit_text)))
+            refusal = self._form.refusal(field, str(edit.edit_text))
+            self._shell.message(_("Locked"), [told(problem) for problem in refusal])
             edit.set_edit_text(field.value)
         self._form.type(field, str(edit.edit_text))
         self._look()
@@ -166,10 +168,10 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
     def _lines(self) -> list[Line]:
         field = self._field
         if field is None:
-            return [[("danger", _("problem: ") + str(found))] for found in self._form.check().problems]
-        wrong = [told for other in self._form.fields if (told := self._form.problem(other))]
+            return [[("danger", _("problem: ") + told(str(found)))] for found in self._form.check().problems]
+        wrong = [problem for other in self._form.fields if (problem := self._form.problem(other))]
         wrong = wrong or list(map(str, self._form.check().problems))
-        problems: list[Line] = [[("danger", _("problem: ") + told)] for told in wrong]
+        problems: list[Line] = [[("danger", _("problem: ") + told(problem))] for problem in wrong]
         return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
 
 
@@ -177,8 +179,8 @@ def _row(field: FieldView, edit: urwid.Edit) -> urwid.Widget:
     unit = _(words_of(field).unit)
     allowed = " | ".join(field.choices) or field.bounds
     sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
-    told: Line = [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []
+    hint: Line = [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []
     label, box = urwid.Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
-    if not told:  # free text has the whole line
+    if not hint:  # free text has the whole line
         return urwid.Columns([(LABEL_COLUMNS, label), box], 1)
-    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), urwid.Text(told, wrap="clip")], 1)
+    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), urwid.Text(hint, wrap="clip")], 1)

@@ -10,10 +10,12 @@ from typing import Any
 import urwid
 
 from drillctl.panel.console import Console, MachineView
+from drillctl.panel.records import Progress
 from drillctl.ui.alerts import tool_name
 from drillctl.ui.dialogs import pair_mm
 from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Line, Size
+from drillctl.ui.progress import clock
 from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.side_window import SideWindow
@@ -33,7 +35,7 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
     keys = (
         Key(("s",), "S", "start", N_("drills the board; asks first"), N_("Start")),
         Key(("d",), "D", "dry_run", N_("goes to every hole with the drill up"), N_("Dry")),
-        Key((" ",), "Space", "hold_or_resume", N_("holds the job, or goes on with it"), N_("Hold")),
+        Key((" ",), N_("Space"), "hold_or_resume", N_("holds the job, or goes on with it"), N_("Hold")),
         Key(("x",), "X", "stop", N_("ends the job; the position is kept"), N_("Stop")),
         Key(("c",), "C", "tool_changed", N_("the tool that the job waits for is in; asks first")),
         Key(("i",), "I", "initialise", N_("head up, then X=0, Y=0 by the limit sensors"), N_("Init")),
@@ -51,6 +53,7 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         self._shell, self._open_files = shell, files
         self._picture = BoardPicture(plain)
         self._window = SideWindow()
+        self._was_at_work = False
         self._footer = urwid.Text("")
         self._columns = urwid.Columns([self._picture, self._window], dividechars=1)
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._columns, footer=self._footer))
@@ -61,7 +64,8 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         return True
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's; everything else is the frame's."""
+        """The table's; everything else is the frame's. What was answered to the key before is old news."""
+        self._note = ("body", "")
         return None if called(self, self.keys, key) else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
@@ -82,6 +86,9 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         head = (view.axes[0].position_mm, view.axes[1].position_mm) if len(view.axes) > 1 else None
         running = bool(of_board and view.command)
         self._picture.show(board, of_board.holes_done if of_board else 0, running, head)
+        if self._was_at_work and not view.at_work and of_board:
+            self._note = ("body", _ended(of_board))
+        self._was_at_work = view.at_work
         self._footer.set_text(self._bottom(*self._awaited(view)))
 
     def start(self) -> None:
@@ -182,3 +189,9 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         if view.tool_wanted is None:
             return []
         return [("warning", _("waits for {tool}: C when it is in").format(tool=tool_name(view.tool_wanted))), "  "]
+
+
+def _ended(of_board: Progress) -> str:
+    """What became of a board."""
+    told = _("ended: {done} of {total} holes in {time}")
+    return told.format(done=of_board.holes_done, total=of_board.holes_total, time=clock(of_board.machine_seconds))

@@ -22,11 +22,11 @@ class PhaseEditor(TableEditor):
     kind = "phase"
     title = N_("Phase table")
     keys = (
-        Key((" ",), "Space", "toggle", N_("turns the cell over"), N_("Cell")),
-        Key(("left",), "Left", "sideways", N_("a column to the left"), argument=-1),
-        Key(("right",), "Right", "sideways", N_("a column to the right"), argument=1),
-        Key(("up",), "Up", "upwards", N_("a row up"), argument=-1),
-        Key(("down",), "Down", "upwards", N_("a row down"), argument=1),
+        Key((" ",), N_("Space"), "toggle", N_("turns the cell over"), N_("Cell")),
+        Key(("left",), N_("Left"), "sideways", N_("a column to the left"), argument=-1),
+        Key(("right",), N_("Right"), "sideways", N_("a column to the right"), argument=1),
+        Key(("up",), N_("Up"), "upwards", N_("a row up"), argument=-1),
+        Key(("down",), N_("Down"), "upwards", N_("a row down"), argument=1),
         Key(("i", "insert"), "I", "insert", N_("the column once more, beside it"), N_("Insert")),
         Key(("x", "delete"), "X", "remove", N_("takes the column away"), N_("Remove")),
         Key(("m",), "M", "mirror", N_("rows for motion backwards with forcing mirrored, or none again"), N_("Mirror")),

@@ -193,7 +193,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
 
     def _save(self, file: str) -> None:
         if problems := self._desk.save_queue(file, self.text):
-            self._shell.message(_("Not saved"), problems)
+            self._shell.message(_("Not saved"), [told(problem) for problem in problems])
             return
         self.file, self._saved = file, self.text
         self._look()
@@ -204,7 +204,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
     def _open(self, file: str) -> None:
         text, problems = self._desk.open_queue(file)
         if problems:
-            self._shell.message(_("Not opened"), problems)
+            self._shell.message(_("Not opened"), [told(problem) for problem in problems])
         else:
             self._put(file, text)
 
@@ -236,7 +236,7 @@ def _axis(axis: AxisView) -> str:
 
 
 def _findings(found: tuple[Finding, ...]) -> list[Line]:
-    lines: list[Line] = [[("danger", str(finding))] for finding in found[:MOST_FINDINGS]]
+    lines: list[Line] = [[("danger", told(str(finding)))] for finding in found[:MOST_FINDINGS]]
     more = len(found) - MOST_FINDINGS
     rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
     return [*lines, *rest] or [[("good", _("sound"))]]

@@ -26,10 +26,10 @@ class RampEditor(TableEditor):
     kind = "ramp"
     title = N_("Ramp")
     keys = (
-        Key(("left",), "Left", "sideways", N_("a number to the left"), argument=-1),
-        Key(("right", "tab"), "Right", "sideways", N_("a number to the right"), argument=1),
-        Key(("up",), "Up", "upwards", N_("a state up"), argument=-1),
-        Key(("down", "enter"), "Down", "upwards", N_("a state down"), argument=1),
+        Key(("left",), N_("Left"), "sideways", N_("a number to the left"), argument=-1),
+        Key(("right", "tab"), N_("Right"), "sideways", N_("a number to the right"), argument=1),
+        Key(("up",), N_("Up"), "upwards", N_("a state up"), argument=-1),
+        Key(("down", "enter"), N_("Down"), "upwards", N_("a state down"), argument=1),
         Key(("backspace",), "Backspace", "rub_out", N_("takes the last digit away")),
         Key(("a", "insert"), "A", "more", N_("a pair of states more; numbers are proposed"), N_("Add")),
         Key(("x", "delete"), "X", "fewer", N_("takes the outermost pair of states away"), N_("Remove")),

@@ -161,7 +161,7 @@ class Scope(urwid.Widget):
         self._with_rows(self._rows.all())
 
     def _look_at(self, source: ScopeSource) -> None:
-        """From its end on, and on with it where it goes on."""
+        """From its end on, and on with it, where it goes on; else where it is to be opened."""
         self._source = source
         self._following = self._live
         self._marks: dict[str, int] = {}
@@ -169,7 +169,7 @@ class Scope(urwid.Widget):
         self._top = self._room = 0
         source.turn()
         self._view = Viewport().of_run(source.first_tick, source.last_tick)
-        self._view = self._view.go(source.last_tick if self._live else source.first_tick)
+        self._view = self._view.go(source.last_tick if self._live else source.opening_tick)
         self._say("")
 
     def _look(self) -> Look:

@@ -44,8 +44,8 @@ SEARCH_KEYS = tuple(
     )
 )  # fmt: skip
 SCOPE_KEYS = (
-    Key(("left",), "Left", "step", N_("the cursor a column to the left"), argument=-1),
-    Key(("right",), "Right", "step", N_("the cursor a column to the right"), argument=1),
+    Key(("left",), N_("Left"), "step", N_("the cursor a column to the left"), argument=-1),
+    Key(("right",), N_("Right"), "step", N_("the cursor a column to the right"), argument=1),
     Key((",",), ",", "pan", N_("half a screen to the left"), argument=-1),
     Key((".",), ".", "pan", N_("half a screen to the right"), argument=1),
     Key(("+", "="), "+", "zoom", N_("closer, around the cursor"), N_("Closer"), CLOSER),
@@ -53,13 +53,13 @@ SCOPE_KEYS = (
     Key(("w",), "W", "whole", N_("the whole run"), N_("Whole")),
     Key(("home",), "Home", "start", N_("to the first tick")),
     Key(("end",), "End", "end", N_("to the last tick")),
-    Key((" ",), "Space", "follow", N_("follows the run as it goes on, or stays"), N_("Follow")),
+    Key((" ",), N_("Space"), "follow", N_("follows the run as it goes on, or stays"), N_("Follow")),
     Key(("g",), "G", "go_to", N_("goes to a tick, typed"), N_("Go to")),
     Key(("a",), "A", "mark", N_("puts mark A here; there again takes it away"), N_("Mark A"), "A"),
     Key(("b",), "B", "mark", N_("puts mark B here; there again takes it away"), N_("Mark B"), "B"),
     *SEARCH_KEYS,
-    Key(("up",), "Up", "row", N_("a row up"), argument=-1),
-    Key(("down",), "Down", "row", N_("a row down"), argument=1),
+    Key(("up",), N_("Up"), "row", N_("a row up"), argument=-1),
+    Key(("down",), N_("Down"), "row", N_("a row down"), argument=1),
     Key(("page up",), "PgUp", "row", N_("eight rows up"), argument=-PAGE_ROWS),
     Key(("page down",), "PgDn", "row", N_("eight rows down"), argument=PAGE_ROWS),
     Key(("h",), "H", "hide", N_("hides this row"), N_("Hide")),

@@ -69,9 +69,9 @@ def title(signal: ScopeSignal) -> str:
 def scope_lines(source: ScopeSource, look: Look, columns: int, rows: int) -> tuple[list[Line], int, int]:
     """The lines, the line at which the waves begin, and how many of them there are."""
     layout = Layout.of(source.signals(), columns)
-    head = _heading(source, look)
     if source.last_tick < source.first_tick:
-        return [*head, [("dark", _("Nothing was run yet."))]], 0, 0
+        return [[("dark", _("Nothing was run yet."))]], 0, 0
+    head = _heading(source, look)
     moment = source.at(look.view.cursor)
     foot = _foot(source, look, moment, columns, bool(layout.tables))
     room = max(1, rows - len(head) - len(foot) - 1)

@@ -10,6 +10,7 @@ from drillctl.panel.console import Console, Problems
 from drillctl.panel.tables import Kind, TableDesk
 from drillctl.ui.screens.compare import differences
 from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
 from drillctl.ui.words import _
 
 Then = Callable[[], None]
@@ -54,8 +55,8 @@ class Shelf:
             if other not in {entry.name for entry in self._desk.tables(self._kind)}:
                 self._shell.message(_("Not compared"), [_("there is no table named {name!r}").format(name=other)])
                 return
-            told = differences(self._desk, self._kind, name, other)
-            self._shell.message(_("Differences"), told or [_("none: they are alike")])
+            lines = differences(self._desk, self._kind, name, other)
+            self._shell.message(_("Differences"), lines or [_("none: they are alike")])
 
         self._shell.ask_text(_("Compare"), _("{name} with:").format(name=name), "", accept)
 
@@ -79,5 +80,5 @@ class Shelf:
 
     def _refused(self, title: str, problems: Problems) -> bool:
         if problems:
-            self._shell.message(title, problems)
+            self._shell.message(title, [told(problem) for problem in problems])
         return bool(problems)

@@ -25,6 +25,7 @@ class SideWindow(urwid.Widget):
     _sizing = frozenset([urwid.Sizing.BOX])
 
     def __init__(self) -> None:
+        super().__init__()
         self._shown: tuple[MachineView, Progress | None, BoardView | None] | None = None
         self._page = 0
 

@@ -26,11 +26,11 @@ class Signals(urwid.Widget):
     _selectable = True
     title = N_("Signals")
     keys = (
-        Key((" ", "enter"), "Space", "toggle", N_("switches the output over, at rest"), N_("Switch")),
-        Key(("left",), "Left", "sideways", N_("the signal before"), argument=-1),
-        Key(("right",), "Right", "sideways", N_("the next signal"), argument=1),
-        Key(("up",), "Up", "downwards", N_("a line up"), argument=-1),
-        Key(("down",), "Down", "downwards", N_("a line down"), argument=1),
+        Key((" ", "enter"), N_("Space"), "toggle", N_("switches the output over, at rest"), N_("Switch")),
+        Key(("left",), N_("Left"), "sideways", N_("the signal before"), argument=-1),
+        Key(("right",), N_("Right"), "sideways", N_("the next signal"), argument=1),
+        Key(("up",), N_("Up"), "downwards", N_("a line up"), argument=-1),
+        Key(("down",), N_("Down"), "downwards", N_("a line down"), argument=1),
         Key(("page up",), "PgUp", "downwards", N_("a section of lines up"), argument=-8),
         Key(("page down",), "PgDn", "downwards", N_("a section of lines down"), argument=8),
     )

@@ -13,6 +13,7 @@ from drillctl.ui.lines import Line, boxed
 from drillctl.ui.models.history import History
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.shell import Shell
+from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid has it; a box has two
@@ -125,9 +126,9 @@ class TableEditor(urwid.Widget):
         return f"{_(self.title)}: {self._name} ({_(ORIGINS[self._origin])}{changed})"
 
     def _verdict(self) -> list[Line]:
-        problems: list[Line] = [[("danger", _("problem: ") + str(found))] for found in self._checked.problems]
-        warnings: list[Line] = [[("warning", _("warning: ") + str(found))] for found in self._checked.warnings]
-        told = [*problems, *warnings]
-        more = len(told) - MOST_FINDINGS
+        problems: list[Line] = [[("danger", _("problem: ") + told(str(found)))] for found in self._checked.problems]
+        warnings: list[Line] = [[("warning", _("warning: ") + told(str(found)))] for found in self._checked.warnings]
+        lines = [*problems, *warnings]
+        more = len(lines) - MOST_FINDINGS
         rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
-        return [*told[:MOST_FINDINGS], *rest] if told else [[("good", _("sound"))]]
+        return [*lines[:MOST_FINDINGS], *rest] if lines else [[("good", _("sound"))]]

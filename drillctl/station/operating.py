@@ -1,0 +1,203 @@
+"""Wiring: the machine in use under the operator's hands: one job after another on it, jogs, queues, requests.
+
+Rule: nothing is begun while something else is on its way, and what overtakes the queue is never refused for that. The
+base of station, which adds the boards.
+"""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.generation.job import Job, names_of
+from drillctl.generation.journal import Journal
+from drillctl.kmd import Condition, KmdError, Request, parse_program
+from drillctl.machine import Machine
+from drillctl.panel.console import Problems
+from drillctl.panel.records import Progress
+from drillctl.station.dryrun import visited
+from drillctl.station.inuse import InUse
+from drillctl.station.jogging import Jogging, way_left
+from drillctl.station.scope import Recording
+from drillctl.station.toolgate import ToolGate, asks_for_tools
+from drillctl.station.workingbase import WorkingBase
+from drillctl.wiring.desk import Desk
+from drillctl.wiring.link import Link
+
+BUSY = "the machine is at work; hold or stop it first"
+
+
+class Operating:
+    """One machine, one job at a time. ``tools``: ask or assume at a tool change; None: as the machine's file has it."""
+
+    def __init__(self, used: InUse, tools: str | None):
+        self._used, self._tools = used, tools
+        self._gate = ToolGate()
+        self._jogs = Jogging(
+            lambda axis, steps: self.run_queue(f"KMD_RUCHd {axis}={steps}\n"),
+            lambda: self.link.post(Request.STOP),
+            lambda axis, steps: way_left(self.machine, self.link.status(), axis, steps),
+        )
+        self._desk: Desk | None = None
+        self._last: Progress | None = None
+        self._base = WorkingBase(used.machine)
+
+    @property
+    def machine(self) -> Machine:
+        """The one in use."""
+        return self._used.machine
+
+    @property
+    def link(self) -> Link:
+        """To the machine in use."""
+        return self._used.link
+
+    @property
+    def recording(self) -> Recording:
+        """Of the runs of the machine in use."""
+        return self._used.recording
+
+    @property
+    def used(self) -> InUse:
+        """The machine in use, with its port."""
+        return self._used
+
+    @property
+    def at_work(self) -> bool:
+        """A job, a jog or an initialisation is on its way."""
+        return self._desk is not None
+
+    def turn(self) -> bool:
+        """The running job goes on; without one the link alone lives."""
+        if self._desk is None:
+            self.link.turn()
+            self.link.touches()
+        elif self._desk.advance():
+            self._over(self._desk)
+        if self.link.status()["condition"] == Condition.RETURNING:  # by the homing table, which ends at machine zero
+            self._base.move(0, 0)
+        self.recording.keep()
+        self._jogs.carry_on(self.at_work, time.monotonic())
+        return self.at_work and self._used.runs_free
+
+    def progress(self) -> Progress | None:
+        """Of the job that runs, or ran last."""
+        return self._last if self._desk is None else _progress(self._desk)
+
+    def run_queue(self, text: str) -> Problems:
+        """A queue written by hand."""
+        try:
+            program = parse_program(text, names_of(self.machine), "queue")
+        except KmdError as error:
+            return (str(error),)
+        return self._begin(Job("queue", program, self.machine))
+
+    def initialise(self) -> Problems:
+        """Machine zero becomes the working base."""
+        problems = self.run_queue("KMD_INICJALIZACJA\n")
+        if not problems:
+            self._base.move(0, 0)
+        return problems
+
+    def jog(self, axis: str, steps: int) -> Problems:
+        """Not while anything else runs, nor while a jog is held."""
+        held = self.link.status()["condition"] != Condition.READY
+        if self.at_work and (held or not self._jogs.under_way):
+            return (BUSY,)
+        return self._jogs.press((axis, steps), self.at_work, time.monotonic())
+
+    def go_to(self, x_mm: float, y_mm: float) -> Problems:
+        """The drill goes up first."""
+        x, y = (round(mm * self._steps_per_mm(axis)) for axis, mm in (("x", x_mm), ("y", y_mm)))
+        return self.run_queue(f"KMD_WIERTLO_GORA\nKMD_GOTO_X_Y {x} {y}\n")
+
+    def set_base(self) -> Problems:
+        """For X and Y."""
+        problems = self.run_queue("KMD_BAZA\n")
+        if not problems:
+            self._base.take(self.link.status()["position"].tolist())
+        return problems
+
+    def tool_changed(self) -> Problems:
+        """The queue goes on, unless it is held."""
+        return self._gate.confirm()
+
+    def hold(self) -> Problems:
+        """A request: it overtakes the queue."""
+        self._jogs.forget()
+        return self._post(Request.HOLD, self.at_work, "nothing runs that could be held")
+
+    def resume(self) -> Problems:
+        """After a hold; a paused clock goes on too."""
+        held = self.link.gate.paused or self.link.status()["condition"] == Condition.HOLDING
+        self.link.gate.open()
+        return self._post(Request.RESUME, held, "nothing is held")
+
+    def stop(self) -> Problems:
+        """Ends the job."""
+        self._jogs.forget()
+        return self._post(Request.STOP, True, "")
+
+    def emergency_stop(self) -> Problems:
+        """At once."""
+        self._jogs.forget()
+        return self._post(Request.ESTOP, True, "")
+
+    def acknowledge(self) -> Problems:
+        """Of a latched fault."""
+        latched = self.link.status()["condition"] == Condition.LATCHED
+        return self._post(Request.ACK, latched, "there is nothing to acknowledge")
+
+    def busy(self) -> Problems:
+        """Why nothing new can be begun now."""
+        status = self.link.status()
+        if self.link.lost():
+            return ("the ticker's process is gone; acknowledge, and it is started anew",)
+        if status["condition"] == Condition.LATCHED:
+            return ("a fault waits to be acknowledged",)
+        return (BUSY,) if self.at_work or status["moving"] else ()
+
+    def _begin(
+        self, job: Job, journal: Journal | None = None, foreseen: NDArray[np.int64] | None = None, done_before: int = 0
+    ) -> Problems:
+        if problems := self.busy():
+            return problems
+        asks = asks_for_tools(self.machine, self.link.measured, self._tools)
+        self._gate.open_for(job)
+        self._desk = Desk(
+            job, self.link, _nobody, journal, done_before, foreseen,
+            tool_change=self._gate if asks else None, resumes_itself=False,
+        )  # fmt: skip
+        self._desk.begin()
+        self.recording.begin(job.program, int(self._desk.first["done"]))
+        return ()
+
+    def _over(self, desk: Desk) -> None:
+        """A job has ended: nothing of it is left to be done or waited for."""
+        self._last, self._desk = replace(_progress(desk), seconds_left=None), None
+        self._gate.close()
+        self.link.gate.open()
+
+    def _post(self, request: Request, makes_sense: bool, otherwise: str) -> Problems:
+        if not makes_sense:
+            return (otherwise,)
+        self.link.post(request)
+        return ()
+
+    def _steps_per_mm(self, name: str) -> float:
+        index = self.machine.axis_index(name)
+        return 0.0 if index is None else self.machine.axes[index].steps_per_mm
+
+
+def _progress(desk: Desk) -> Progress:
+    """A dry run drills nothing: there a hole counts as done once the head has been over it."""
+    told = desk.progress()
+    if desk.feeder.holes:
+        return told
+    done = int(desk.status["done"] - desk.first["done"])
+    return replace(told, holes_done=visited(desk.job, done))
+
+
+def _nobody(progress: Progress) -> None:
+    """The screen asks for the progress itself."""

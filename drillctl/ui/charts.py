@@ -1,0 +1,131 @@
+"""Pictures of numbers in characters: curves as braille dots between labelled axes. Functions of a record and a size.
+
+Rule: on a terminal every curve has its colour; in a pipe all are alike, and the legend names them. Called by the verbs
+that draw; plotted.py draws the same records into files.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.panel.picture import Chart, Curve, Floats, Picture, Style
+from drillctl.ui.board import BRAILLE, CELL_DOTS, braille_cells
+
+MARGIN = 10  # characters left of a chart, for the numbers
+LEAST_COLUMNS = MARGIN + 10
+COLOURS = tuple(f"\x1b[{code}m" for code in (36, 33, 35, 32, 31, 34))  # ECMA-48
+NO_COLOUR = "\x1b[0m"
+NO_DOTS = chr(BRAILLE)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How big a chart is, in characters, and what the terminal can show."""
+
+    columns: int
+    rows: int
+    coloured: bool = False
+    plain: bool = False  # ASCII alone
+
+
+def picture_lines(picture: Picture, look: Look) -> list[str]:
+    """Title, charts and notes. Narrower than LEAST_COLUMNS it is drawn as wide as that."""
+    lines = [picture.title]
+    for chart in picture.charts:
+        lines += ["", *_chart_lines(chart, look)]
+    return [*lines, "", *picture.notes]
+
+
+def _chart_lines(chart: Chart, look: Look) -> list[str]:
+    curves = [_stepped(curve) for curve in chart.curves]
+    points = np.concatenate([np.column_stack((curve.x, curve.y)) for curve in curves])
+    points = points[np.isfinite(points).all(axis=1)]
+    if not len(points):
+        return [f"{chart.y_label}: nothing to be drawn"]
+    frame = _Frame.around(points, chart.to_scale, look)
+    top, bottom = (f"{value:>{MARGIN - 2}.4g} |" for value in (frame.high[1], frame.low[1]))
+    rows = frame.drawn(curves, look)
+    sides = [top, *[" " * (MARGIN - 1) + "|"] * (len(rows) - 2), bottom]
+    body = [side + row for side, row in zip(sides, rows, strict=True)]
+    left, right = (f"{value:.4g}" for value in (frame.low[0], frame.high[0]))
+    foot = " " * MARGIN + left + right.rjust(frame.columns - len(left))
+    head = f"{chart.y_label}   {_legend(chart.curves, look)}"
+    return [head, *body, foot, chart.x_label.rjust(MARGIN + frame.columns)]
+
+
+def _legend(curves: Sequence[Curve], look: Look) -> str:
+    return "   ".join(_painted("-- " + curve.label, number, look) for number, curve in enumerate(curves))
+
+
+def _painted(text: str, number: int, look: Look) -> str:
+    return COLOURS[number % len(COLOURS)] + text + NO_COLOUR if look.coloured else text
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Frame:
+    """Where values fall among the dots of a chart: ``low`` and ``high`` are its corners (x, y)."""
+
+    low: Floats
+    high: Floats
+    columns: int
+    rows: int
+
+    @classmethod
+    def around(cls, points: Floats, to_scale: bool, look: Look) -> "_Frame":
+        """All points (n, 2), n > 0, with room for a value that never changes."""
+        low, high = points.min(axis=0), points.max(axis=0)
+        same = high == low
+        low, high = np.where(same, low - 1, low), np.where(same, high + 1, high)
+        columns, rows = max(look.columns, LEAST_COLUMNS) - MARGIN, max(look.rows, 2)
+        if to_scale:  # a cell's dots are as far apart upwards as sideways
+            dots_per_mm = ((np.array([columns, rows]) * CELL_DOTS[::-1] - 1) / (high - low)).min()
+            columns, rows = np.maximum(np.ceil((high - low) * dots_per_mm / CELL_DOTS[::-1]), 2).astype(int).tolist()
+        return cls(low, high, columns, rows)
+
+    def drawn(self, curves: Sequence[Curve], look: Look) -> list[str]:
+        """Rows of characters from the top; a cell has the colour of the last curve in it."""
+        shape = (self.rows * CELL_DOTS[0], self.columns * CELL_DOTS[1])
+        grid, owner = np.zeros(shape, bool), np.zeros((self.rows, self.columns), int)
+        for number, curve in enumerate(curves):
+            down, across = self._dots(curve, shape)
+            grid[down, across] = True
+            owner[down // CELL_DOTS[0], across // CELL_DOTS[1]] = number
+        rows = zip(braille_cells(grid), owner.tolist(), strict=True)
+        return [_row(cells, owners, look) for cells, owners in rows]
+
+    def _dots(self, curve: Curve, shape: tuple[int, int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Row and column of each dot that a curve goes through."""
+        most = np.array([shape[1] - 1, shape[0] - 1])
+        places = (np.column_stack((curve.x, curve.y)) - self.low) / (self.high - self.low) * most
+        if curve.style is not Style.POINTS:
+            places = _joined(places)
+        across, up = np.rint(places[np.isfinite(places).all(axis=1)]).astype(int).T
+        return shape[0] - 1 - up, across
+
+
+def _row(cells: Sequence[str], owners: Sequence[int], look: Look) -> str:
+    if look.plain:
+        return "".join(" " if cell == NO_DOTS else "*" for cell in cells)
+    if not look.coloured:
+        return "".join(cells)
+    return "".join(_painted(cell, owner, look) for cell, owner in zip(cells, owners, strict=True))
+
+
+def _stepped(curve: Curve) -> Curve:
+    """Stairs as the line that they are."""
+    if curve.style is not Style.STAIRS:
+        return curve
+    return Curve(curve.label, np.repeat(curve.x, 2)[1:], np.repeat(curve.y, 2)[:-1])
+
+
+def _joined(places: Floats) -> Floats:
+    """Points (n, 2) with as many between them as leave no dot out; a point that is no number breaks the line."""
+    step = np.diff(places, axis=0)
+    whole = np.isfinite(step).all(axis=1)
+    step, begin = step[whole], places[:-1][whole]
+    parts = np.maximum(np.ceil(np.abs(step).max(axis=1)), 1).astype(int)
+    part = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    between = np.repeat(begin, parts, axis=0) + np.repeat(step / parts[:, None], parts, axis=0) * part[:, None]
+    return np.concatenate((between, places))
