@@ -8,23 +8,39 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
     latency.py  how punctual this computer is    options.py   machine and tables
     jobs.py     the options of a job         operating.py the operator at the terminal while a job runs
     screen.py   work at the machine; what no verb means      scope.py    a trace on the screen
-    benches.py  the screens that edit and look
+    benches.py  the screens that edit and look             streams.py  standard streams that may be gone
+    sweep.py    thousands of variants of a machine         tune.py  the fastest ramp that loses nothing
     plot.py     what the motors did in a run     drawing.py   a picture in the terminal or in a file
 """
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn, TextIO
+from typing import NoReturn
 
 from drillctl import __version__
-from drillctl.cli import convert, estimate, inspect, latency, plot, ports, replay, resume, run, scope, screen, tables
+from drillctl.cli import (
+    convert,
+    estimate,
+    inspect,
+    latency,
+    plot,
+    ports,
+    replay,
+    resume,
+    run,
+    scope,
+    screen,
+    streams,
+    sweep,
+    tables,
+    tune,
+)  # fmt: skip
 from drillctl.wiring.interrupts import caught, exit_code, leave
 
 REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope, plot)
+VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope, plot, sweep, tune)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "
@@ -59,16 +75,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sys.platform not in ("linux", "darwin"):
         print("drillctl: runs on Linux; on macOS and WSL for simulation. Not here.", file=sys.stderr)
         return REFUSED
+    streams.prepare()
     arguments = parser().parse_args(_with_verb(sys.argv[1:] if argv is None else argv))
     try:
         with caught(leave):
-            code = int(arguments.call(arguments))
-            print(end="", flush=True)  # whether somebody reads shows now, not at exit
-            return code
+            return streams.delivered(int(arguments.call(arguments)))
     except KeyboardInterrupt as stop:
         return exit_code(*stop.args)
     except BrokenPipeError:
-        _silence(sys.stdout, sys.stderr)
+        streams.silence(sys.stdout)
         return NOBODY_READS
     except Exception as error:
         return _refuse(error)
@@ -84,10 +99,10 @@ def _refuse(error: Exception) -> int:
     """Tells what the operator got wrong; whatever else it is goes on up, as a fault of ours."""
     if _is_refusal(error):
         reason = str(error)
+    elif isinstance(error, OSError) and error.filename is None:
+        return streams.untold(error)
     elif isinstance(error, OSError):
-        if error.filename is None:
-            _silence(sys.stdout)
-        reason = f"{error.filename or 'standard output'}: {error.strerror}"
+        reason = f"{error.filename}: {error.strerror}"
     else:
         raise error
     for line in reason.splitlines():
@@ -114,10 +129,3 @@ def _is_refusal(error: Exception) -> bool:
         JournalError, LatencyError, LabError, PictureRefused, screen.ScreenError,
     )  # fmt: skip
     return isinstance(error, refusals)
-
-
-def _silence(*streams: TextIO) -> None:
-    """What is still to be written, at exit too, goes nowhere."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    for stream in streams:
-        os.dup2(nowhere, stream.fileno())

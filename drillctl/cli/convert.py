@@ -41,7 +41,8 @@ def call(arguments: argparse.Namespace) -> int:
 def _trace(arguments: argparse.Namespace) -> int:
     """Segments as small as the tables at hand let them be."""
     from drillctl.wiring.outputs import reserved
-    from drillctl.wiring.replay import in_form_of, machine_of
+    from drillctl.wiring.recorded import machine_of
+    from drillctl.wiring.replay import in_form_of
     from drillctl.wiring.trace_files import read_trace, write_record
 
     trace = read_trace(arguments.file)

@@ -2,14 +2,12 @@
 
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from drillctl.panel.picture import Picture
 
 ROWS = 14  # of a chart in characters
@@ -17,7 +15,10 @@ ROWS = 14  # of a chart in characters
 
 @contextmanager
 def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[Picture], None]]":
-    """What draws a picture; a file is reserved first. Raises OutputError, PictureRefused before anything is reckoned."""
+    """What draws a picture; its file is reserved first.
+
+    Raises OutputError and PictureRefused before anything is reckoned.
+    """
     from drillctl.ui.plotted import check_format, picture_bytes
     from drillctl.wiring.outputs import reserved
 

@@ -5,9 +5,8 @@ Nothing is driven: an idle machine on the simulated card is ticked in a process 
 
 import argparse
 import json
-from collections.abc import Callable
 
-from drillctl.cli import options
+from drillctl.cli import options, streams
 from drillctl.wiring.interrupts import caught, exit_code
 
 LONGEST_S = 3600
@@ -17,8 +16,8 @@ FASTEST_HZ = 20_000
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("latency", help="measure how punctual ticks are here", description=__doc__)
-    verb.add_argument("--hz", type=_whole(FASTEST_HZ), metavar="N", help="default: the machine's own rate")
-    verb.add_argument("--seconds", type=_whole(LONGEST_S), default=10, metavar="S", help="default: %(default)s")
+    verb.add_argument("--hz", type=options.up_to(FASTEST_HZ), metavar="N", help="default: the machine's own rate")
+    verb.add_argument("--seconds", type=options.up_to(LONGEST_S), default=10, metavar="S", help="default: %(default)s")
     verb.add_argument("--json", action="store_true", help="print one JSON object")
     verb.set_defaults(call=call)
 
@@ -39,14 +38,5 @@ def call(arguments: argparse.Namespace) -> int:
             if signals:
                 return exit_code(signals[0])
             raise
-    print(json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(latency_lines(told)))
-    return exit_code(signals[0]) if signals else 0
-
-
-def _whole(most: int) -> Callable[[str], int]:
-    """An option's type: a whole number from 1."""
-
-    def read(text: str) -> int:
-        return options.whole_number(text, 1, most)
-
-    return read
+    text = json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(latency_lines(told))
+    return streams.delivered(exit_code(signals[0]) if signals else 0, text + "\n")

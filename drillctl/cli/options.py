@@ -2,10 +2,13 @@
 
 import argparse
 import json
+import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from drillctl.cli import streams
 
 if TYPE_CHECKING:
     from drillctl.machine import Library, Machine
@@ -56,6 +59,26 @@ def whole_number(text: str, least: int, most: int) -> int:
     return int(text)
 
 
+def number(text: str, least: float, most: float) -> float:
+    """An option's value. Raises ArgumentTypeError for anything but a number within the bounds."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = math.nan
+    if not least <= found <= most:
+        raise argparse.ArgumentTypeError(f"{text[:20]!r} is not a number from {least:g} to {most:g}")
+    return found
+
+
+def up_to(most: int) -> Callable[[str], int]:
+    """An option's type: a whole number from 1."""
+
+    def read(text: str) -> int:
+        return whole_number(text, 1, most)
+
+    return read
+
+
 def add_running(verb: argparse.ArgumentParser) -> None:
     """``--port`` and ``--pace``; and of a simulated machine ``--plant``, ``--fault`` and ``--seed``."""
     where = "see drillctl ports; default: simulated, or with mode REAL in the machine's file the port of its card"
@@ -74,6 +97,15 @@ def add_engine(verb: argparse.ArgumentParser) -> None:
     """``--engine``."""
     engine = "tick: every tick by itself; fast: whole moves at once, the same to the byte; default: fast where it can"
     verb.add_argument("--engine", choices=("tick", "fast"), help=engine)
+
+
+def add_from_tick(verb: argparse.ArgumentParser, what: str) -> None:
+    """``--from-tick``; ``what`` is done from there on."""
+    verb.add_argument("--from-tick", type=_tick, default=0, metavar="N", help=f"{what} from this tick on; default: 0")
+
+
+def _tick(text: str) -> int:
+    return whole_number(text, 0, 10**12)
 
 
 class _FaultAction(argparse.Action):
@@ -137,19 +169,16 @@ def _holes_csv(done: "Run") -> "Iterator[str]":
         yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}\n"
 
 
-def told(done: "Run", as_json: bool) -> int:
-    """Prints how a run ended; returns its exit code."""
+def told(done: "Run", as_json: bool, problems: Sequence[str] = ()) -> int:
+    """Prints how a run ended, and what of it could not be kept; returns its exit code."""
     from drillctl.ui.summary import summary_lines
     from drillctl.wiring.interrupts import exit_code
 
     for notice in done.notices:
         print(f"drillctl: {notice}", file=sys.stderr)
-    if as_json:
-        print(json.dumps(done.outcome.as_dict(), indent=2))
-    else:
-        print("\n".join(summary_lines(done.outcome)))
-    if done.trouble:
-        print(f"drillctl: {done.trouble}", file=sys.stderr)
-    if done.signal is not None:
-        return exit_code(done.signal)
-    return 1 if done.outcome.fault or done.trouble else 0
+    lines = [json.dumps(done.outcome.as_dict(), indent=2)] if as_json else summary_lines(done.outcome)
+    code = 1 if done.outcome.fault or done.trouble or problems else 0
+    code = streams.delivered(code if done.signal is None else exit_code(done.signal), "\n".join(lines) + "\n")
+    for problem in filter(None, (done.trouble, *problems)):
+        print(f"drillctl: {problem}", file=sys.stderr)
+    return code

@@ -12,6 +12,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("traces", nargs="+", type=Path, metavar="TRACE", help="what run --trace wrote")
     options.add_tables(verb)
     options.add_engine(verb)
+    options.add_from_tick(verb, "judge")
     verb.add_argument("--same-tables", action="store_true", help="other tables than the recorded ones are a failure")
     verb.set_defaults(call=call)
 
@@ -23,7 +24,7 @@ def call(arguments: argparse.Namespace) -> int:
     library = options.library(arguments)
     differing = 0
     for file in arguments.traces:
-        verdict = replay(file, library, arguments.engine)
+        verdict = replay(file, library, arguments.engine, arguments.from_tick)
         failed = verdict.failed(arguments.same_tables)
         differing += failed
         print(f"{file}: {'DIFFERS' if failed else 'same'}, {verdict.remark()}")

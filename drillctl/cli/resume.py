@@ -29,23 +29,23 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """The job is made again and must be the same; holes cut off in the middle are drilled again, and named."""
     from drillctl.generation.journal import read_journal
-    from drillctl.wiring.outputs import reserved
+    from drillctl.wiring.outputs import reserved, unwritten
 
     file = arguments.journal or _newest()
     account = read_journal(file)
     session = _session(file, account, arguments)
-    with reserved((arguments.holes,), (file, Path(account.head.job))) as (holes,):
+    with reserved((arguments.holes,), (Path(account.head.job), *session.files)) as (holes,):
         _tell(file, account, session.job)
         done = operating.operated(session, arguments)
-        options.write_holes(done, holes)
-    return options.told(done, arguments.json)
+        problems = unwritten(lambda: options.write_holes(done, holes))
+    return options.told(done, arguments.json, problems)
 
 
 def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
     from drillctl.generation.recipe import Recipe
     from drillctl.wiring.session import Session, rest_of
 
-    recipe = Recipe.of_options(account.head.options)
+    recipe = Recipe.of_options(account.head.options, file)
     tables = recipe.tables and Path(recipe.tables)
     machine = options.machine(argparse.Namespace(machine=recipe.machine, tables=tables, tick_hz=recipe.tick_hz))
     running = replace(options.running(arguments, options.port(arguments, machine)), engine=arguments.engine)

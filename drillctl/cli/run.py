@@ -35,7 +35,7 @@ def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
     from drillctl.machine import machine_hazards
     from drillctl.wiring.machinery import pace_of
-    from drillctl.wiring.outputs import reserved
+    from drillctl.wiring.outputs import reserved, unwritten
     from drillctl.wiring.session import Session
     from drillctl.wiring.trace_files import takes_segments
 
@@ -47,29 +47,37 @@ def call(arguments: argparse.Namespace) -> int:
     paced = pace_of(running) == "real"
     recipe = jobs.recipe(arguments)
     job = jobs.load(arguments.job, recipe, machine)
+    session = Session(job, running)
+    if job.work and (paced or arguments.journal):
+        session = session.journalled(arguments.job, arguments.journal, recipe)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
-    inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files))
+    inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files), *session.files)
     with reserved(wanted, inputs) as (trace, vcd, holes):
         for warning in (*machine_hazards(machine), *job.warnings):
             print(f"drillctl: warning: {warning}", file=sys.stderr)
-        session = Session(job, running)
-        if job.work and (paced or arguments.journal):
-            session = session.journalled(arguments.job, arguments.journal, recipe)
         done = operating.operated(session, arguments)
-        _write(job, done, trace, vcd)
-        options.write_holes(done, holes)
-    return options.told(done, arguments.json)
+        problems = unwritten(
+            lambda: _write_trace(job, done, trace),
+            lambda: _write_vcd(job, done, vcd),
+            lambda: options.write_holes(done, holes),
+        )
+    return options.told(done, arguments.json, problems)
 
 
-def _write(job: "Job", done: "Run", trace: "Output | None", vcd: "Output | None") -> None:
-    from drillctl.trace import Segments, write_vcd
-    from drillctl.wiring.sampler import vcd_layout
+def _write_trace(job: "Job", done: "Run", trace: "Output | None") -> None:
     from drillctl.wiring.trace_files import write_record
 
     kept = done.trace
     if trace is not None and kept is not None:
         named = job.machine.reference_from(trace.path.parent)
         write_record(kept.with_header([("machine", named), *kept.header[1:]]), trace)
+
+
+def _write_vcd(job: "Job", done: "Run", vcd: "Output | None") -> None:
+    from drillctl.trace import Segments, write_vcd
+    from drillctl.wiring.sampler import vcd_layout
+
+    kept = done.trace
     if vcd is not None and kept is not None:
         assert not isinstance(kept, Segments), "derived signals are kept as changes"
         with_plant = any(signal.name.startswith("plant.") for signal in kept.signals)

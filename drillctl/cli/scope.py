@@ -10,6 +10,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("scope", help="look at a trace on the screen", description=__doc__)
     verb.add_argument("trace", type=Path, metavar="TRACE", help="what run --trace wrote")
+    options.add_from_tick(verb, "look at it")
     screen.add_options(verb)
     verb.set_defaults(call=call)
 
@@ -19,4 +20,5 @@ def call(arguments: argparse.Namespace) -> int:
     screen.check_terminal()
     from drillctl.station.tracefile import TraceFile
 
-    return screen.work(arguments, TraceFile(arguments.trace, options.library(arguments)))
+    run = TraceFile(arguments.trace, options.library(arguments), arguments.from_tick)
+    return screen.work(arguments, run)

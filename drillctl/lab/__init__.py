@@ -6,6 +6,11 @@
     wakes.py      what it measures; grades.py: what that is good for
     moves.py      what an axis puts out for a move        trials.py  thousands of these on the dynamic plant
     broken.py     phase tables broken on purpose
+    watched.py    a recorded run once more on the dynamic plant   pictures.py, pullout.py   what is drawn of it
+    question.py   what a sweep asks     answers.py, crowd.py      by how many processes it is answered
+    results.py    into which file       sweep.py, sweep_picture.py
+    tune.py       the fastest ramp      ramp_trials.py, retargeting.py, ramp_text.py   tried, proved, written
+    tables.py, numbers.py               what an operator names and lists          errors.py  LabError
 
 May import execution, machine, kmd, panel, plant, and the wiring of ticks.
 """

@@ -54,3 +54,8 @@ def side_by_side(moves: Sequence[Move]) -> NDArray[np.int64]:
         images[: len(each.images), lane] = each.images
         images[len(each.images) :, lane] = each.images[-1]
     return images
+
+
+def starts(table: AxisTable) -> range:
+    """The columns to begin a move on that stand for all: a table of two phases is alike in every quarter cycle."""
+    return range(table.phase.columns // table.motor.rests_per_cycle)

@@ -97,17 +97,6 @@ def test_a_board_too_large_names_each_hole(drillctl: Drillctl, hostile: Path) ->
     assert not (hostile / "t").exists() and not (hostile / "h").exists()
 
 
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
-@pytest.mark.parametrize("option", ["--trace", "--vcd", "--holes"])
-def test_a_full_device(option: str, drillctl: Drillctl, folder: Path) -> None:
-    """Found only when the run is over: no outcome is told that was not kept."""
-    before = contents(folder)
-    done = drillctl("run", "hole.kmd", option, "/dev/full")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "drillctl: /dev/full: can't be written: No space left on device\n"
-    assert contents(folder) == before
-
-
 def test_tables_that_a_run_reads_are_not_written_over(drillctl: Drillctl, folder: Path) -> None:
     from drillctl.machine import shipped_tables
 
@@ -152,14 +141,6 @@ def test_a_reader_that_has_gone(verb: list[str], folder: Path) -> None:
     done = subprocess.run(call, cwd=folder, stdout=writing, stderr=subprocess.PIPE, timeout=60, check=False)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, b"")
-
-
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
-def test_standard_output_that_takes_nothing(folder: Path) -> None:
-    call = [sys.executable, "-m", "drillctl", "machines"]
-    with open("/dev/full", "wb") as full:
-        done = subprocess.run(call, cwd=folder, stdout=full, stderr=subprocess.PIPE, timeout=60, check=False)
-    assert (done.returncode, done.stderr) == (2, b"drillctl: standard output: No space left on device\n")
 
 
 def test_an_output_goes_through_a_link_and_replaces_what_was_there(drillctl: Drillctl, folder: Path) -> None:

@@ -1,0 +1,110 @@
+"""``drillctl sweep``: thousands of machines on the dynamic plant, tick rate x ramp x friction x phase table: which lose
+steps. A row a machine; an interrupted sweep goes on where it was when it is asked for again.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drillctl.cli import drawing, options
+
+if TYPE_CHECKING:
+    from drillctl.lab.question import Question
+    from drillctl.lab.results import Results
+    from drillctl.lab.sweep import Crew
+    from drillctl.machine import Library
+
+VALUES = "N,N,... or FROM:TO:STEP"
+MOST_WORKERS = 1024
+MOST_DRAWS = 100_000
+GREATEST_SPREAD = 0.5
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("sweep", help="try thousands of variants of a machine", description=__doc__)
+    verb.add_argument("--machine", default=options.DEFAULT_MACHINE, metavar="NAME|FILE", help="default: %(default)s")
+    options.add_tables(verb)
+    verb.add_argument("--axis", metavar="NAME", help="default: the first")
+    verb.add_argument("--hz", metavar="VALUES", help=f"tick rates, {VALUES}; default: the machine's")
+    verb.add_argument("--ramp", metavar="NAME,...", help="ramps; direct-start: none; default: the axis's")
+    phases = "phase tables, by name, or broken on purpose ('forcing removed'; 'broken': all such); default: the axis's"
+    verb.add_argument("--phase", metavar="NAME,...", help=phases)
+    vary = "a parameter of the axis's dynamics, so many times its value: coulomb_nm=0.5:2:0.25; as often as you like"
+    verb.add_argument("--vary", action="append", default=[], metavar="NAME=VALUES", help=vary)
+    verb.add_argument("--load-nm", default="0", metavar="VALUES", help="torque that resists, in N m; default: 0")
+    verb.add_argument("--steps", default="1,10,100", metavar="VALUES", help="moves, both ways; default: %(default)s")
+    _add_luck(verb)
+    verb.add_argument("--out", type=Path, required=True, metavar="F.csv", help="results; one begun is gone on with")
+    verb.add_argument("--picture", type=Path, metavar="F.png|.svg", help="draw it here, not in the terminal")
+    verb.add_argument("--workers", type=options.up_to(MOST_WORKERS), metavar="N", help="processes; default: all cores")
+    verb.add_argument("--cluster", metavar="ADDRESS", help="of a dask scheduler, tcp://HOST:PORT, to work for it")
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """The question is checked whole before the first machine is tried."""
+    from drillctl.lab.crowd import cores
+    from drillctl.lab.results import Results
+    from drillctl.lab.sweep import Crew
+    from drillctl.lab.sweep_picture import losing, sweep_picture
+
+    question = _question(arguments, options.library(arguments))
+    with drawing.drawn(arguments.picture, (arguments.out,)) as draw:
+        with Results(arguments.out, question) as results:
+            _work(question, results, Crew(arguments.workers or cores(), arguments.cluster))
+        draw(sweep_picture(question, losing(arguments.out)))
+    return 0
+
+
+def _add_luck(verb: argparse.ArgumentParser) -> None:
+    draws = "machines at each point, their parameters drawn within --spread; default: %(default)s"
+    verb.add_argument("--draws", type=options.up_to(MOST_DRAWS), default=1, metavar="N", help=draws)
+    verb.add_argument("--spread", type=_share, default=0.0, metavar="F", help="0.03: within 3 %%; default: %(default)s")
+    verb.add_argument("--seed", type=int, default=0, metavar="N", help="of the draws; default: %(default)s")
+
+
+def _question(arguments: argparse.Namespace, library: "Library") -> "Question":
+    from drillctl.lab.numbers import numbers, whole_numbers
+    from drillctl.lab.question import FASTEST_HZ, LONGEST_STEPS, SLOWEST_HZ, Question
+    from drillctl.lab.tables import axis_of, phases, ramps
+
+    machine = library.machine(arguments.machine)
+    axis = axis_of(machine, arguments.axis)
+    return Question(
+        axis,
+        whole_numbers(arguments.hz or str(machine.tick_hz), "--hz", SLOWEST_HZ, FASTEST_HZ),
+        ramps(arguments.ramp, axis, library),
+        phases(arguments.phase, axis, library),
+        tuple(_varied(text) for text in arguments.vary),
+        numbers(arguments.load_nm, "--load-nm", 0, 100),
+        whole_numbers(arguments.steps, "--steps", 1, LONGEST_STEPS),
+        arguments.draws,
+        arguments.spread,
+        arguments.seed,
+    )
+
+
+def _varied(text: str) -> tuple[str, tuple[float, ...]]:
+    from drillctl.lab.numbers import numbers
+
+    name, _, values = text.partition("=")
+    return name, numbers(values, f"--vary {name}", 0.001, 1000)
+
+
+def _work(question: "Question", results: "Results", crew: "Crew") -> None:
+    """With a bar on a terminal."""
+    from tqdm import tqdm
+
+    from drillctl.lab.sweep import sweep
+
+    if results.rows:
+        print(f"drillctl: {results.path}: {results.rows} of {question.machines} machines are done", file=sys.stderr)
+    with tqdm(total=question.machines, initial=results.rows, unit="machine", disable=None) as bar:
+        for rows in sweep(question, results, crew):
+            bar.update(rows - bar.n)
+
+
+def _share(text: str) -> float:
+    return options.number(text, 0.0, GREATEST_SPREAD)

@@ -1,0 +1,73 @@
+"""``drillctl tune MACHINE``: finds the fastest ramp of an axis that loses no steps, on the dynamic plant, with a torque
+margin; proves that it lands exactly, and writes it as a table with the evidence in its comments.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drillctl.cli import options
+
+if TYPE_CHECKING:
+    from drillctl.wiring.outputs import Output
+
+LEAST_MARGIN, GREATEST_MARGIN = 1.0, 5.0
+FASTEST_HZ = 20_000
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("tune", help="find the fastest ramp that loses no steps", description=__doc__)
+    verb.add_argument("machine", metavar="MACHINE", help="its name, or its file")
+    options.add_tables(verb)
+    verb.add_argument("--axis", metavar="NAME", help="default: the first")
+    margin = "the load may be so many times as heavy; default: %(default)s"
+    verb.add_argument("--margin", type=_margin, default=1.3, metavar="F", help=margin)
+    verb.add_argument("--tick-hz", type=options.up_to(FASTEST_HZ), metavar="N", help="default: the machine's own")
+    verb.add_argument("--name", metavar="NAME", help="of the ramp; default: tuned-MACHINE-AXIS")
+    where = "default: NAME.toml among the user's own ramps; a file that is there is never overwritten"
+    verb.add_argument("--out", type=Path, metavar="F.toml", help=where)
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """The table is named and its place looked at before the search, and written after the proof."""
+    from drillctl.lab.ramp_text import evidence_lines, ramp_text
+    from drillctl.lab.ramp_trials import Bench
+    from drillctl.lab.tables import axis_of, check_name
+    from drillctl.lab.tune import tune
+    from drillctl.machine.library import user_tables
+
+    machine = options.library(arguments).machine(arguments.machine)
+    axis = axis_of(machine, arguments.axis)
+    name = check_name(arguments.name or f"tuned-{machine.name}-{axis.name}")
+    out = arguments.out or user_tables() / "ramp" / f"{name}.toml"
+    bench = Bench(axis, arguments.tick_hz or machine.tick_hz, arguments.margin)
+    with _new(out) as output:
+        tuned = tune(bench, name, lambda line: print(f"drillctl: {line}", file=sys.stderr))
+        text = ramp_text(tuned, bench, machine)
+        output.write(lambda file: file.write(text))
+    print("\n".join(evidence_lines(tuned, bench, machine)))
+    print(f'{out}: to use it, say ramp = "{name}" for axis {axis.name} in the file of {machine.name}')
+    return 0
+
+
+@contextmanager
+def _new(out: Path) -> "Iterator[Output]":
+    """A place for a file that is not there yet, in a folder made where need be. Raises OutputError, OSError."""
+    from drillctl.wiring.outputs import OutputError, reserved
+
+    if os.path.lexists(out):
+        raise OutputError(f"{out}: is there already; give another --name or --out")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with reserved([out], []) as (output,):
+        assert output is not None
+        yield output
+
+
+def _margin(text: str) -> float:
+    return options.number(text, LEAST_MARGIN, GREATEST_MARGIN)

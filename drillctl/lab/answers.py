@@ -1,0 +1,74 @@
+"""Answers a question, chunk by chunk: the machines of a chunk run side by side in fleets.
+
+Rule: a chunk is as many machines as the question makes it, whoever runs it, so that its rows are the same bytes on any
+number of processes. A row is a machine. Called by crowd.py, in its processes or here.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from drillctl.lab.moves import Move, move, starts
+from drillctl.lab.question import Question, Variant
+from drillctl.lab.trials import LANES, Trial, errors_full_steps, lost
+from drillctl.machine import AxisTable
+
+FIXED_HEAD = ("phase", "ramp", "tick_hz")
+FIXED_TAIL = ("load_nm", "draw", "moves", "lost", "worst_full_steps")
+
+
+def head(question: Question) -> str:
+    """The first line of the table: names of the columns."""
+    return ",".join((*FIXED_HEAD, *(name for name, _ in question.times), *FIXED_TAIL))
+
+
+def moves_a_machine(question: Question) -> int:
+    """How many trials make a row."""
+    return len(question.steps) * 2 * len(starts(question.axis))
+
+
+def chunk_size(question: Question) -> int:
+    """Machines to a chunk: a fleet of LANES."""
+    return max(1, LANES // moves_a_machine(question))
+
+
+def chunks(question: Question, begin: int = 0) -> list[range]:
+    """Machine numbers, chunk by chunk, from the one that has machine ``begin``; none where that is the end."""
+    if begin == question.machines:
+        return []
+    size = chunk_size(question)
+    firsts = range(begin - begin % size, question.machines, size)
+    return [range(first, min(first + size, question.machines)) for first in firsts]
+
+
+def answer(question: Question, chunk: range) -> list[str]:
+    """A row for each machine of a chunk."""
+    variants = [question.variant(number) for number in chunk]
+    rows: dict[int, str] = {}
+    for phase in dict.fromkeys(variant.phase for variant in variants):
+        places = [place for place, variant in enumerate(variants) if variant.phase == phase]
+        found = _tried(question, [variants[place] for place in places])
+        rows.update(zip(places, found, strict=True))
+    return [rows[place] for place in sorted(rows)]
+
+
+def _tried(question: Question, variants: list[Variant]) -> list[str]:
+    """Machines on the same phase table: one fleet."""
+    moves = cache(_moves)
+    trials = [
+        Trial(each, variant.tick_hz, variant.dynamics, variant.load_nm)
+        for variant in variants
+        for each in moves(variant.axis, question.steps)
+    ]
+    errors = errors_full_steps(variants[0].axis, trials).reshape(len(variants), -1)
+    return [_row(question, *each) for each in zip(variants, lost(errors), np.abs(errors).max(axis=1), strict=True)]
+
+
+def _moves(axis: AxisTable, steps: tuple[int, ...]) -> list[Move]:
+    return [move(axis, way * distance, start) for distance in steps for way in (1, -1) for start in starts(axis)]
+
+
+def _row(question: Question, variant: Variant, losing: np.ndarray, worst: np.float64) -> str:
+    parameters = (repr(getattr(variant.dynamics, name)) for name, _ in question.times)
+    tried = (repr(variant.load_nm), str(variant.draw), str(len(losing)), str(losing.sum()), f"{worst:.4f}")
+    return ",".join((variant.phase, variant.axis.ramp.name, str(variant.tick_hz), *parameters, *tried))

@@ -1,0 +1,74 @@
+"""Many processes on one question: rows come back in the order of its machines, whoever was quicker.
+
+Rule: nothing here changes a byte of the answer. On this computer by its cores; on a cluster through joblib's dask
+backend, an extra (``pip install 'drillctl[cluster]'``). Called by sweep.py.
+"""
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import wait
+from typing import Any
+
+from drillctl.lab.answers import answer
+from drillctl.lab.errors import LabError
+from drillctl.lab.question import Question
+
+CHUNKS_A_THREAD = 4  # sent to a cluster at once: what is done is kept after each such load
+CONNECT_S = 20
+Rows = Iterator[list[str]]
+
+
+def cores() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def on_cores(question: Question, chunks: list[range], workers: int) -> Rows:
+    """Each chunk's rows; with one worker in this process."""
+    if min(workers, len(chunks)) <= 1:
+        yield from (answer(question, chunk) for chunk in chunks)
+        return
+    pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_serve)
+    try:
+        yield from pool.map(partial(answer, question), chunks)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def on_cluster(question: Question, chunks: list[range], address: str) -> Rows:
+    """Each chunk's rows, from the workers of a dask scheduler (``tcp://HOST:PORT``); they need drillctl too.
+
+    Raises LabError where the extra is missing or nobody answers at the address.
+    """
+    try:
+        from distributed import Client
+        from joblib import Parallel, delayed, parallel_config
+    except ImportError as error:
+        raise LabError("--cluster needs dask and joblib: pip install 'drillctl[cluster]'") from error
+    try:
+        client: Any = Client(address, timeout=CONNECT_S)  # type: ignore[no-untyped-call, unused-ignore]
+    except (OSError, ValueError) as error:
+        raise LabError(f"--cluster {address}: no dask scheduler answers there ({error})") from error
+    with client, parallel_config(backend="dask"):
+        load = CHUNKS_A_THREAD * max(1, sum(client.nthreads().values()))
+        for first in range(0, len(chunks), load):
+            yield from Parallel()(delayed(answer)(question, chunk) for chunk in chunks[first : first + load])
+
+
+def _serve() -> None:
+    """A worker's beginning: Ctrl-C is its parent's affair, and without that parent it has no more to do."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    assert parent is not None
+    wait([parent.sentinel])
+    os._exit(1)

@@ -1,0 +1,44 @@
+"""Values as an operator lists them: ``440,500,580`` and ``440:640:20``, both ends included, exact in decimals."""
+
+from collections.abc import Iterator
+from decimal import Decimal, InvalidOperation
+
+from drillctl.lab.errors import LabError
+
+MOST_VALUES = 10_000
+
+
+def numbers(text: str, what: str, least: float, most: float) -> tuple[float, ...]:
+    """All of them, in their order. Raises LabError, which names ``what``."""
+    try:
+        found = [value for part in text.split(",") for value in _spelled(part)]
+    except (InvalidOperation, ValueError) as error:
+        reason = "is no list of numbers: say 440,500 or FROM:TO:STEP"
+        raise LabError(f"{what} {text[:60]!r} {reason}") from error
+    if bad := [value for value in found if not least <= value <= most]:
+        raise LabError(f"{what} {bad[0]} is outside {least:g} to {most:g}")
+    if len(found) > len(set(found)):
+        raise LabError(f"{what} {text[:60]!r} has a value twice")
+    return tuple(map(float, found))
+
+
+def whole_numbers(text: str, what: str, least: int, most: int) -> tuple[int, ...]:
+    """The same where each must be whole."""
+    found = numbers(text, what, least, most)
+    if bad := [value for value in found if value != int(value)]:
+        raise LabError(f"{what} {bad[0]:g} is no whole number")
+    return tuple(map(int, found))
+
+
+def _spelled(part: str) -> Iterator[Decimal]:
+    """One number, or the range that is meant. Raises ValueError, InvalidOperation."""
+    ends = [Decimal(word) for word in part.split(":")]
+    if not all(end.is_finite() for end in ends) or len(ends) not in (1, 3):
+        raise ValueError(part)
+    if len(ends) == 1:
+        yield ends[0]
+        return
+    first, last, step = ends
+    if step <= 0 or not 0 <= (last - first) / step < MOST_VALUES:
+        raise ValueError(part)
+    yield from (first + step * count for count in range(int((last - first) / step) + 1))

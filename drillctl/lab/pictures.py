@@ -1,0 +1,167 @@
+"""What a picture of a recorded run shows: speed, lag, currents, the board as drilled, the pull-out curve.
+
+Rule: numbers into panel.picture records; how they are drawn is ui's. Called by the plot verb.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.lab.errors import LabError
+from drillctl.lab.pullout import pull_out
+from drillctl.lab.trials import FULL_STEPS_PER_CYCLE
+from drillctl.lab.watched import Watched
+from drillctl.machine.dynamics import WINDING_DEGREES
+from drillctl.panel.picture import Chart, Curve, Picture, Style
+from drillctl.plant.rotor import FULL_TURN
+
+Floats = NDArray[np.float64]
+STANDING_TICKS = 100  # no column for so long: it stands
+RATES_HZ = range(100, 701, 25)
+LONGEST_ERROR = 0.08  # of the board: an error is drawn so long at most
+TIME = "time, s"
+WAYS = {"forward": 1, "backward": -1}
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Ticks from ``first`` up to, not including, ``end`` (None: all)."""
+
+    first: int = 0
+    end: int | None = None
+
+    def of(self, watched: Watched) -> slice:
+        """What of a run is to be seen. Raises LabError where that is nothing."""
+        ticks = len(watched.commanded)
+        found = slice(self.first, ticks if self.end is None else min(self.end, ticks))
+        if found.start >= found.stop:
+            raise LabError(f"no ticks from {found.start} to {found.stop}; the run has {ticks}")
+        return found
+
+
+def speed(watched: Watched, window: Window) -> Picture:
+    """Of the columns put out, and of the rotor, in mm/s."""
+    shown = window.of(watched)
+    motor_mm = watched.table.motor.columns_per_cycle / watched.columns_per_mm
+    cycles_per_rad = _dynamics_cycles(watched) / (2 * pi)
+    sent = _sent_columns_per_tick(watched.commanded) * watched.machine.tick_hz / watched.columns_per_mm
+    real = watched.rotor.speed * cycles_per_rad * motor_mm
+    time_s = _time_s(watched)[shown]
+    curves = (Curve.of("rotor", time_s, real[shown]), Curve.of("commanded", time_s, sent[shown], Style.STAIRS))
+    chart = Chart(TIME, "speed, mm/s", curves)
+    fastest = f"fastest: {np.abs(sent[shown]).max():.1f} mm/s commanded, {np.abs(real[shown]).max():.1f} mm/s reached"
+    return Picture(_title(watched, "speed"), (chart,), (fastest, _whose(watched)))
+
+
+def lag(watched: Watched, window: Window) -> Picture:
+    """Where the axis was sent and where it was; and by how many full steps it was behind."""
+    shown = window.of(watched)
+    time_s = _time_s(watched)[shown]
+    places = [(columns / watched.columns_per_mm)[shown] for columns in (watched.commanded, watched.rotor.columns)]
+    behind = _behind_full_steps(watched)[shown]
+    where = (Curve.of("rotor", time_s, places[1]), Curve.of("commanded", time_s, places[0], Style.STAIRS))
+    late = (Curve.of("lag", time_s, behind),)
+    charts = (Chart(TIME, "from the start, mm", where), Chart(TIME, "lag, full steps", late))
+    notes = f"greatest lag {np.abs(behind).max():.2f} full steps, {behind[-1]:.2f} at the end"
+    return Picture(_title(watched, "lag"), charts, (notes, _whose(watched)))
+
+
+def currents(watched: Watched, window: Window) -> Picture:
+    """Of the four half windings, one phase above the other."""
+    shown = window.of(watched)
+    time_s = _time_s(watched)[shown]
+    names = {degrees % FULL_TURN: name for name, degrees in watched.table.motor.windings}
+    curves = [
+        Curve.of(names[degrees], time_s, amperes[shown])
+        for degrees, amperes in zip(WINDING_DEGREES, watched.rotor.currents.T, strict=True)
+    ]
+    charts = tuple(Chart(TIME, "current, A", tuple(curves[phase : phase + 2])) for phase in (0, 2))
+    greatest = f"greatest current {watched.rotor.currents[shown].max():.2f} A"
+    return Picture(_title(watched, "currents"), charts, (greatest, _whose(watched)))
+
+
+def board(watched: Watched, _window: Window) -> Picture:
+    """The holes of the whole run: where each was sent, and how far off it was drilled, enlarged. Raises LabError."""
+    sent, error = watched.sent_mm, watched.drilled_mm - watched.sent_mm
+    if not len(sent):
+        raise LabError("the bit never met the board in this run: there is no hole to be shown")
+    off_mm = np.hypot(*error.T)
+    times = _enlarged(sent, off_mm)
+    holes = Curve.of("sent to", sent[:, 0], sent[:, 1], Style.POINTS)
+    ends = np.stack([sent, sent + error * times, np.full_like(sent, np.nan)], axis=1).reshape(-1, 2)
+    drilled = Curve.of(f"off by, {times} times as long", ends[:, 0], ends[:, 1])
+    plan = Chart("x, mm", "y, mm", (holes, drilled), to_scale=True)
+    by_hole = Curve.of("error", np.arange(1, len(off_mm) + 1), off_mm * 1000, Style.POINTS)
+    worst = int(off_mm.argmax())
+    note = (
+        f"{len(off_mm)} holes, off by {off_mm.mean() * 1000:.0f} um on average, {off_mm[worst] * 1000:.0f} um at most "
+        f"(hole {worst + 1} at {sent[worst, 0]:.2f}, {sent[worst, 1]:.2f} mm)"
+    )
+    title = f"{watched.machine.name}: board as drilled"
+    return Picture(title, (plan, Chart("hole", "error, um", (by_hole,))), (note, _whose(watched)))
+
+
+def pull_out_curve(watched: Watched, _window: Window) -> Picture:
+    """Of the axis's motor, ramp and phase table; the run itself doesn't matter."""
+    found = {name: pull_out(watched.table, RATES_HZ, way) for name, way in WAYS.items()}
+    curves = [Curve.of(name, each.rates_hz, each.torque_nm * 1000) for name, each in found.items()]
+    hz = watched.machine.tick_hz
+    left = [f"{np.interp(hz, each.rates_hz, each.torque_nm) * 1000:.1f} mN m {name}" for name, each in found.items()]
+    notes = (f"at {hz} Hz it carries besides its friction {' and '.join(left)}", "a constant load, ramps included")
+    chart = Chart("interrupt frequency, Hz", "load carried, mN m", tuple(curves))
+    return Picture(_title(watched, "pull-out"), (chart,), notes)
+
+
+Drawing = Callable[[Watched, Window], Picture]
+PICTURES: dict[str, Drawing] = {
+    "speed": speed,
+    "lag": lag,
+    "board": board,
+    "currents": currents,
+    "pull-out": pull_out_curve,
+}
+
+
+def _title(watched: Watched, what: str) -> str:
+    return f"{watched.machine.name}, {watched.table.name}: {what} at {watched.machine.tick_hz} Hz"
+
+
+def _whose(watched: Watched) -> str:
+    if watched.as_run:
+        return "the plant as it was in the run"
+    return "the run had no such motors: these are what the dynamic plant makes of its images"
+
+
+def _time_s(watched: Watched) -> Floats:
+    """Of the end of each tick."""
+    return (np.arange(len(watched.commanded)) + 1) / watched.machine.tick_hz
+
+
+def _dynamics_cycles(watched: Watched) -> int:
+    assert watched.table.dynamics is not None
+    return watched.table.dynamics.cycles_per_turn
+
+
+def _behind_full_steps(watched: Watched) -> Floats:
+    behind = watched.commanded - watched.rotor.columns
+    return behind * FULL_STEPS_PER_CYCLE / watched.table.motor.columns_per_cycle
+
+
+def _sent_columns_per_tick(commanded: NDArray[np.int64]) -> Floats:
+    """(ticks,): from a column to the next, one by the ticks between; 0 where none comes for long."""
+    moved = np.diff(commanded, prepend=commanded[:1])
+    ticks = np.flatnonzero(moved)
+    waited = np.diff(ticks, prepend=-STANDING_TICKS - 1)
+    rates = np.where(waited > STANDING_TICKS, 0.0, moved[ticks] / waited)
+    until = np.append(ticks, len(commanded))
+    return np.repeat(np.append(rates, 0.0), np.diff(until, prepend=0))
+
+
+def _enlarged(sent_mm: Floats, off_mm: Floats) -> int:
+    """How many times as long errors are drawn, that the worst is seen: 1, 2, 5, 10, 20, 50, ..."""
+    wanted = LONGEST_ERROR * max(float(np.ptp(sent_mm, axis=0).max()), 1.0) / max(float(off_mm.max()), 1e-6)
+    steps = [digit * 10**power for power in range(5) for digit in (1, 2, 5)]
+    return max((step for step in steps if step <= wanted), default=1)

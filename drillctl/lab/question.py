@@ -1,0 +1,125 @@
+"""What a sweep asks: every machine of a grid, and what is tried with it.
+
+Rule: a question is data; machine number n of it is always the same one, whoever tries it and when. Its digest tells
+two questions apart. Made by the sweep verb, answered by answers.py.
+"""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from math import prod
+from random import Random
+
+import numpy as np
+
+from drillctl.lab.errors import LabError
+from drillctl.machine import AxisTable, Dynamics
+from drillctl.machine.phase import PhaseTable
+from drillctl.machine.ramp import RampTable
+from drillctl.plant.dynamic.coefficients import SUBSTEPS
+
+PARAMETERS = tuple(field.name for field in fields(Dynamics) if field.type is float)
+SPREAD = ("resistance_ohm", "inductance_h", "torque_nm_per_a", "inertia_kgm2", "viscous_nms", "coulomb_nm")
+SLOWEST_HZ, FASTEST_HZ = 50, 20_000  # below 50 Hz a tick has more substeps
+MOST_MACHINES = 10_000_000
+LONGEST_STEPS = 100_000
+LAW = f"dynamic {SUBSTEPS}"  # of the plant: to be changed with its equations
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One machine: its tables, its motor with its load, and which of the question's values these are."""
+
+    axis: AxisTable
+    dynamics: Dynamics
+    phase: str
+    tick_hz: int
+    load_nm: float
+    draw: int
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A grid of machines. Raises LabError for one that can't be tried.
+
+    phases   (name, table) pairs; their wires are the axis's
+    times    (parameter of the dynamics, multiples of the axis's own value) pairs
+    loads_nm what resists besides
+    steps    moves tried, both ways, from every kind of rest
+    draws    machines at each point of the grid, each parameter of SPREAD drawn within ``spread`` of its value
+    """
+
+    axis: AxisTable
+    rates_hz: tuple[int, ...]
+    ramps: tuple[RampTable, ...]
+    phases: tuple[tuple[str, PhaseTable], ...]
+    times: tuple[tuple[str, tuple[float, ...]], ...]
+    loads_nm: tuple[float, ...]
+    steps: tuple[int, ...]
+    draws: int = 1
+    spread: float = 0.0
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.axis.dynamics is None:
+            raise LabError(f"axis {self.axis.name} has no dynamics; docs/PLANT.md says how to name some")
+        for name, _ in self.times:
+            if name not in PARAMETERS:
+                raise LabError(f"no parameter {name!r}; there are {', '.join(PARAMETERS)}")
+        _check_same_once([name for name, _ in self.times])
+        for name, table in self.phases:
+            _check_wires(name, table, self.axis.phase)
+        if self.machines > MOST_MACHINES:
+            raise LabError(f"{self.machines} machines; a sweep has {MOST_MACHINES} at most")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each factor has, the slowest first."""
+        multiples = (len(values) for _, values in self.times)
+        return len(self.phases), len(self.ramps), len(self.rates_hz), *multiples, len(self.loads_nm), self.draws
+
+    @property
+    def machines(self) -> int:
+        """How many there are."""
+        return prod(self.shape)
+
+    @property
+    def digest(self) -> str:
+        """16 hex digits over all that the answer depends on."""
+        return hashlib.sha256(repr((LAW, self, self.axis.dynamics)).encode()).hexdigest()[:16]
+
+    def variant(self, number: int) -> Variant:
+        """Machine ``number``, from 0."""
+        phase, ramp, rate, *multiples, load, draw = (int(place) for place in np.unravel_index(number, self.shape))
+        name, table = self.phases[phase]
+        axis = replace(self.axis, phase=table, ramp=self.ramps[ramp])
+        scales = {key: values[place] for (key, values), place in zip(self.times, multiples, strict=True)}
+        dynamics = self._drawn(_scaled(self._own, scales), draw)
+        return Variant(axis, dynamics, name, self.rates_hz[rate], self.loads_nm[load], draw)
+
+    @property
+    def _own(self) -> Dynamics:
+        assert self.axis.dynamics is not None
+        return self.axis.dynamics
+
+    def _drawn(self, dynamics: Dynamics, draw: int) -> Dynamics:
+        """The same draw has the same luck everywhere on the grid, so that its points can be compared."""
+        if not self.spread:
+            return dynamics
+        random = Random(f"{self.seed} {draw}")
+        return _scaled(dynamics, {name: 1 + self.spread * random.uniform(-1, 1) for name in SPREAD})
+
+
+def _scaled(dynamics: Dynamics, scales: dict[str, float]) -> Dynamics:
+    return replace(dynamics, **{name: getattr(dynamics, name) * scale for name, scale in scales.items()})
+
+
+def _check_same_once(names: Sequence[str]) -> None:
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise LabError(f"{twice[0]} is varied twice")
+
+
+def _check_wires(name: str, table: PhaseTable, own: PhaseTable) -> None:
+    if table.wire_names() != own.wire_names():
+        needs = " ".join(own.wire_names())
+        raise LabError(f"phase table {name} has the wires {' '.join(table.wire_names())}; the axis has {needs}")

@@ -1,0 +1,80 @@
+"""The file of a sweep: a row a machine, appended as they come, so that an interrupted sweep goes on where it was.
+
+Rule: its first line has the digest of the question, and rows of two questions never meet. A torn last line is taken
+off; any other damage refuses the file. Locked as long as somebody writes. Called by sweep.py and its picture.
+"""
+
+import fcntl
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import BinaryIO
+
+from drillctl.lab.answers import head
+from drillctl.lab.errors import LabError
+from drillctl.lab.question import Question
+
+MAGIC = "# drillctl-sweep 1"
+
+
+class Results:
+    """An open results file; ``rows`` are in it so far. Use as a context manager. Raises LabError, OSError."""
+
+    def __init__(self, path: Path, question: Question):
+        self.path = path
+        self._file: BinaryIO = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b")
+        try:
+            _lock(self._file, path)
+            self.rows = self._begun(question)
+        except BaseException:
+            self._file.close()
+            raise
+
+    def __enter__(self) -> "Results":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    def append(self, rows: Sequence[str]) -> None:
+        """Rows more; they are with the system when this returns."""
+        self._file.write("".join(f"{row}\n" for row in rows).encode())
+        self._file.flush()
+        self.rows += len(rows)
+
+    def _begun(self, question: Question) -> int:
+        """How many rows there are, with the file ready for the next; a new one gets its first lines."""
+        *whole, torn = self._file.read().split(b"\n")
+        wanted = [f"{MAGIC} {question.digest}".encode(), head(question).encode()]
+        begun = wanted[0].startswith(torn) if not whole else whole[:2] == wanted[: len(whole)]
+        if not begun:
+            raise LabError(f"{self.path}: {_what_else(whole)}; give the new one another file")
+        _check_rows(whole[2:], wanted[1], question, self.path)
+        self._file.seek(-len(torn), os.SEEK_END)
+        self._file.truncate()
+        self._file.write(b"".join(line + b"\n" for line in wanted[len(whole) :]))
+        self._file.flush()
+        return max(len(whole) - len(wanted), 0)
+
+
+def _what_else(whole: list[bytes]) -> str:
+    if whole and whole[0].startswith(MAGIC.encode()):
+        return "holds the answer to another question (or of another version of the plant)"
+    return "is no results file of a sweep"
+
+
+def _check_rows(rows: list[bytes], names: bytes, question: Question, path: Path) -> None:
+    """As many as there are machines at most, each with a value for every column."""
+    if len(rows) > question.machines:
+        raise LabError(f"{path}: has {len(rows)} rows, and the question {question.machines} machines")
+    values = names.count(b",")
+    for number, row in enumerate(rows):
+        if row.count(b",") != values:
+            raise LabError(f"{path}:{number + 3}: not a row of this table; take away this line and all below it")
+
+
+def _lock(file: BinaryIO, path: Path) -> None:
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise LabError(f"{path}: another sweep is writing it") from error

@@ -1,0 +1,81 @@
+"""The picture of a sweep: which share of its machines loses steps, against the factor with most values.
+
+Rule: a line for each phase table, ramp or other value, as far as there is room; over the rest it is the mean. Called by
+the sweep verb.
+"""
+
+from itertools import product
+from math import prod
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.lab.answers import FIXED_TAIL
+from drillctl.lab.question import Question
+from drillctl.panel.picture import Chart, Curve, Picture, Style
+
+MOST_LINES = 8
+TICK_HZ = 2  # the first factor that is a number; the last, the draw, is none to look at
+LOST = FIXED_TAIL.index("lost") - len(FIXED_TAIL)
+Factor = tuple[str, tuple[float, ...] | tuple[str, ...]]
+
+
+def losing(path: Path) -> NDArray[np.bool_]:
+    """(machines,): which of them lost steps in any move, from a whole results file."""
+    with path.open(encoding="utf-8") as file:
+        rows = file.read().splitlines()[2:]
+    return np.array([row.split(",")[LOST] != "0" for row in rows])
+
+
+def sweep_picture(question: Question, lost: NDArray[np.bool_]) -> Picture:
+    """From which machines lost steps, (machines,)."""
+    factors = _factors(question)
+    across = max(range(TICK_HZ, len(factors) - 1), key=lambda place: len(factors[place][1]))
+    beside = _lines_by(factors, across)
+    shares = _mean_but(100.0 * lost.astype(np.float64).reshape(question.shape), across, beside)
+    name, places = factors[across]
+    style = Style.LINE if len(places) > 1 else Style.POINTS
+    lines = zip(_labels([factors[place] for place in beside]), shares, strict=True)
+    curves = tuple(Curve.of(label, np.array(places, np.float64), share, style) for label, share in lines)
+    notes = [f"{int(lost.sum())} of {len(lost)} machines lose steps"]
+    if mixed := [factors[n][0] for n in range(len(factors)) if n not in (across, *beside) and len(factors[n][1]) > 1]:
+        notes.append(f"each point is the mean over all values of {', '.join(mixed)}")
+    chart = Chart(name, "machines that lose steps, %", curves)
+    return Picture(f"sweep of {question.axis.name}, {question.digest}", (chart,), tuple(notes))
+
+
+def _factors(question: Question) -> list[Factor]:
+    """Names and values, in the order of the question's shape."""
+    return [
+        ("phase", tuple(name for name, _ in question.phases)),
+        ("ramp", tuple(ramp.name for ramp in question.ramps)),
+        ("tick_hz", question.rates_hz),
+        *((f"times {name}", values) for name, values in question.times),
+        ("load_nm", question.loads_nm),
+        ("draw", tuple(range(question.draws))),
+    ]
+
+
+def _lines_by(factors: list[Factor], across: int) -> list[int]:
+    """Places of the factors whose values become lines: tables first, as many as there is room for, and no draw."""
+    chosen: list[int] = []
+    for place in range(len(factors) - 1):
+        values = len(factors[place][1])
+        room = MOST_LINES // prod(len(factors[each][1]) for each in chosen)
+        if place != across and 1 < values <= room:
+            chosen.append(place)
+    return chosen
+
+
+def _labels(factors: list[Factor]) -> list[str]:
+    """Of the lines, by the values that they have of these factors."""
+    points = product(*([f"{name} {value}" for value in values] for name, values in factors))
+    return [", ".join(point) or "all" for point in points]
+
+
+def _mean_but(grid: NDArray[np.float64], across: int, beside: list[int]) -> NDArray[np.float64]:
+    """(lines, places): the mean over all other factors."""
+    lines = np.moveaxis(grid, (*beside, across), range(len(beside) + 1))
+    means = lines.reshape(*lines.shape[: len(beside) + 1], -1).mean(axis=-1)
+    return means.reshape(-1, grid.shape[across])

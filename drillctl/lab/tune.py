@@ -1,0 +1,124 @@
+"""The fastest ramp of an axis that loses nothing: its states, intervals and brake distances, searched by trials.
+
+Rule: *fastest* is the least time over the distances of MOVES. From a gentle ramp on, turn by turn, the best single
+change that still loses nothing is made: a state less, a start in a later state, or an interval a tick shorter. Where
+none is left the ramp is tried on every distance; one that loses joins the search, which begins again. Called by the
+tune verb.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+from drillctl.lab.errors import LabError
+from drillctl.lab.ramp_trials import Bench, Proof
+from drillctl.lab.retargeting import first_missed
+from drillctl.machine.ramp import RampTable
+
+RATIO = 1.25  # of the speeds of neighbouring states in a gentle ramp
+SLOWEST = 5  # times the cruising interval: where a gentle ramp begins
+DWELLS = (1, 3)  # steps that a gentle ramp stays at a speed
+CRUISES = range(1, 17)  # intervals of the top state that are tried
+MOST_PROOFS = 8
+
+Profile = tuple[int, ...]  # the intervals of states 0 to n
+Told = Callable[[str], object]
+
+
+@dataclass(frozen=True, slots=True)
+class Tuned:
+    """A ramp, what was tried with it, and the same for the ramp that the axis had."""
+
+    ramp: RampTable
+    proof: Proof
+    mean_ticks: float
+    before: Proof
+    mean_ticks_before: float
+
+
+def tune(bench: Bench, name: str, told: Told = lambda line: None) -> Tuned:
+    """The ramp, so named; ``told`` is given a line a turn. Raises LabError where the motor can't carry any."""
+    gentle = _gentle(bench)
+    also: list[int] = []
+    for _ in range(MOST_PROOFS):
+        profile = _quickest(bench, gentle, also, told)
+        ramp = ramp_of(name, profile)
+        proof = bench.proof(ramp)
+        if proof.lost_at_steps is None:
+            _check_exact(ramp, bench)
+            own = bench.axis.ramp
+            return Tuned(ramp, proof, bench.mean_ticks(ramp), bench.proof(own), bench.mean_ticks(own))
+        told(f"{_spoken(profile)} loses steps on moves of {proof.lost_at_steps}")
+        also.append(proof.lost_at_steps)
+    raise LabError(f"after {MOST_PROOFS} searches there is still a distance that loses steps; ask for less margin")
+
+
+def ramp_of(name: str, profile: Profile) -> RampTable:
+    """The table with these intervals, alike both ways: a state a step up and down, braked as late as can be."""
+    top = len(profile) - 1
+    distances = (*range(top + 1), *range(top, 0, -1))
+    interval = (*profile, *reversed(profile[1:]))
+    return RampTable(name, top, interval, distances, tuple(state + 1 if state else 0 for state in distances))
+
+
+def _gentle(bench: Bench) -> Profile:
+    """The fastest cruise that can be reached gently, and the shortest such ramp to it."""
+    for cruise in CRUISES:
+        profiles = [_gentle_to(cruise, dwell) for dwell in DWELLS]
+        losing = bench.losing([ramp_of("gentle", profile) for profile in profiles])
+        carried = [profile for profile, loses in zip(profiles, losing, strict=True) if not loses]
+        if carried:
+            return carried[0]
+    raise LabError(
+        f"at {bench.tick_hz} Hz and with a margin of {bench.margin:g} axis {bench.axis.name} loses steps however "
+        f"gently it starts, up to an interval of {CRUISES[-1]}: ask for less margin or a lower rate"
+    )
+
+
+def _gentle_to(cruise: int, dwell: int) -> Profile:
+    speeds, slow = [cruise], float(cruise)
+    while round(slow) < SLOWEST * cruise:
+        slow *= RATIO
+        speeds.append(round(slow))
+    distinct = sorted(set(speeds), reverse=True)
+    return tuple(interval for interval in distinct for _ in range(dwell))
+
+
+def _quickest(bench: Bench, profile: Profile, also: list[int], told: Told) -> Profile:
+    """From a profile that loses nothing to one of which every single change loses or is slower."""
+    if bench.losing([ramp_of("gentle", profile)], also)[0]:
+        raise LabError(f"moves of {', '.join(map(str, also))} steps lose even on a gentle ramp; ask for less margin")
+    while True:
+        ticks = bench.mean_ticks(ramp_of("now", profile))
+        told(f"{_spoken(profile)}: {ticks:.1f} ticks a move")
+        faster = sorted(set(_faster(bench, profile, ticks)))
+        losing = bench.losing([ramp_of("next", each) for _, each in faster], also) if faster else []
+        kept = [each for (_, each), loses in zip(faster, losing, strict=True) if not loses]
+        if not kept:
+            return profile
+        profile = kept[0]
+
+
+def _faster(bench: Bench, profile: Profile, ticks: float) -> Iterator[tuple[float, Profile]]:
+    """All single changes that save time, with the mean ticks of a move."""
+    for state, interval in enumerate(profile):
+        shorter = (*profile[:state], interval - 1, *profile[state + 1 :])
+        fewer = (*profile[:state], *profile[state + 1 :])
+        for changed in (shorter, fewer, profile[state:]):
+            if _falls(changed) and (after := bench.mean_ticks(ramp_of("next", changed))) < ticks:
+                yield after, changed
+
+
+def _falls(profile: Profile) -> bool:
+    """A ramp: from one state on, and never slower in a higher state."""
+    return len(profile) > 1 and profile[-1] >= 1 and all(a >= b for a, b in pairwise(profile))
+
+
+def _check_exact(ramp: RampTable, bench: Bench) -> None:
+    """The rule of machine/ramp.py, and new targets in the midst of moves. Braking by a state a step can't fail it."""
+    assert ramp.first_inexact() is None, f"{ramp.interval} does not land exactly"
+    assert first_missed(ramp, bench.axis) is None, f"{ramp.interval} misses a new target"
+
+
+def _spoken(profile: Profile) -> str:
+    return " ".join(map(str, profile))
