@@ -5,10 +5,12 @@
     axis.py        one motor: the automaton over its ramp, the columns of its phase table
     line.py        axes linked in a straight line
     commands.py    how each KMD command starts and ends
+    heads.py       the same for those of the drilling heads
     homing.py      initialisation, by the machine's table of steps
     guard.py       sensors, ranges, times
     stops.py       requests and faults: hold, stop, emergency stop, return
     report.py      writes the status record
+    late.py        what a gap in time does
     loading.py     edited tables for a machine that rests
 
 May import kmd, ports and machine.

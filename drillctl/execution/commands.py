@@ -8,13 +8,12 @@ from collections.abc import Callable, Mapping
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
+from drillctl.execution.heads import heads_lowered, heads_raised, lower_heads, raise_heads
 from drillctl.execution.homing import begin_homing, carry_homing
 from drillctl.execution.stops import raise_fault
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
 from drillctl.ports import with_bits
-
-UP, DOWN = -1, 1
 
 
 def start_next(m: Controller) -> bool:
@@ -100,72 +99,6 @@ def _give_up_targets(m: Controller) -> int:
     return Fault.LINE_MISMATCH
 
 
-def _lower(m: Controller, command: Command) -> int:
-    m.hole_begun = command.tag or m.hole_begun
-    m.time_limit = m.longest_drilling
-    return _drive_head(m, command, DOWN)
-
-
-def _raise(m: Controller, command: Command) -> int:
-    return _drive_head(m, command, UP)
-
-
-def _drive_head(m: Controller, command: Command, direction: int) -> int:
-    """Each head towards its sensor at that end; without one, to the distance that the machine's file gives."""
-    for index, axis in enumerate(m.axes):
-        if _is_head(m, command, index, axis):
-            sensor = _head_sensor(m, axis, direction)
-            if not sensor and not m.position_known:
-                return Fault.HOMING_REQUIRED
-            axis.seek_mask, axis.clear_mask = sensor, 0
-            if not m.sensors & sensor:
-                axis.aim(_head_target(m, axis, direction, sensor), command.floor_ticks)
-    return Fault.NONE
-
-
-def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
-    return bool(command.axes >> index & 1) if command.axes else axis in m.drill_axes
-
-
-def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:
-    """The sensor that ends the way, as an input bit. A head fed by a distance, where that is known, needs none."""
-    by_distance = m.machine.drill_down_steps is not None and (direction == DOWN or m.position_known)
-    return 0 if by_distance else axis.limits[direction]
-
-
-def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:
-    if not sensor:
-        return (m.machine.drill_down_steps or axis.high) if direction == DOWN else axis.up
-    if not m.position_known:
-        return axis.position + direction * axis.span
-    return axis.high if direction == DOWN else axis.low
-
-
-def _at_sensors(m: Controller, command: Command, direction: int) -> bool:
-    for index, axis in enumerate(m.axes):
-        if _is_head(m, command, index, axis):
-            sensor = _head_sensor(m, axis, direction)
-            axis.seek_mask = 0
-            if sensor and not m.sensors & sensor:
-                return False
-    return True
-
-
-def _lowered(m: Controller, command: Command) -> bool:
-    if not _at_sensors(m, command, DOWN):
-        raise_fault(m, Fault.DRILL_NOT_DOWN)
-        return False
-    m.holes_done += command.tag > 0
-    return True
-
-
-def _raised(m: Controller, command: Command) -> bool:
-    if not _at_sensors(m, command, UP):
-        raise_fault(m, Fault.HEAD_NOT_UP)
-        return False
-    return True
-
-
 def _initialise(m: Controller, command: Command) -> int:
     begin_homing(m)
     return Fault.NONE
@@ -240,8 +173,8 @@ _STARTED: Mapping[int, Callable[[Controller, Command], int]] = {
     Op.RUCH_D: _move,
     Op.LINIA: _move,
     Op.LINIA_D: _move,
-    Op.WIERTLO_DOL: _lower,
-    Op.WIERTLO_GORA: _raise,
+    Op.WIERTLO_DOL: lower_heads,
+    Op.WIERTLO_GORA: raise_heads,
     Op.INICJALIZACJA: _initialise,
     Op.BAZA: _take_base,
     Op.PREDKOSC: _nothing,  # its ticks stand in the moves that follow
@@ -254,8 +187,8 @@ _STARTED: Mapping[int, Callable[[Controller, Command], int]] = {
     Op.KONIEC: _nothing,
 }
 _ENDED: Mapping[int, Callable[[Controller, Command], bool]] = {
-    Op.WIERTLO_DOL: _lowered,
-    Op.WIERTLO_GORA: _raised,
+    Op.WIERTLO_DOL: heads_lowered,
+    Op.WIERTLO_GORA: heads_raised,
     Op.INICJALIZACJA: _initialised,
     Op.CZEKAJ: _waited,
     Op.CZEKAJ_WE: _answered,

@@ -6,6 +6,9 @@
     worklist.py   tool groups and holes in steps; refuses what the machine can't reach
     program.py    a work list as a program of KMD records
     job.py        what is run: a program with its names and holes, from a drill file or a ``.kmd`` queue
+    recipe.py     the options from which a job can be made again      wishes.py  what may be asked for
+    strokes.py    how one hole is drilled                             drills.py  with which of a workshop's drills
+    journal.py    what was begun and done                             journals.py  a folder of them
     feeder.py     puts a program into the queue as room is made
     errors.py     JobError: the operator's input, refused before anything moves
 

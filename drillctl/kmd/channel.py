@@ -56,11 +56,15 @@ class Channel:
         handle = os.open(place, flags | os.O_CLOEXEC, 0o600)
         try:
             if create:
-                os.ftruncate(handle, CHANNEL.itemsize)
+                _fill(handle, file)
             elif os.fstat(handle).st_size != CHANNEL.itemsize:
                 raise OSError(f"{file}: not a channel of this program")
             self.file = file
             self.memory = mmap.mmap(handle, CHANNEL.itemsize)
+        except OSError:
+            if create:
+                place.unlink(missing_ok=True)
+            raise
         finally:
             os.close(handle)
         self.fields: NDArray[np.void] = np.frombuffer(self.memory, dtype=CHANNEL, count=1)
@@ -90,6 +94,15 @@ class Channel:
 
     def __setitem__(self, name: str, value: int) -> None:
         self.fields[name] = value
+
+
+def _fill(handle: int, file: Path) -> None:
+    """Takes the room on the disk now: a page that finds none when it is written first is a bus error."""
+    try:
+        with open(handle, "wb", closefd=False) as whole:
+            whole.write(bytes(CHANNEL.itemsize))
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(file)) from error
 
 
 class SharedQueue:

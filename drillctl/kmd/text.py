@@ -85,30 +85,32 @@ def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]
     name, rest = words[0], words[1:]
     spec = COMMANDS.get(name.text)
     if spec is None:
-        raise _LineError(name, f"unknown command {name.text[:40]!r}{_nearest(name.text)}")
+        raise _LineError(name, _unknown(name.text[:40]))
     axes, args = _ARGUMENTS_IN[spec.form](spec, name, rest, names)
     return spec, axes, args
 
 
-def _nearest(name: str) -> str:
-    """A hint for a slip of the finger; what all names begin with says nothing."""
+def _unknown(name: str) -> str:
+    """With a hint for a slip of the finger; what all names begin with says nothing."""
     known = {command.removeprefix(_PREFIX).upper(): command for command in COMMANDS}
-    close = get_close_matches(name[:40].upper().removeprefix(_PREFIX), known, n=1, cutoff=0.7)
-    return f"; did you mean {known[close[0]]}?" if close else ""
+    close = get_close_matches(name.upper().removeprefix(_PREFIX), known, n=1, cutoff=0.7)
+    return f"unknown command {name!r}; did you mean {known[close[0]]}?" if close else f"unknown command {name!r}"
 
 
 def _count(spec: Spec, name: _Word, rest: list[_Word], wanted: int) -> None:
     if len(rest) != wanted:
         word = rest[wanted] if len(rest) > wanted else name
-        count = f"{len(rest)} argument{'s' * (len(rest) != 1)}"
-        raise _LineError(word, f"{count}; it is written {spec.name} {spec.usage}".rstrip())
+        written = f"{spec.name} {spec.usage}".rstrip()
+        count = "1 argument" if len(rest) == 1 else f"{len(rest)} arguments"
+        raise _LineError(word, f"{count}; it is written {written}")
 
 
 def _integer(word: _Word, least: int = -MOST_ARGUMENT) -> int:
     value = int(word.text) if _INTEGER.match(word.text) else None
     if value is None or not least <= value <= MOST_ARGUMENT:
-        kind = "a whole number" if least < 0 else f"a whole number from {least}"
-        raise _LineError(word, f"{word.text[:40]!r} is not {kind}")
+        text = word.text[:40]
+        wanted = f"{text!r} is not a whole number" if least < 0 else f"{text!r} is not a whole number from {least}"
+        raise _LineError(word, wanted)
     return value
 
 

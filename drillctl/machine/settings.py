@@ -74,7 +74,8 @@ class Setting:
                 raise ValueError
             return self.kind(typed)
         except ValueError:
-            raise ValueError(f"{typed!r}: {'a whole number' if self.kind is int else 'a number'} is wanted") from None
+            wanted = "a whole number" if self.kind is int else "a number"
+            raise ValueError(f"{typed!r}: {wanted} is wanted") from None
 
 
 def settings(source: Source) -> tuple[Setting, ...]:

@@ -44,19 +44,24 @@ class Fault:
     part: str
     value: float
 
+    def __str__(self) -> str:
+        return f"{self.name}.{self.part}" if self.part else self.name
+
 
 class Faults:
     """All that is wrong with a machine; ``of`` asks for one. Raises PlantRefused for what can't be told of it."""
 
     def __init__(self, texts: Iterable[str], machine: Machine):
         parts = {"sensor": [sensor.name for sensor in machine.sensors], "axis": machine.axis_names, "": [""]}
-        told = [parse_fault(text) for text in texts]
-        for fault in told:
+        self._values: dict[tuple[str, str], float] = {}
+        for fault in [parse_fault(text) for text in texts]:
             kind = FAULT_KINDS[fault.name].part
             if fault.part not in parts[kind]:
                 known = ", ".join(parts[kind])
                 raise PlantRefused(f"fault {fault.name}: {machine.name} has no {kind} {fault.part!r}; it has {known}")
-        self._values = {(fault.name, fault.part): fault.value for fault in told}
+            if (fault.name, fault.part) in self._values:
+                raise PlantRefused(f"fault {fault}: told twice")
+            self._values[fault.name, fault.part] = fault.value
 
     def of(self, name: str, part: str = "") -> float | None:
         """The value of a fault, or None where it was not told."""

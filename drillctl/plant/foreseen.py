@@ -28,11 +28,6 @@ class ForeseenPlant:
         """The input image."""
         return self._plant.inputs
 
-    @property
-    def touches(self) -> int:
-        """How often the bit has met the board."""
-        return self._plant.touches
-
     def stands(self, axis: int, travel: int) -> bool:
         """Whether the rotor is where so many columns have put it, and will follow any further."""
         return self._follows[axis].stands(travel)

@@ -7,6 +7,7 @@ Rule: the card proper is another driver (with its plant, in the process that tic
 file. Opened by registry.py; read by ``read_map``, which needs no driver.
 """
 
+import fcntl
 import mmap
 import os
 from dataclasses import dataclass
@@ -111,9 +112,12 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
     try:
         descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
         try:
+            _lock(descriptor, file)
             if os.fstat(descriptor).st_size:
                 read_map(file)
             os.ftruncate(descriptor, words * WORD_BYTES)
+            # Room on the disk is taken now: a page that finds none when it is written first is a bus error.
+            os.pwrite(descriptor, bytes(words * WORD_BYTES), 0)
             return mmap.mmap(descriptor, words * WORD_BYTES)
         finally:
             os.close(descriptor)
@@ -121,3 +125,11 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
         raise
     except OSError as error:
         raise PortRefused("mapped", f"{file}: can't be the card's file: {error.strerror}") from error
+
+
+def _lock(descriptor: int, file: Path) -> None:
+    """Held by the map's own copy of the descriptor, in every process that inherits it: one run drives a card."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise PortRefused("mapped", f"{file}: another run is using this card") from error

@@ -13,6 +13,7 @@ read.
     segments   a trace in the segment form; segment_file: as a file
     vcd        Trace -> VCD for GTKWave, PulseView and friends
     shape      a signal as a dense array, one value a tick
+    ring       a recorder in memory that two processes share
     lanes      the changes of a run that goes on, a lane a signal or a bit of one: what the scope looks into
     target     a path or an open file, for all that write
 """

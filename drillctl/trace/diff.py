@@ -49,15 +49,15 @@ class Difference:
 
 
 def first_difference(
-    expected: Trace, actual: Trace, signals: Sequence[str] | None = None
+    expected: Trace, actual: Trace, signals: Sequence[str] | None = None, from_tick: int = 0
 ) -> Difference | None:
-    """The first difference of the named signals, or None where both runs answer alike to the end.
+    """The first difference of the named signals from a tick on, or None where both runs answer alike to the end.
 
     Without `signals`: all responses of either trace that are not derived. Of several signals that differ in
     the same tick, the first named (declared) counts. Raises KeyError for a signal that neither trace has.
     """
     names = list(signals) if signals is not None else _responses(expected, actual)
-    found = [(tick, name) for name in names if (tick := _first_tick(expected, actual, name)) is not None]
+    found = [(tick, name) for name in names if (tick := _first_tick(expected, actual, name, from_tick)) is not None]
     if found:
         tick, name = min(found, key=lambda each: each[0])
         return _difference(expected, actual, tick, name)
@@ -85,11 +85,12 @@ def _responses(*traces: Trace) -> list[str]:
     return list(dict.fromkeys(signal.name for signal in signals if not (signal.stimulus or signal.derived)))
 
 
-def _first_tick(expected: Trace, actual: Trace, name: str) -> int | None:
-    """The first tick in which the signal differs and both runs were on."""
+def _first_tick(expected: Trace, actual: Trace, name: str, from_tick: int) -> int | None:
+    """The first tick from there on in which the signal differs and both runs were on."""
     if expected.has(name) != actual.has(name):
-        return 0 if min(expected.end, actual.end) else None
-    (ticks, values), (other_ticks, other_values) = _comparable(expected, actual, name)
+        return from_tick if from_tick < min(expected.end, actual.end) else None
+    both_runs = _comparable(expected, actual, name)
+    (ticks, values), (other_ticks, other_values) = (_from(from_tick, *changes) for changes in both_runs)
     both = min(len(ticks), len(other_ticks))
     unequal = (ticks[:both] != other_ticks[:both]) | (values[:both] != other_values[:both])
     row = int(np.argmax(unequal)) if unequal.any() else both
@@ -104,6 +105,12 @@ def _comparable(expected: Trace, actual: Trace, name: str) -> Iterator[tuple[Val
     for trace, signal in zip((expected, actual), signals, strict=True):
         ticks, values = trace.changes_of(name)
         yield ticks, values if alike else signal.words(values)
+
+
+def _from(tick: int, ticks: Values, values: NDArray[Any]) -> tuple[Values, NDArray[Any]]:
+    """Changes from a tick on, after the value that stands there."""
+    first = max(int(np.searchsorted(ticks, tick, side="right")) - 1, 0)
+    return np.maximum(ticks[first:], tick), values[first:]
 
 
 def _difference(expected: Trace, actual: Trace, tick: int, name: str) -> Difference:

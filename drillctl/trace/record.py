@@ -189,6 +189,19 @@ class Recorder:
             self._signal.frombytes(np.full(len(ticks), index, np.intc).tobytes())
             self._values.frombytes(values.astype(np.int64).tobytes())
 
+    def add(self, ticks: Values, signal: NDArray[np.int32], values: Values) -> None:
+        """Rows (n,) as ``drain`` gives them. Only ``finish`` may follow: what is ``set`` is not held against them."""
+        self._ticks.frombytes(ticks.tobytes())
+        self._signal.frombytes(signal.tobytes())
+        self._values.frombytes(values.tobytes())
+
+    def drain(self) -> tuple[Values, NDArray[np.int32], Values]:
+        """Ticks, signals and values (n,) kept since the last call, and forgets them."""
+        kept = np.array(self._ticks), np.array(self._signal, np.int32), np.array(self._values)
+        for column in (self._ticks, self._signal, self._values):
+            del column[:]
+        return kept
+
     def finish(self, end_tick: int, header: Header = (), trailer: Iterable[str] = ()) -> Trace:
         """The trace of the ticks 0..end_tick-1. Raises as `Trace.of_changes`."""
         rows = (self._ticks, self._signal, self._values)

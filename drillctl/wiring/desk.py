@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.generation.feeder import Feeder
-from drillctl.generation.job import Job, MadeHole, names_of
+from drillctl.generation.job import Job, MadeHole
 from drillctl.generation.journal import Journal, JournalError
-from drillctl.kmd import Condition, Fault, Request, to_text
+from drillctl.kmd import Condition, Fault, Request
 from drillctl.panel import Outcome, Progress, fault_report
 from drillctl.trace import Segments, Trace
 from drillctl.wiring.interrupts import caught
-from drillctl.wiring.link import Header, Link, is_over
+from drillctl.wiring.link import Link, is_over
+from drillctl.wiring.recorded import trace_header
 from drillctl.wiring.timeleft import TimeLeft
 
 BY_OPERATOR = "the operator stopped the job"
@@ -249,14 +250,3 @@ def _stopping(link: Link) -> Iterator[list[int]]:
 
     with caught(ask):
         yield came
-
-
-def trace_header(job: Job, plant: Header) -> Iterator[tuple[str, str]]:
-    """What a trace says of itself, enough to run it again; the machine is named by whoever writes the file. Put into
-    words only where somebody wants it.
-    """
-    yield from [("machine", job.machine.name), ("digest", job.machine.digest), ("tick_hz", str(job.machine.tick_hz))]
-    yield from plant
-    names = names_of(job.machine)
-    for record in job.program:
-        yield "command", f"{record['sequence']} {to_text(record, names)}"

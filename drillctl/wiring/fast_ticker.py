@@ -17,7 +17,7 @@ from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.plant.foreseen import ForeseenPlant
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.trace import Segments, Trace
+from drillctl.trace import Recorder, Segments, Trace
 from drillctl.trace.tapes import Images, Tape, images
 from drillctl.wiring.sampler import Sampler, signals
 from drillctl.wiring.tape_recorder import TapeRecorder
@@ -32,7 +32,7 @@ Records = NDArray[np.void]
 
 @dataclass
 class FastTicker(Ticker):
-    """As Ticker, with a simulated card and the ideal plant behind it, and nothing derived in its trace.
+    """As Ticker, with a simulated card and the ideal plant behind it. Of derived signals its trace has no rotors.
 
     foresees  False: every command is ticked through
     taped     the record is kept in the segment form, in place of a trace
@@ -43,8 +43,10 @@ class FastTicker(Ticker):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        assert isinstance(self.plant, IdealPlant) and isinstance(self.queue, Queue) and not self.derived
+        assert isinstance(self.plant, IdealPlant) and isinstance(self.queue, Queue)
         self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant))
+        if self.derived:
+            self.sampler = Sampler(self.controller, None, True, self.keeper)
         if self.taped:
             kept = signals(self.machine, with_plant=True, derived=False)
             recorder = TapeRecorder(kept, self.engine.reel, len(self.machine.axes) + 1)
@@ -58,19 +60,29 @@ class FastTicker(Ticker):
 
     @classmethod
     def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,
-              taped: bool = False) -> "FastTicker":  # fmt: skip
-        """The machine on the simulated card, with the ideal plant behind it, and a queue of this capacity."""
+              taped: bool = False, keeper: Recorder | None = None) -> "FastTicker":  # fmt: skip
+        """The machine on the simulated card, with the ideal plant behind it, and a queue of this capacity.
+
+        keeper  takes every signal, derived ones too; whoever made it empties it
+        """
         plant = IdealPlant(machine)
-        queue = Queue(capacity)
-        return cls(machine, SimulatedCard(plant), plant, traced, queue=queue, foresees=foresees, taped=taped)
+        return cls(
+            machine, SimulatedCard(plant), plant, traced, keeper is not None, Queue(capacity), keeper=keeper,
+            foresees=foresees, taped=taped,
+        )  # fmt: skip
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
-        """Through all that waits in the queue; where nothing can be foreseen, as many ticks as it is sure to last."""
+        """Through all that waits in the queue; where nothing can be foreseen, as many ticks as it is sure to last, or
+        until something can be again.
+        """
         first = self.controller.tick
         for _ in self.courses(before):
             if until is not None and until():
                 break
-        return self.controller.tick - first or super().turn(until, before)
+        return self.controller.tick - first or super().turn(lambda: self._may_stop(until), before)
+
+    def _may_stop(self, until: Callable[[], bool] | None) -> bool:
+        return self.engine.between or (until is not None and until())
 
     def courses(self, before: int = NEVER) -> Iterator[Course | None]:
         """Carries out what waits, while nothing else is going on: each course, or None after a ticked command."""

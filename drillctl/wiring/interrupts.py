@@ -39,7 +39,12 @@ def remembered() -> Iterator[list[int]]:
         leave(number, frame)
 
     with caught(handler):
-        yield came
+        try:
+            yield came
+        except OSError as error:  # a terminal that has gone can't be left as it was found
+            if not came:
+                raise
+            raise KeyboardInterrupt(came[0]) from error
 
 
 def exit_code(number: int = signal.SIGINT) -> int:

@@ -21,6 +21,7 @@ from drillctl.wiring.ticker import Ticker
 
 FREE, REAL = "free", "real"
 SIMULATED = "simulated"
+FILE = "FILE"  # how an address that is one begins in the registry
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,12 @@ def simulated(running: Running) -> Running:
     return running if not select(running.port)[0].real else replace(running, port=SIMULATED)
 
 
+def files_of(spec: str) -> tuple[Path, ...]:
+    """Files that a port ``NAME[:ADDRESS]`` reads or writes by its address. Raises PortRefused."""
+    port, address = select(spec)
+    return (Path(address),) if address and port.address.startswith(FILE) else ()
+
+
 def pace_of(running: Running) -> str:
     """Free for a simulated card, real for a real one. Raises PortRefused for a real port that nobody paces."""
     port, _ = select(running.port)
@@ -102,7 +109,11 @@ def start(machine: Machine, running: Running, status_file: Path, keeper: RingRec
         return LocalLink(Ticker(machine, driver, plant, traced, derived, keeper=keeper))
     from drillctl.wiring.paced import PacedLink
 
-    return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper)
+    try:
+        return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper)
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        raise PortRefused(running.port, f"no process of its own for the ticks: {where}{error.strerror}") from error
 
 
 def _goes_fast(running: Running, pace: str, driver: Driver, plant: Plant | None, keeper: RingRecorder | None) -> bool:

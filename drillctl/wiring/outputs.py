@@ -78,6 +78,17 @@ def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Ite
                 output.drop()
 
 
+def unwritten(*writes: Callable[[], None]) -> list[str]:
+    """Writes each result of a run; why some could not be. The machine has moved: nothing is refused any more."""
+    problems = []
+    for write in writes:
+        try:
+            write()
+        except OutputError as error:
+            problems.append(str(error))
+    return problems
+
+
 def write_text(path: Path, text: str) -> tuple[str, ...]:
     """A text at a path, whole or not at all, its folder made where need be; the reason where it can't be written."""
     output = None

@@ -20,6 +20,7 @@ from drillctl.ports import CARD_BITS, CARD_MASK, word
 from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
+QUIET = 4  # signals in which a course has nothing: request, hand, late, fault
 _REQUESTS = [request.name for request in Request if request]
 REQUEST_WORDS = tuple(
     "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
@@ -71,10 +72,10 @@ class Sampler:
             self._sample_axes(index + 5, tick)
 
     def sample_course(self, course: Course, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
-        """After a course that began at tick ``first``; into a Recorder, nothing derived. Without its ``images``
+        """After a course that began at tick ``first``; into a Recorder, no rotors. Without its ``images``
         (ticks,) the outputs are kept elsewhere.
         """
-        assert isinstance(self.recorder, Recorder) and not self._derived
+        assert isinstance(self.recorder, Recorder) and not (self._derived and self._plant)
         index = 0
         input_ticks, inputs = course.inputs()
         for card in self._cards:
@@ -86,8 +87,18 @@ class Sampler:
             index += 2
         running = pack_command(course.commands["sequence"].astype(np.int64), course.commands["opcode"])
         self.recorder.extend(index, first + course.starts[:-1], running)
-        for quiet in range(index + 1, len(self.signals)):
+        index += 1
+        for quiet in range(index, index + QUIET):
             self.recorder.set(quiet, first, 0)
+        if self._derived:
+            self._extend_axes(self.recorder, index + QUIET, course, first)
+
+    def _extend_axes(self, recorder: Recorder, index: int, course: Course, first: int) -> None:
+        for axis in range(len(course.journeys)):
+            ticks, column, position, state = course.motion(axis)
+            for values in (column + 1, position, state):
+                recorder.extend(index, first + ticks, values)
+                index += 1
 
     def _sample_axes(self, index: int, tick: int) -> None:
         put = self.recorder.set

@@ -14,7 +14,7 @@ from drillctl.generation.recipe import Recipe
 from drillctl.lab import forecast
 from drillctl.machine import Machine
 from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
-from drillctl.wiring.machinery import Running, is_soon_over, start
+from drillctl.wiring.machinery import Running, files_of, is_soon_over, start
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,12 @@ class Session:
     def journalled(self, file: Path, journal: Path | None, recipe: Recipe) -> "Session":
         """With a journal for a job made from ``file``; in the user's state folder where no place is given."""
         return replace(self, journal=journal or default_journal(file), known=head_of(file, self.job, recipe.options()))
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """What it keeps on the disk while it runs: no place for its results."""
+        kept = () if self.journal is None else (self.journal, _status_of(self.journal))
+        return (*kept, *files_of(self.running.port))
 
     def run(self, watcher: Watcher) -> Run:
         """Raises JournalError or PortError before anything moves."""
@@ -61,7 +67,7 @@ class Rest:
 
 def rest_of(journal: Path, account: Account, machine: Machine) -> Rest:
     """Refused unless it is the same job. Raises JobError, JournalError, PlacingError or AlignmentError."""
-    recipe = Recipe.of_options(account.head.options)
+    recipe = Recipe.of_options(account.head.options, journal)
     file = Path(account.head.job)
     wishes = recipe.wishes(machine)
     job = load_job(file, machine, wishes, recipe.format)
@@ -84,11 +90,15 @@ def journals() -> Path:
     return user_state_path("drillctl", appauthor=False)
 
 
+def _status_of(journal: Path) -> Path:
+    return journal.with_name(f"{journal.name}.status")
+
+
 @contextmanager
 def _status_file(journal: Path | None) -> Iterator[Path]:
     """The mapped file of a paced run: beside the journal, where it stays after a crash; else for the moment."""
     if journal is not None:
-        file = journal.with_name(f"{journal.name}.status")
+        file = _status_of(journal)
         yield file
         file.unlink(missing_ok=True)
         return

@@ -1,4 +1,4 @@
-"""The fast engine against the law: images, events, holes, and all that is remembered, on every machine.
+"""The fast engine against the law: images, events, columns, holes, and all that is remembered, on every machine.
 
 Programs hold every command; holds, stops, emergency stops, gaps in time and refused commands come at any tick.
 """
@@ -18,6 +18,7 @@ from drillctl.kmd import Request, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.trace import first_difference, render
 from drillctl.wiring.fast_ticker import FastTicker
+from drillctl.wiring.ticker import Ticker
 from tests.support.twins import remembered, trace, twins
 
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
@@ -90,6 +91,19 @@ def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
     assert len(ticked) <= (1 + 2 * len(HOLES) if moves_the_head_too else 5)
     assert len(fast.touched) == len(HOLES)
     check(machine, BOARD, {}, 10**9)
+
+
+def test_after_a_look_into_the_middle_of_a_command_it_goes_on_fast(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was begun is ticked to its end, and nothing of what waits behind it."""
+    machine, ticked = LIBRARY.machine("pcb-drill"), []
+    fast = FastTicker.ideal(machine)
+    fast.queue.put(parse_program("KMD_CZEKAJ 1000\n" * 50, names_of(machine)))
+    assert fast.turn(before=500) == 500
+    law = Ticker.run
+    monkeypatch.setattr(Ticker, "run", lambda self, *how: ticked.append(law(self, *how)) or ticked[-1])
+    while not fast.over():
+        fast.turn(fast.over)
+    assert fast.controller.tick == 50_001 and sum(ticked) == 500
 
 
 @pytest.mark.parametrize(("name", "distances"), [("pcb-drill", (0, 20)), ("eight-axis", (0, 48))])

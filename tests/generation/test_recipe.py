@@ -34,13 +34,13 @@ def job_of(recipe: Recipe, folder: Path, machine: Machine) -> Job:
 
 
 def test_a_recipe_comes_back_from_json() -> None:
-    assert Recipe.of_options(json.loads(json.dumps(FULL.options()))) == FULL
+    assert Recipe.of_options(json.loads(json.dumps(FULL.options())), Path("j")) == FULL
 
 
 @pytest.mark.parametrize("told", [{}, {"machine": 3}, {"machine": "m", "twist": 1}, {"machine": "m", "panel": [1, 2]}])
 def test_what_is_no_recipe_is_refused(told: dict[str, object]) -> None:
-    with pytest.raises(JobError, match="another version of this program"):
-        Recipe.of_options(told)
+    with pytest.raises(JobError, match=r"j:1: .*another version of this program"):
+        Recipe.of_options(told, Path("j"))
 
 
 def test_measured_holes_and_a_file_of_them_are_the_same(tmp_path: Path, machine: Machine) -> None:

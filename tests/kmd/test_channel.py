@@ -1,5 +1,7 @@
 """The doors in shared memory do what the doors of one process do; a status record is whole or not read at all."""
 
+import resource
+import signal
 from contextlib import suppress
 from pathlib import Path
 
@@ -160,3 +162,23 @@ def test_another_file_is_no_channel(content: bytes, tmp_path: Path) -> None:
     (tmp_path / "c").write_bytes(content)
     with pytest.raises(OSError, match="not a channel"):
         Channel(tmp_path / "c", create=False)
+
+
+def test_all_its_room_on_the_disk_is_taken_at_the_start(tmp_path: Path) -> None:
+    """A page that found none when it is written first would be a bus error in the middle of a job."""
+    Channel(tmp_path / "c", create=True)
+    assert (tmp_path / "c").stat().st_blocks * 512 >= CHANNEL.itemsize
+
+
+def test_a_disk_without_room_is_named(tmp_path: Path) -> None:
+    def make() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))
+        try:
+            Channel(tmp_path / "c", create=True)
+        except OSError as error:
+            (tmp_path / "told").write_text(f"{error.filename}")
+
+    Child(make).end(patience_s=10)
+    assert (tmp_path / "told").read_text() == str(tmp_path / "c")
+    assert [file.name for file in tmp_path.iterdir()] == ["told"]

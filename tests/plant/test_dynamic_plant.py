@@ -227,6 +227,11 @@ def test_a_fault_that_makes_no_sense_is_refused(text: str, reason: str, drill: M
         DynamicPlant(drill, [text])
 
 
+def test_a_fault_is_told_once(drill: Machine) -> None:
+    with pytest.raises(PlantRefused, match=r"fault stuck\.x_min: told twice"):
+        DynamicPlant(drill, ["stuck.x_min=0", "stuck.x_max=0", "stuck.x_min=1"])
+
+
 @pytest.mark.parametrize("name", FAULT_KINDS)
 def test_each_fault_is_listed_as_it_is_told(name: str) -> None:
     usage = next(line for line in fault_lines() if line.startswith(name)).split()[0]

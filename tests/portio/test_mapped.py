@@ -1,5 +1,6 @@
 """The mapped card: what is in its file while it runs, and after its process was killed."""
 
+import errno
 import os
 import signal
 import struct
@@ -28,6 +29,17 @@ def test_the_layout_is_as_written_down(tmp_path: Path) -> None:
     assert read_map(tmp_path / "card") == CardMap(1, 0x8000_0001_0000_0041, 0x0000_0007_0000_0030)
 
 
+def test_a_full_disk_is_refused_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Room that were missed at the first output only would be a bus error."""
+
+    def full(*arguments: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "pwrite", full)
+    with pytest.raises(PortRefused, match="can't be the card's file: No space left on device"):
+        card_at(tmp_path / "card")
+
+
 def test_the_plant_is_driven_too(tmp_path: Path) -> None:
     card, plant = card_at(tmp_path / "card")
     card.flush(0x41)
@@ -49,10 +61,24 @@ def test_a_killed_process_leaves_its_outputs_in_the_file_until_somebody_makes_th
 
 
 def test_the_file_of_an_earlier_run_is_taken_over_safe(tmp_path: Path) -> None:
-    earlier, _ = card_at(tmp_path / "card", cards=2)
-    earlier.flush(0x41)
+    child = os.fork()
+    if child == 0:
+        earlier, _ = card_at(tmp_path / "card", cards=2)
+        earlier.flush(0x41)
+        os.kill(os.getpid(), signal.SIGKILL)
+    os.waitpid(child, 0)
     card_at(tmp_path / "card", cards=1)
     assert read_map(tmp_path / "card") == CardMap(0, 0, 0)
+
+
+def test_one_run_drives_a_card(tmp_path: Path) -> None:
+    card, _ = card_at(tmp_path / "card", cards=2)
+    card.flush(0x41)
+    with pytest.raises(PortRefused, match="another run is using this card"):
+        card_at(tmp_path / "card")
+    assert read_map(tmp_path / "card").outputs == 0x41
+    card.close()
+    card_at(tmp_path / "card")
 
 
 @pytest.mark.parametrize("content", [b"DRIL", b"something else", b"DRIL" + bytes(20), b"DRIL" + bytes(4000)])

@@ -54,6 +54,26 @@ def test_a_changed_output_is_named_with_tick_and_command(trace: Path) -> None:
     assert "KMD_INICJALIZACJA" in verdict.message()
 
 
+@pytest.mark.parametrize("engine", ["tick", "fast"])
+def test_from_a_tick_on_the_next_difference_counts_and_none_before(trace: Path, engine: str) -> None:
+    recorded = read_text(trace)
+    ticks, values = recorded.changes_of("out.0")
+    places = [int(ticks[20]), int(ticks[900])]
+    for tick, value in zip(places, (int(values[20]), int(values[900])), strict=True):
+        changed(trace, f"\n{tick} out.0 0x{value:08x}", f"\n{tick} out.0 0x{value ^ 1:08x}")
+    for from_tick, found in ((0, 0), (places[0], 0), (places[0] + 40, 1), (places[1], 1), (places[1] + 40, None)):
+        difference = replay(trace, LIBRARY, engine, from_tick).difference
+        assert (difference and difference.tick) == (None if found is None else places[found])
+
+
+def test_a_tick_behind_the_end_is_refused(trace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    end = read_text(trace).end
+    assert main(["replay", str(trace), "--from-tick", str(end - 1)]) == 0
+    assert f", judged from tick {end - 1} on" in capsys.readouterr().out
+    assert main(["replay", str(trace), "--from-tick", str(end)]) == 2
+    assert f"no tick {end}: it has {end} ticks" in capsys.readouterr().err
+
+
 def test_another_ramp_differs_in_the_first_move_that_it_changes(trace: Path, tmp_path: Path) -> None:
     library = other_tables(tmp_path / "t", "ramp", "seven-state", "interval = 4", "interval = 5")
     verdict = replay(trace, library)

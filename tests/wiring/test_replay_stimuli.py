@@ -10,8 +10,8 @@ from drillctl.generation.wishes import Wishes
 from drillctl.kmd import Request, parse_program
 from drillctl.machine import Library, shipped_tables
 from drillctl.trace import write_text
-from drillctl.wiring.desk import trace_header
 from drillctl.wiring.link import header_of
+from drillctl.wiring.recorded import trace_header
 from drillctl.wiring.replay import replay
 from drillctl.wiring.ticker import Ticker
 

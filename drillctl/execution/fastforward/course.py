@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.journey import Journey
-from drillctl.execution.fastforward.strokes import COUNTERS, REMEMBERED, Place, Stroke
+from drillctl.execution.fastforward.strokes import COUNTERS, MOTION, REMEMBERED, Place, Stroke
 from drillctl.execution.fastforward.world import World
 from drillctl.trace.tapes import LAP, Count, Reel, Tape
 
@@ -50,6 +50,17 @@ class Stroked:
         start[self.rows] = self.of_kinds([kind.strips[number] for kind in self.kinds])
         lap[self.rows] = np.maximum(ticks[self.rows], LAP + 1)
         return Tape.of(start, ticks, lap)
+
+    def motion(self, number: int, starts: Count) -> Count:
+        """What a head does, by its number, as Journey.motion has it."""
+        parts = [np.array([[-1, *self.begin.motion(number)]], np.int64).T]
+        for which, kind in enumerate(self.kinds):
+            begins = starts[self.rows[self.which == which]]
+            once = np.array(kind.motions[number], np.int64).reshape(-1, 1 + len(MOTION)).T
+            ticks = (begins[:, None] + once[0]).ravel()
+            parts.append(np.stack((ticks, *np.tile(once[1:], len(begins)))))
+        motion = np.concatenate(parts, axis=1)
+        return motion[:, np.argsort(motion[0], kind="stable")]
 
     def leave(self, m: Controller, world: World, last_row: int) -> None:
         """The heads as they stand after the command ``last_row``."""
@@ -126,6 +137,17 @@ class Course:
                 found += [(begin + offset, (tool, hole, where)) for begin, tool, hole, where in told]
         found.sort(key=lambda touch: touch[0])
         return [touch for _, touch in found]
+
+    def motion(self, index: int) -> Count:
+        """Tick, column (from 0), position and state of an axis in tick 0 and wherever they may change, (4, k)."""
+        journey = self.journeys[index]
+        if journey is None:
+            motion = self.stroked.motion(self.stroked.heads.index(index), self.starts)
+        else:
+            motion = journey.motion(self.starts)
+        motion[0, 0] = 0
+        at_once = motion.shape[1] > 1 and motion[0, 1] == 0
+        return motion[:, 1:] if at_once else motion
 
     def tapes(self, reel: Reel) -> list[Tape]:
         """What each axis puts out, then the switched outputs: tapes from this reel, all as long as the course."""

@@ -79,6 +79,27 @@ class Journey:
             length[rows, 4] = ticks[rows] - self.ticks[rows]
         return start, length, lap
 
+    def motion(self, starts: Count) -> Count:
+        """Tick, column, position and state at the beginning and at every column put out, (4, k), by rising tick;
+        the commands begin at the ticks ``starts`` (n,).
+        """
+        parts = [np.array([[-1], [self.column[0]], [self.position[0]], [0]], np.int64)]
+        for stride, rows in self._moves():
+            distance = self.steps[rows]
+            for steps in np.unique(distance).tolist():
+                parts.append(self._moved(stride.motion(abs(steps)), rows[distance == steps], starts))
+        motion = np.concatenate(parts, axis=1)
+        return motion[:, np.argsort(motion[0], kind="stable")]
+
+    def _moved(self, once: Count, rows: NDArray[np.intp], starts: Count) -> Count:
+        """The same move, made in each of these commands; ``once`` is as Stride.motion has it."""
+        ticks, columns, made, states = once
+        way = np.sign(self.steps[rows])[:, None]
+        column = (self.column[rows][:, None] + way * self.axis.sense * columns) % self.axis.length
+        position = self.position[rows][:, None] + way * made
+        told = (starts[rows][:, None] + ticks, column, position, np.broadcast_to(states, column.shape))
+        return np.stack([each.ravel() for each in told])
+
     def _rests(self, reel: Reel) -> tuple[Count, Count]:
         """Where the image lies that stands before a command's first column, and after its last one: (n,) each."""
         axis, turn = self.axis, np.sign(self.steps) * self.axis.sense

@@ -27,7 +27,8 @@ class Stride:
         self._pace = max(axis.interval[state], floor)
         self._straight = ramp.straight_from()
         walk = list(ramp.walk(direction * self._straight, floor))
-        self._split = [made_in for _, made_in in walk].index(state) * self._columns  # columns before the cruise begins
+        self._cruise = [made_in for _, made_in in walk].index(state)  # steps before the cruise begins
+        self._split = self._cruise * self._columns
         self._short = np.array([sum(self._waits(d)) for d in range(self._straight + 1)], np.int64)
         self._last_wait = [0, *(self._waits(d)[-1] for d in range(1, self._straight + 1))]
         self._strips: dict[int, int] = {}
@@ -69,6 +70,20 @@ class Stride:
         ticks[:, 2] = lengths - head
         lap[:, (0, 2)] = np.maximum(lengths, LAP + 1)[:, None]
         return start, ticks, lap
+
+    def motion(self, steps: int) -> Count:
+        """For each column of a move of so many steps: its tick, the columns and whole steps made, and the state then:
+        (4, columns). Ticks count from that in which the move was taken.
+        """
+        short = min(steps, self._straight)
+        times = np.ones(short, np.int64)
+        times[self._cruise : self._cruise + 1] += steps - short
+        walk = np.array([*self._axis.ramp.walk(self._direction * short, self._floor)])
+        waits, states = np.repeat(walk, times, axis=0).T
+        columns = np.arange(1, steps * self._columns + 1)
+        made = columns // self._columns
+        ticks = np.cumsum(np.repeat(waits, self._columns)) - 1
+        return np.stack((ticks, columns, made, np.append(states, 0)[made]))
 
     def _waits(self, steps: int) -> list[int]:
         """Ticks before each column of a move."""

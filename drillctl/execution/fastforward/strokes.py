@@ -15,6 +15,7 @@ from drillctl.execution.fastforward.world import World
 from drillctl.trace.tapes import Reel
 
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
+MOTION = ("column", "position", "state")
 TABLES = ("ramp", "interval", "shown", "resting", "limits", "line")
 REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES))
 
@@ -25,6 +26,7 @@ class Stroke:
 
     inputs   (tick, the heads' sensors as latched), changes only, from tick 0 to the first tick after the stroke
     touches  (tick, place of each head in steps) where the bit met the board
+    motions  by head: tick and MOTION, changes only
     grown    by head, what it adds to the COUNTERS
     last     by head, whether its forcing is still on in the last tick, and its bits then
     after    the place it ends at
@@ -34,6 +36,7 @@ class Stroke:
     strips: tuple[int, ...]
     inputs: tuple[tuple[int, int], ...]
     touches: tuple[tuple[int, tuple[float, ...]], ...]
+    motions: tuple[tuple[tuple[int, ...], ...], ...]
     grown: tuple[tuple[int, ...], ...]
     last: tuple[tuple[bool, int], ...]
     after: "Place"
@@ -51,6 +54,10 @@ class Place:
     def rests(self) -> tuple[int, ...]:
         """By head, the image that it holds here."""
         return tuple(state[REMEMBERED.index("cold")] for state in self.axes)
+
+    def motion(self, number: int) -> tuple[int, ...]:
+        """Of a head by its number: MOTION as it stands here."""
+        return tuple(self.axes[number][REMEMBERED.index(slot)] for slot in MOTION)
 
 
 class Strokes:
@@ -93,14 +100,19 @@ class Recording:
         self._strips: list[list[int]] = [[] for _ in self._axes]
         self._inputs: list[tuple[int, int]] = []
         self._touches: list[tuple[int, tuple[float, ...]]] = []
-        self._touched = world.touches
+        self._motions: list[list[tuple[int, ...]]] = [[] for _ in self._axes]
+        self._at = [self._start.motion(number) for number in range(len(self._axes))]
 
     def note(self, places: tuple[float, ...] | None) -> None:
         """After a tick: ``places`` are all axes', where the bit has just met the board."""
         tick = len(self._strips[0])
         self._see(tick, self._m.inputs)
-        for strip, axis in zip(self._strips, self._axes, strict=True):
-            strip.append(axis.bits)
+        for number, axis in enumerate(self._axes):
+            self._strips[number].append(axis.bits)
+            at = axis.column, axis.position, axis.state
+            if at != self._at[number]:
+                self._at[number] = at
+                self._motions[number].append((tick, *at))
         if places is not None:
             self._touches.append((tick, tuple(places[head] for head in self._strokes.heads)))
 
@@ -115,8 +127,9 @@ class Recording:
         strips = tuple(map(self._strokes.lay, self._strips))
         last = tuple((axis.cooling, axis.bits) for axis in self._axes)
         self._start.known[self._signature] = Stroke(
-            ticks, strips, tuple(self._inputs), tuple(self._touches), tuple(grown), last, self._strokes.here()
-        )
+            ticks, strips, tuple(self._inputs), tuple(self._touches), tuple(map(tuple, self._motions)), tuple(grown),
+            last, self._strokes.here(),
+        )  # fmt: skip
 
     def _see(self, tick: int, inputs: int) -> None:
         seen = inputs & self._strokes.mask

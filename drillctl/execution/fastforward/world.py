@@ -15,10 +15,6 @@ class World(Protocol):
     def inputs(self) -> int:
         """The input image that the next latch will see."""
 
-    @property
-    def touches(self) -> int:
-        """How often the bit has met the board."""
-
     def stands(self, axis: int, travel: int) -> bool:
         """Whether the rotor is where so many columns have put it, and will follow any further."""
 

@@ -1,0 +1,82 @@
+"""The drilling heads: how KMD_WIERTLO_DOL and KMD_WIERTLO_GORA start and end (docs/SPEC.md, 1.10).
+
+Rule: a head goes towards its sensor at that end and stops on it; without one it goes to the distance that the machine's
+file gives. The range's end without the sensor is a fault. Called by commands.
+"""
+
+from drillctl.execution.axis import Axis
+from drillctl.execution.controller import Controller
+from drillctl.execution.stops import raise_fault
+from drillctl.kmd import Command, Fault
+
+UP, DOWN = -1, 1
+
+
+def lower_heads(m: Controller, command: Command) -> int:
+    """KMD_WIERTLO_DOL starts, or the fault why not; each head at its own target, and drilling takes only so long."""
+    m.hole_begun = command.tag or m.hole_begun
+    m.time_limit = m.longest_drilling
+    return _drive_head(m, command, DOWN)
+
+
+def raise_heads(m: Controller, command: Command) -> int:
+    """KMD_WIERTLO_GORA starts, or the fault why not."""
+    return _drive_head(m, command, UP)
+
+
+def heads_lowered(m: Controller, command: Command) -> bool:
+    """At rest: the hole is made where every head is down; else DRILL_NOT_DOWN."""
+    if not _at_sensors(m, command, DOWN):
+        raise_fault(m, Fault.DRILL_NOT_DOWN)
+        return False
+    m.holes_done += command.tag > 0
+    return True
+
+
+def heads_raised(m: Controller, command: Command) -> bool:
+    """At rest: whether every head is up; else HEAD_NOT_UP."""
+    if not _at_sensors(m, command, UP):
+        raise_fault(m, Fault.HEAD_NOT_UP)
+        return False
+    return True
+
+
+def _drive_head(m: Controller, command: Command, direction: int) -> int:
+    """Each head towards its sensor at that end; without one, to the distance that the machine's file gives."""
+    for index, axis in enumerate(m.axes):
+        if _is_head(m, command, index, axis):
+            sensor = _head_sensor(m, axis, direction)
+            if not sensor and not m.position_known:
+                return Fault.HOMING_REQUIRED
+            axis.seek_mask, axis.clear_mask = sensor, 0
+            if not m.sensors & sensor:
+                axis.aim(_head_target(m, axis, direction, sensor), command.floor_ticks)
+    return Fault.NONE
+
+
+def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
+    return bool(command.axes >> index & 1) if command.axes else axis in m.drill_axes
+
+
+def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:
+    """The sensor that ends the way, as an input bit. A head fed by a distance, where that is known, needs none."""
+    by_distance = m.machine.drill_down_steps is not None and (direction == DOWN or m.position_known)
+    return 0 if by_distance else axis.limits[direction]
+
+
+def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:
+    if not sensor:
+        return (m.machine.drill_down_steps or axis.high) if direction == DOWN else axis.up
+    if not m.position_known:
+        return axis.position + direction * axis.span
+    return axis.high if direction == DOWN else axis.low
+
+
+def _at_sensors(m: Controller, command: Command, direction: int) -> bool:
+    for index, axis in enumerate(m.axes):
+        if _is_head(m, command, index, axis):
+            sensor = _head_sensor(m, axis, direction)
+            axis.seek_mask = 0
+            if sensor and not m.sensors & sensor:
+                return False
+    return True
