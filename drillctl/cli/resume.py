@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("resume", help="go on with a job that was cut off", description=__doc__)
-    newest = "default: the newest in the user's state folder"
+    newest = "default: the newest unfinished one in the user's state folder"
     verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help=newest)
     options.add_running(verb)
     options.add_engine(verb)
@@ -54,12 +54,13 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
 
 def _newest() -> Path:
     from drillctl.generation.errors import JobError
+    from drillctl.generation.journals import unfinished
     from drillctl.wiring.session import journals
 
-    found = sorted(journals().glob("*.journal"), key=lambda journal: journal.stat().st_mtime)
+    found = unfinished(journals())
     if not found:
-        raise JobError([f"{journals()}: no journal is kept here; name one"])
-    return found[-1]
+        raise JobError([f"{journals()}: no unfinished journal is kept here; name one"])
+    return found[0][0]
 
 
 def _tell(file: Path, account: "Account", left: "Job") -> None:

@@ -1,6 +1,7 @@
 """A folder of journals: the jobs in it that were cut off, and giving one of them up.
 
-Rule: a journal that a run still writes belongs to that run; it is neither offered nor taken away. Called by station.
+Rule: a journal that a run still writes belongs to that run; it is neither offered nor taken away. Called by station
+and by the resume verb.
 """
 
 import fcntl

@@ -7,6 +7,7 @@ Rule: outputs can't be read back, so every flush writes all of every card: the i
 and a disturbed output is right again one tick later. Opened by registry.py.
 """
 
+import fcntl
 import os
 from collections.abc import Sequence
 from contextlib import suppress
@@ -74,7 +75,17 @@ def open_pcl720(address: str, wiring: Wiring) -> Pcl720:
     except OSError as error:
         reason = f"{DEVICE} can't be opened ({error.strerror}); be root, and the kernel not locked down"
         raise PortRefused("pcl720", reason) from error
+    lock(descriptor)
     return Pcl720(descriptor, descriptor, bases)
+
+
+def lock(descriptor: int) -> None:
+    """One program drives the cards, with all its processes, which inherit the lock. Raises PortRefused."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        os.close(descriptor)
+        raise PortRefused("pcl720", "another run is using the cards; end it first") from error
 
 
 def card_bases(address: str, wiring: Wiring) -> list[int]:

@@ -3,6 +3,7 @@ and the hole that was under way is named; what is no longer the same job is refu
 """
 
 import json
+import os
 import resource
 import subprocess
 import sys
@@ -10,8 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.cli import main
 from drillctl.generation.journal import read_journal
 from drillctl.machine import shipped_tables
+from drillctl.wiring.session import journals
 from tests.support.journalled import BOARD, holes, keep_lines, resume, run
 
 KINDS = {
@@ -154,3 +157,23 @@ def test_a_full_disk_stops_the_job_and_leaves_a_whole_journal(room_bytes: int, f
     assert not account.torn and 1 in account.done
     assert resume() == 0
     assert read_journal(folder / "j").done == {1, 2, 3, 4}
+
+
+def test_without_a_name_the_newest_unfinished_job_is_gone_on_with(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kept = journals()
+    kept.mkdir(parents=True)
+    assert run() == 0
+    (folder / "j").rename(kept / "finished.journal")
+    assert run() == 0
+    keep_lines(folder, 3)
+    (folder / "j").rename(kept / "cut.journal")
+    later_s = (kept / "cut.journal").stat().st_mtime + 60
+    os.utime(kept / "finished.journal", (later_s, later_s))
+    capsys.readouterr()
+    assert main(["resume", "--json"]) == 0
+    told = capsys.readouterr()
+    assert "cut.journal: 1 of 4 holes are drilled" in told.err and json.loads(told.out)["holes_done"] == 4
+    assert main(["resume", "--json"]) == 2
+    assert "no unfinished journal is kept here" in capsys.readouterr().err

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from drillctl.portio import pcl720
-from drillctl.portio.pcl720 import Pcl720, card_bases, open_pcl720
+from drillctl.portio.pcl720 import Pcl720, card_bases, lock, open_pcl720
 from drillctl.ports import PortLost, PortRefused, Wiring
 from tests.portio.conformance import WIRING
 
@@ -42,6 +42,14 @@ def test_a_card_that_does_not_answer_is_lost(tmp_path: Path) -> None:
     with pytest.raises(PortLost, match="no answer at 0x2a0"):
         cards.latch()
     cards.close()
+
+
+def test_one_program_drives_the_cards(tmp_path: Path) -> None:
+    first, second = registers(tmp_path / "port"), os.open(tmp_path / "port", os.O_RDWR)
+    lock(first)
+    with pytest.raises(PortRefused, match="another run"):
+        lock(second)
+    os.close(first)
 
 
 def test_errors_of_the_port_are_errors_of_the_system(tmp_path: Path) -> None:
