@@ -111,10 +111,10 @@ def _refuse(error: Exception) -> int:
 
 
 def _is_refusal(error: Exception) -> bool:
-    from drillctl.generation.alignment import AlignmentError
     from drillctl.generation.drillfile import DrillFileError
     from drillctl.generation.errors import JobError
     from drillctl.generation.journal import JournalError
+    from drillctl.generation.measured import AlignmentError
     from drillctl.generation.placing import PlacingError
     from drillctl.lab.errors import LabError
     from drillctl.lab.latency import LatencyError

@@ -1,7 +1,7 @@
 """LAYER 2: from drill files and queues to programs of KMD commands.
 
     drillfile/    reads every drill file there is, and says which format it took it for
-    placing.py    where the board lies: mirror, turn, shift, panel      alignment.py  measured holes
+    placing.py    where the board lies: mirror, turn, shift, panel      alignment.py  as measured.py has it
     order/        in which order the holes of a tool are drilled
     worklist.py   tool groups and holes in steps; refuses what the machine can't reach
     program.py    a work list as a program of KMD records

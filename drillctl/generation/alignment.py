@@ -9,22 +9,16 @@ Called by the wiring of `--align FILE`; the map it finds goes into `placing.Plac
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from drillctl.generation.measured import MAX_BYTES, AlignmentError, Millimetres, parse
 from drillctl.generation.placing import Affine
 
-Millimetres = NDArray[np.float64]
-
-COLUMNS = ("file_x", "file_y", "machine_x", "machine_y")
-NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
-MAX_BYTES = 1_000_000
-MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
 COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
 SHORT_SPAN_MM = 10.0  # 0.1 mm of error over this length is half a degree of turn
 LINE_RATIO = 0.02  # spread across / spread along; below it the width is measurement error, not a direction
@@ -33,18 +27,6 @@ MAX_SHEAR = 0.02
 MAX_RESIDUAL_MM = 0.5  # a hole off by more was most likely taken for another one
 
 HOLES_NEEDED = {"rigid": 2, "affine": 3}  # rigid: shift and turn; affine: scale and shear as well
-
-
-class AlignmentError(ValueError):
-    """The measured holes, or the file that lists them, cannot be used; the text says which and why."""
-
-
-@dataclass(frozen=True)
-class Measured:
-    """Holes known in both coordinates: file and machine millimetres, each float64 (n, 2)."""
-
-    file_xy_mm: Millimetres
-    machine_xy_mm: Millimetres
 
 
 @dataclass(frozen=True)
@@ -101,42 +83,6 @@ def load(path: Path, *, mirrored: bool = False) -> Alignment:
         return fit(measured.file_xy_mm, measured.machine_xy_mm, mirrored=mirrored)
     except AlignmentError as error:
         raise AlignmentError(f"{path}: {error}") from error
-
-
-def parse(data: bytes, *, name: str) -> Measured:
-    """Lines `file_x file_y machine_x machine_y` in mm; `#` starts a comment. Raises AlignmentError."""
-    if len(data) > MAX_BYTES:
-        raise AlignmentError(f"{name}:1:1: longer than {MAX_BYTES} bytes, too long for a list of holes")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise AlignmentError(f"{name}:{line}:1: not a text file (UTF-8)") from error
-    rows = [_row(line, f"{name}:{number}") for number, line in enumerate(text.split("\n"), 1)]
-    found = np.array([row for row in rows if row], np.float64).reshape(-1, len(COLUMNS))
-    return Measured(found[:, :2], found[:, 2:])
-
-
-def _row(line: str, where: str) -> list[float]:
-    words = list(re.finditer(r"\S+", line.partition("#")[0]))
-    if not words:
-        return []
-    if len(words) != len(COLUMNS):
-        wanted = len(COLUMNS)
-        column = words[wanted].start() + 1 if len(words) > wanted else words[-1].end() + 1
-        raise AlignmentError(f"{where}:{column}: {len(words)} numbers where {' '.join(COLUMNS)} are meant")
-    return [_number(word, what, where) for word, what in zip(words, COLUMNS, strict=True)]
-
-
-def _number(word: re.Match[str], what: str, where: str) -> float:
-    place = f"{where}:{word.start() + 1}"
-    if not NUMBER.fullmatch(word.group()):
-        hint = "; write a point, not a comma" if "," in word.group() else ""
-        raise AlignmentError(f"{place}: {what} {word.group()[:20]!r} is not a number{hint}")
-    value_mm = float(word.group())
-    if abs(value_mm) > MAX_MM:
-        raise AlignmentError(f"{place}: {what} {word.group()[:20]} is not within {MAX_MM:.0f} mm")
-    return value_mm
 
 
 def fit(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike, *, mirrored: bool = False) -> Alignment:

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.generation import alignment
-from drillctl.generation.alignment import AlignmentError, decompose
+from drillctl.generation.alignment import decompose
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.journal import Account, Head, Journal, JournalError, head_of, read_journal
 from drillctl.generation.journals import give_up, unfinished
+from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.recipe import MeasuredRow, Recipe
 from drillctl.machine import Library, Machine

@@ -97,13 +97,13 @@ def test_after_a_look_into_the_middle_of_a_command_it_goes_on_fast(monkeypatch: 
     """What was begun is ticked to its end, and nothing of what waits behind it."""
     machine, ticked = LIBRARY.machine("pcb-drill"), []
     fast = FastTicker.ideal(machine)
-    fast.queue.put(parse_program("KMD_CZEKAJ 1000\n" * 50, names_of(machine)))
+    fast.queue.put(parse_program("KMD_CZEKAJ 1000\n" * 45, names_of(machine)))
     assert fast.turn(before=500) == 500
     law = Ticker.run
     monkeypatch.setattr(Ticker, "run", lambda self, *how: ticked.append(law(self, *how)) or ticked[-1])
     while not fast.over():
         fast.turn(fast.over)
-    assert fast.controller.tick == 50_001 and sum(ticked) == 500
+    assert fast.controller.tick == 45_001 and sum(ticked) == 500
 
 
 @pytest.mark.parametrize(("name", "distances"), [("pcb-drill", (0, 20)), ("eight-axis", (0, 48))])

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.generation.alignment import AlignmentError, decompose, fit, load, parse
+from drillctl.generation.alignment import decompose, fit, load
+from drillctl.generation.measured import AlignmentError, parse
 from drillctl.generation.placing import Affine, Placing, transform
 
 SQUARE_MM = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 80.0], [0.0, 80.0]])
