@@ -42,7 +42,8 @@ class Benches:
             from drillctl.station.workbench import Workbench
             from drillctl.ui.screens.table_list import TableList
 
-            return TableList(console, shell, Workbench(self._library, user_tables()), kind, self._plain)
+            bench = Workbench(self._library, user_tables(), lambda: self._station.machine)
+            return TableList(console, shell, bench, kind, self._plain)
 
         return made
 

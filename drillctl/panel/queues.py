@@ -32,6 +32,9 @@ class QueueDesk(Protocol):
     def check_queue(self, text: str) -> tuple[Finding, ...]:
         """What is wrong, line by line, each with its column; none for a queue that can run."""
 
+    def too_far(self, text: str) -> tuple[Finding, ...]:
+        """The moves of a sound queue that end beyond the range wherever they begin: each will be a fault."""
+
     def open_queue(self, file: str) -> tuple[str, Problems]:
         """The text of a file; empty, with the reason, where it can't be read."""
 

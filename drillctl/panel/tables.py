@@ -18,12 +18,13 @@ Place = tuple[str | int, ...]
 class TableEntry:
     """A table that can be opened. ``origin``: shipped, yours (a copy that wins), or other (a folder named first).
 
-    ``ships``: one of this name comes with the program, to go back to.
+    ``ships``: one of this name comes with the program, to go back to. ``in_use``: the machine at hand is driven by it.
     """
 
     name: str
     origin: str
     ships: bool = True
+    in_use: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,8 @@ REPEAT_S = 0.09  # terminals repeat a key 20 to 40 times a second, fingers less 
 HELD_PRESSES = 3
 SILENT_S = 0.2  # a repeat may be late by as much where the computer is busy
 
+TOO_FAR = "the axis can't go so far: its reach ends before"
+
 Step = tuple[str, int]  # axis, signed steps
 
 
@@ -59,7 +61,7 @@ class Jogging:
     def _begin(self, axis: str, steps: int, held: bool) -> Problems:
         way = self._way(axis, steps)
         if way is not None and abs(way) < abs(steps):
-            return ("the axis can't go so far: its reach ends before",)
+            return (TOO_FAR,)
         self._running = held and way is not None
         problems = self._move(axis, way if self._running and way is not None else steps)
         self.under_way = not problems

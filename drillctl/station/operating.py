@@ -18,7 +18,7 @@ from drillctl.panel.console import Problems
 from drillctl.panel.records import Progress
 from drillctl.station.dryrun import visited
 from drillctl.station.inuse import InUse
-from drillctl.station.jogging import Jogging, way_left
+from drillctl.station.jogging import TOO_FAR, Jogging, way_left
 from drillctl.station.scope import Recording
 from drillctl.station.toolgate import ToolGate, asks_for_tools
 from drillctl.station.workingbase import WorkingBase
@@ -101,7 +101,10 @@ class Operating:
         return problems
 
     def jog(self, axis: str, steps: int) -> Problems:
-        """Not while anything else runs, nor while a jog is held."""
+        """Not while anything else runs, nor while a jog is held; nor farther than the axis is long, known or not."""
+        index = self.machine.axis_index(axis)
+        if index is not None and abs(steps) > self.machine.axes[index].span_steps:
+            return (TOO_FAR,)
         held = self.link.status()["condition"] != Condition.READY
         if self.at_work and (held or not self._jogs.under_way):
             return (BUSY,)

@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from drillctl.generation.job import names_of
-from drillctl.kmd import COMMANDS, KmdError, Names, parse_program
+from drillctl.kmd import COMMANDS, KmdError, Names, Op, parse_program
+from drillctl.kmd.commands import BY_OP, Form
 from drillctl.machine import Machine
 from drillctl.panel.console import Problems
 from drillctl.panel.queues import CommandHelp
@@ -15,6 +16,7 @@ from drillctl.panel.tables import Finding
 from drillctl.station.wholefile import keeps_waiting
 from drillctl.wiring.outputs import write_text
 
+MOVES = (Form.XY, Form.MOVES)  # their arguments are steps, by axis
 LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it is checked at every key
 
 
@@ -36,6 +38,10 @@ class QueueBench:
     def check_queue(self, text: str) -> tuple[Finding, ...]:
         """Each line alone first, so that all wrong lines are told; then the whole, for what lies between lines."""
         return tuple(_wrong_lines(text, self._names())) or tuple(_wrong(text, self._names(), 0))
+
+    def too_far(self, text: str) -> tuple[Finding, ...]:
+        """Base and place are known when the queue runs, and lie within the range: a move longer than it can't fit."""
+        return tuple(_too_far(text, self._machine())) if text.strip() else ()
 
     def open_queue(self, file: str) -> tuple[str, Problems]:
         """UTF-8."""
@@ -60,10 +66,26 @@ class QueueBench:
         return names_of(self._machine())
 
 
+def _lines(text: str) -> Iterator[tuple[int, str]]:
+    """Those that hold a command, by their numbers from 1."""
+    lines = enumerate(text.split("\n"), start=1)
+    return ((number, line) for number, line in lines if line.partition("#")[0].strip())
+
+
 def _wrong_lines(text: str, names: Names) -> Iterator[Finding]:
-    for before, line in enumerate(text.split("\n")):
-        if line.partition("#")[0].strip():
-            yield from _wrong(line, names, before)
+    for number, line in _lines(text):
+        yield from _wrong(line, names, number - 1)
+
+
+def _too_far(text: str, machine: Machine) -> Iterator[Finding]:
+    for number, line in _lines(text):
+        command = parse_program(line, names_of(machine))[0]
+        if BY_OP[Op(int(command["opcode"]))].form not in MOVES:
+            continue
+        for axis, steps in zip(machine.axes, command["args"].tolist(), strict=False):
+            if abs(steps) > (span := axis.span_steps):
+                name = axis.name.upper()
+                yield Finding(number, f"{name}: {steps} steps reach beyond the work range, which is {span} long")
 
 
 def _wrong(text: str, names: Names, lines_before: int) -> Iterator[Finding]:

@@ -5,10 +5,10 @@ Created by the screen verb.
 """
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from drillctl.machine import Library, TableError, intervals, shipped_tables
+from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
 from drillctl.machine.edit import UNSAVED, set_pattern, set_reverse, set_state_row, set_value
 from drillctl.machine.edit_ramp import with_states, without_states
 from drillctl.machine.phase import NAME, phase_rows
@@ -31,15 +31,21 @@ LONGEST_NAME = 40
 
 
 class Workbench:
-    """A TableDesk over ``library``; edits go to ``user_folder``, which is one of the library's folders."""
+    """A TableDesk over ``library``; edits go to ``user_folder``, which is one of the library's folders. ``machine``
+    gives the machine at hand, None for none.
+    """
 
-    def __init__(self, library: Library, user_folder: Path):
-        self._library, self._user_folder = library, user_folder
+    def __init__(self, library: Library, user_folder: Path, machine: Callable[[], Machine | None] = lambda: None):
+        self._library, self._user_folder, self._machine = library, user_folder, machine
 
     def tables(self, kind: Kind) -> list[TableEntry]:
         """By name."""
-        names = self._library.names(kind)
-        return [TableEntry(name, self._origin(kind, name), self._shipped(kind, name).is_file()) for name in names]
+        machine = self._machine()
+        used = _used(kind, machine) if machine else set()
+        return [
+            TableEntry(name, self._origin(kind, name), self._shipped(kind, name).is_file(), name in used)
+            for name in self._library.names(kind)
+        ]
 
     def read(self, kind: Kind, name: str) -> str:
         """From the first folder that has it."""
@@ -179,6 +185,13 @@ class Workbench:
 
     def _shipped(self, kind: Kind, name: str) -> Path:
         return shipped_tables() / kind / f"{name}.toml"
+
+
+def _used(kind: Kind, machine: Machine) -> set[str]:
+    """The names of the tables that a machine is made of."""
+    if kind == "machines":
+        return {machine.name}
+    return {getattr(axis, kind).name for axis in machine.axes}
 
 
 def _source(text: str) -> Source:

@@ -22,6 +22,7 @@ class Alerts:
     def __init__(self, console: Console, layers: Layers):
         self._console, self._layers = console, layers
         self._fault_told = 0
+        self._was_known = True  # the position, before the newest view
         self._tool_told: ToolWanted | None = None
         self._tool_box: dialogs.Dialog | None = None
         self._real_told = ""
@@ -32,9 +33,12 @@ class Alerts:
         self._show_real(view)
         fault = view.fault if view.condition != "returning" else None
         if fault and fault.code and fault.code != self._fault_told:
-            box = dialogs.message(_fault_title(fault), _fault_lines(fault), self._layers.pop, self._acknowledge)
+            box = dialogs.message(
+                _fault_title(fault), _fault_lines(fault, self._was_known), self._layers.pop, self._acknowledge
+            )
             self._layers.push_dialog(box)
         self._fault_told = fault.code if fault else 0
+        self._was_known = view.position_known
 
     def _show_tool(self, tool: ToolWanted | None) -> None:
         if tool == self._tool_told:
@@ -92,6 +96,8 @@ def _fault_title(fault: FaultReport) -> str:
     return f"{_('FAULT')} {fault.name}"
 
 
-def _fault_lines(fault: FaultReport) -> list[str]:
-    position = _("position kept") if fault.position == "kept" else _("position lost: initialise again")
+def _fault_lines(fault: FaultReport, was_known: bool) -> list[str]:
+    """A position that was not known can't have been lost."""
+    lost = _("position lost: initialise again") if was_known else _("position not known: initialise")
+    position = _("position kept") if fault.position == "kept" else lost
     return [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]

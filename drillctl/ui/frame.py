@@ -77,7 +77,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
 
     def __init__(self, screen: urwid.Widget):
         self.bar = MenuBar()
-        self._machine = urwid.Text("", wrap="clip")
+        self._machine = urwid.Text("", wrap="ellipsis")
         self._keys = KeyLine()
         self._shown: Line = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])

@@ -11,6 +11,7 @@ import urwid
 
 from drillctl.panel.console import MachineView, Problems
 from drillctl.ui.forms import Field
+from drillctl.ui.words import _
 
 
 class Shell(Protocol):
@@ -55,3 +56,11 @@ class Live(Protocol):
 def unsaved(screen: urwid.Widget | None) -> bool:
     """Whether a screen holds something that would be lost with it: those that can, have ``changed``."""
     return bool(getattr(screen, "changed", False))
+
+
+def asked_to_leave(screen: urwid.Widget, shell: Shell, key: str, give_up: Callable[[], None]) -> bool:
+    """Whether ``key`` is Esc and would lose something: then it was asked about, and ``give_up`` follows on a yes."""
+    if key != "esc" or not unsaved(screen):
+        return False
+    shell.ask(_("Leave without saving?"), give_up)
+    return True

@@ -91,7 +91,7 @@ def journals() -> Path:
 
 
 def _status_of(journal: Path) -> Path:
-    return journal.with_name(f"{journal.name}.status")
+    return journal.parent / f"{journal.name}.status"  # with_name would raise for a folder, which is refused later
 
 
 @contextmanager

@@ -167,6 +167,16 @@ def test_a_jog_can_not_leave_the_reach(station: Station) -> None:
     assert station.view().fault is None and station.view().axes[2].position_steps == 300
 
 
+def test_a_jog_longer_than_the_axis_is_refused_before_its_place_is_known() -> None:
+    library = Library.standard()
+    made = Station(library, library.machine("pcb-drill"), Running(pace="free"))
+    try:
+        assert made.jog("z", -836) == made.jog("z", 836) == ("the axis can't go so far: its reach ends before",)
+        assert made.view().fault is None and not made.view().at_work
+    finally:
+        made.close()
+
+
 def test_the_rate_asked_for_stays_with_its_machine() -> None:
     library = Library.standard()
     made = Station(library, library.machine("pcb-drill").at_rate(400), Running(pace="real"), tick_hz=400)

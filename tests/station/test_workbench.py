@@ -23,6 +23,17 @@ def bench(user: Path) -> Workbench:
     return Workbench(Library((user, shipped_tables())), user)
 
 
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [("machines", "pcb-drill"), ("phase", "two-phase-forced"), ("ramp", "seven-state")],
+)  # fmt: skip
+def test_what_the_machine_at_hand_is_made_of_is_in_use(user: Path, kind: Kind, name: str) -> None:
+    library = Library((user, shipped_tables()))
+    machine = library.machine("pcb-drill")
+    used = [entry.name for entry in Workbench(library, user, lambda: machine).tables(kind) if entry.in_use]
+    assert used == [name] and not any(entry.in_use for entry in Workbench(library, user).tables(kind))
+
+
 def origin(bench: Workbench, kind: Kind, name: str) -> str:
     return next(entry.origin for entry in bench.tables(kind) if entry.name == name)
 
@@ -227,6 +238,26 @@ def test_what_lies_between_lines_is_told_too(queue: QueueBench) -> None:
     (found,) = queue.check_queue("KMD_KONIEC\nKMD_CZEKAJ 5\n")
     assert found.line == 2 and "KMD_KONIEC" in found.text
     assert queue.check_queue("KMD_CZEKAJ 5\n") == ()
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        pytest.param("KMD_GOTO_X_Y 16545 0", (), id="the whole range, from one end of it"),
+        pytest.param("KMD_GOTO_X_Y 16546 0", ("X: 16546", ), id="a step more"),
+        pytest.param("KMD_RUCHd x=-16546 y=99999", ("X: -16546", "Y: 99999"), id="both axes, either way"),
+        pytest.param("KMD_LINIA z=836", ("Z: 836",), id="a line"),
+        pytest.param("KMD_CZEKAJ 99999", (), id="ticks are no steps"),
+        pytest.param("# KMD_GOTO_X_Y 99999 0", (), id="a comment"),
+    ],
+)  # fmt: skip
+def test_moves_longer_than_the_range_are_told_although_they_may_be_tried(
+    queue: QueueBench, line: str, found: tuple[str, ...]
+) -> None:
+    text = f"KMD_INICJALIZACJA\n\n{line}\n"
+    told = [str(finding) for finding in queue.too_far(text)]
+    assert [words.split(" steps ")[0] for words in told] == [f"3: {place}" for place in found]
+    assert queue.check_queue(text) == () and queue.too_far("") == ()
 
 
 def test_a_queue_is_kept_and_opened_again(queue: QueueBench, tmp_path: Path) -> None:

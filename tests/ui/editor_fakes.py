@@ -236,6 +236,9 @@ class Queues:
         lines = enumerate(text.split("\n"), start=1)
         return tuple(Finding(n, "unknown command", 1) for n, line in lines if line and not line.startswith("KMD_"))
 
+    def too_far(self, text: str) -> tuple[Finding, ...]:
+        return tuple(Finding(n, "too far") for n, line in enumerate(text.split("\n"), start=1) if "9999" in line)
+
     def open_queue(self, file: str) -> tuple[str, Problems]:
         return (self.files[file], ()) if file in self.files else ("", (f"{file}: can't be read",))
 

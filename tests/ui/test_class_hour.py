@@ -96,7 +96,7 @@ def fault() -> Iterator["terminals.Act"]:
     """A queue beyond the range: cause and remedy are read, the fault acknowledged."""
     told = FAULT_WORDS[Fault.SOFT_LIMIT]
     yield Act(menu("queue_editor"), (word("Queue of commands"),))
-    yield Act(BEYOND, ("999999", word("sound")))
+    yield Act(BEYOND, ("2: X: 999999",))
     yield Act(("F5",), ("SOFT_LIMIT", word("Cause: ") + word(told.cause)[:30], word(told.remedy)[:30]))
     yield Act(("Enter",), (word("READY"),))
 

@@ -7,7 +7,7 @@ import pytest
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.settings import settings
 from drillctl.machine.source import Source
-from drillctl.panel.tables import FieldView
+from drillctl.panel.tables import FieldView, TableEntry
 from drillctl.station.workbench import Workbench
 from drillctl.ui import words
 from drillctl.ui.screens.compare import label_of
@@ -72,7 +72,7 @@ def test_a_value_that_cannot_be_taken_is_told_and_nothing_is_saved(
     screen: Configuration, shell: Shell, desk: Tables
 ) -> None:
     press(screen, "end", "-", "down", "down", "end", "7")
-    assert "problem: '500-': not that" in text_of(screen)
+    assert "problem: Interrupt frequency: '500-': not that" in text_of(screen)
     assert attributes_of(screen, "not that") == {"danger"}
     press(screen, "f2")
     assert desk.own == {} and shell.told == [("Not saved", ["'500-': not that"])]
@@ -159,6 +159,17 @@ def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, s
     assert isinstance(shell.opened[0], EDITORS[kind])  # type: ignore[arg-type,index]
 
 
+def test_the_list_marks_what_the_machine_at_hand_is_driven_by(
+    console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk = Tables(phase="1a 5 x.")
+    entries = [TableEntry("one", "shipped", in_use=True), TableEntry("two", "shipped")]
+    monkeypatch.setattr(desk, "tables", lambda kind: entries)
+    first, second = text_of(TableList(console, shell, desk, "phase")).split("\n")[:2]
+    assert first.startswith("* one") and first.endswith("shipped, in use")
+    assert second.startswith("  two") and second.endswith("shipped")
+
+
 def test_a_table_is_copied_from_the_list(console: Console) -> None:
     shell = Shell(types="one")
     press(TableList(console, shell, Tables(phase="1a 5 x."), "phase"), "c")
@@ -189,6 +200,15 @@ def test_only_a_table_of_ones_own_is_deleted_and_only_after_a_yes(console: Conso
     desk.own["phase"] = "1a 5 .x"
     press(tables, "r")
     assert not desk.own
+
+
+def test_a_table_that_was_never_shipped_is_not_asked_about_before_its_reset_is_refused(
+    console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk = Tables(phase="1a 5 x.")
+    monkeypatch.setattr(desk, "tables", lambda kind: [TableEntry("mine", "yours", ships=False)])
+    press(TableList(console, shell, desk, "phase"), "r")
+    assert shell.asked == [] and shell.told == [("Nothing changed", ["there is no copy of your own"])]
 
 
 def test_an_editor_left_with_edits_in_it_comes_back_as_it_was(console: Console, shell: Shell) -> None:

@@ -246,6 +246,16 @@ def test_holes_that_contradict_each_other_place_nothing(folder: Path) -> None:
     assert isinstance(program.app.screens[-1], Files) and len(program.console.asked) == before
 
 
+def test_a_long_reason_against_measured_holes_is_read_to_its_end(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reason = "the measured places press the board flat onto a line: were they confused with each other?"
+    monkeypatch.setattr(FakeConsole, "align", lambda console, measured, face_down: (None, (reason,)))
+    program = aligning(folder, (80, 24))
+    program.press("enter", "tab", "t", *"47 20", "enter")
+    assert f"problem: {reason}" in " ".join(program.text().split())
+
+
 def test_the_drill_is_sent_where_a_hole_should_be(folder: Path) -> None:
     program = aligning(folder)
     program.press("tab", "g")

@@ -94,6 +94,18 @@ def test_the_emergency_stop_is_live_everywhere(key: str, first: list[str]) -> No
     assert "EMERGENCY_STOP" in program.text()
 
 
+def test_a_position_that_was_not_known_is_not_told_as_lost() -> None:
+    program = Program(FakeConsole(now=replace(VIEW, position_known=False)))
+    program.console.now = replace(VIEW, position_known=False, condition="latched", fault=FAULT)
+    program.app.turn()
+    assert "position not known: initialise" in program.text() and "position lost" not in program.text()
+
+
+def test_a_line_on_the_machine_that_is_cut_says_so() -> None:
+    program = Program(FakeConsole(now=replace(VIEW, machine="a-machine-with-a-name-of-forty-characters")), (80, 24))
+    assert program.text().splitlines()[1].rstrip().endswith("…")
+
+
 def test_a_fault_is_told_once_and_acknowledged() -> None:
     program = Program(FakeConsole(now=replace(VIEW, condition="latched", fault=FAULT)))
     program.app.turn()

@@ -52,7 +52,7 @@ def english() -> None:
 
 def test_what_is_in_use_and_what_is_configured() -> None:
     text = text_of(screen(Ports()))
-    assert all(part in text for part in ("simulated, simulated", "REAL", "MEGA", "firmata", "nothing moves"))
+    assert all(part in text for part in ("In use        simulated\n", "REAL", "MEGA", "firmata", "nothing moves"))
     text = text_of(screen(Ports(replace(PORT, configured="", overridden=True))))
     assert "none drives this card" in text and "--port was given and wins" in text
 

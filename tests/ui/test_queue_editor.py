@@ -57,6 +57,14 @@ def editor(console: Console, shell: Shell, desk: Queues, hands: Hands) -> QueueE
     return QueueEditor(console, shell, desk, hands)
 
 
+def test_a_move_too_long_is_warned_of_and_can_be_tried(editor: QueueEditor, console: Console) -> None:
+    press(editor, *"KMD_RUCH x=9999")
+    assert "1: too far" in text_of(editor) and attributes_of(editor, "too far") == {"warning"}
+    assert "sound" not in text_of(editor)
+    press(editor, "f5")
+    assert console.ran == ["KMD_RUCH x=9999"]
+
+
 def test_tab_completes_in_the_middle_of_a_text(editor: QueueEditor) -> None:
     press(editor, *"KMD_RUCH x=1", "enter", *"kmd_c", "tab", "9")
     assert editor.text == "KMD_RUCH x=1\nKMD_CZEKAJ 9"

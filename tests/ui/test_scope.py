@@ -226,6 +226,12 @@ def test_a_live_run_is_followed_until_the_cursor_is_moved(square: TraceFile, mon
     assert program.cursor() == end and "following" in program.text()
 
 
+def test_a_run_out_of_a_file_does_not_go_on_and_is_not_followed(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press(" ")
+    assert program.cursor() == square.last_tick and "following" not in program.text()
+
+
 def test_a_run_without_a_tick_says_so_and_takes_every_key(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(square, "last_tick", -1)
     program = Scoped(square, live=True)

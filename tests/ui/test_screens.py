@@ -71,6 +71,13 @@ def test_every_key_of_drilling_is_tried() -> None:
     assert {name for key in Drilling.keys for name in key.names} == {*dict(REQUESTS), *OPENING, "tab"}
 
 
+def test_drilling_without_a_board_says_how_one_is_opened() -> None:
+    program = Program(FakeConsole())
+    assert "F opens a drill file." in program.text()
+    program.press("f")
+    assert "F opens a drill file." not in program.text() and "No board is loaded." in program.text()
+
+
 def test_drilling_begins_only_after_a_yes() -> None:
     program = Program(FakeConsole(loaded=BOARD))
     program.press("s", "enter")

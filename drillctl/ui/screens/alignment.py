@@ -180,7 +180,9 @@ def _row(measuring: Measuring, index: int, marked: bool, base: Place) -> Line:
 
 def _verdict(measuring: Measuring) -> list[Line]:
     found = measuring.alignment
-    problems: list[Line] = [[("danger", _("problem: ") + told(problem))] for problem in measuring.problems]
+    problems: list[Line] = [
+        [("danger", line)] for problem in measuring.problems for line in wrap(_("problem: ") + told(problem), WIDTH)
+    ]
     if found is None:
         wanted = _("{count} holes at least are to be found; three tell scale and shear too").format(count=LEAST_HOLES)
         return problems or [[wanted]]

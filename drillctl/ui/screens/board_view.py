@@ -27,13 +27,13 @@ SIGNS = {
 
 
 class BoardPicture(urwid.Widget):
-    """A box that draws a board; ``plain`` where the terminal has no UTF-8."""
+    """A box that draws a board; ``plain`` where the terminal has no UTF-8, ``hint``: how one comes to be loaded."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
 
-    def __init__(self, plain: bool = False):
+    def __init__(self, plain: bool = False, hint: str = ""):
         super().__init__()
-        self._plain = plain
+        self._plain, self._hint = plain, hint
         self._state: tuple[BoardView | None, int, bool, Place | None] = (None, 0, False, None)
 
     def show(self, board: BoardView | None, done: int = 0, running: bool = False, head_mm: Place | None = None) -> None:
@@ -52,7 +52,7 @@ class BoardPicture(urwid.Widget):
     def _lines(self, columns: int, rows: int) -> list[Line]:
         board, done, running, head_mm = self._state
         if board is None or not len(board.xy_mm):
-            return [[("dark", _("No board is loaded."))]]
+            return [[("dark", _("No board is loaded."))], [("dark", _(self._hint) if self._hint else "")]]
         sheet = Sheet.fitted(board.xy_mm, columns, rows)
         signs, states = self._drawn(sheet, board.xy_mm, done, running, head_mm)
         return [_runs(row, named) for row, named in zip(signs, states, strict=True)]

@@ -18,7 +18,7 @@ from drillctl.ui.screens.field_words import words_of
 from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import Size
-from drillctl.ui.shell import Shell
+from drillctl.ui.shell import Shell, asked_to_leave
 from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
@@ -63,10 +63,7 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
 
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys, then the field's own; Esc asks first where something would be lost."""
-        if key == "esc" and self.changed:
-            self._shell.ask(_("Leave without saving?"), self._give_up)
-            return None
-        if called(self, self.keys, key):
+        if asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key):
             return None
         left = super().keypress(size, key)
         self._take()
@@ -169,15 +166,16 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         field = self._field
         if field is None:
             return [[("danger", _("problem: ") + told(str(found)))] for found in self._form.check().problems]
-        wrong = [problem for other in self._form.fields if (problem := self._form.problem(other))]
-        wrong = wrong or list(map(str, self._form.check().problems))
-        problems: list[Line] = [[("danger", _("problem: ") + told(problem))] for problem in wrong]
+        refused = [(other, self._form.problem(other)) for other in self._form.fields]
+        wrong = [f"{label_of(other)}: {told(problem)}" for other, problem in refused if problem]
+        wrong = wrong or [told(str(found)) for found in self._form.check().problems]
+        problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
         return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
 
 
 def _row(field: FieldView, edit: urwid.Edit) -> urwid.Widget:
     unit = _(words_of(field).unit)
-    allowed = " | ".join(field.choices) or field.bounds
+    allowed = "" if field.locked else " | ".join(field.choices) or field.bounds
     sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
     hint: Line = [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []
     label, box = urwid.Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")

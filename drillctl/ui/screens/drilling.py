@@ -51,7 +51,7 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, console: Console, shell: Shell, plain: bool = False, files: Callable[[], object] | None = None):
         AtMachine.__init__(self, console)
         self._shell, self._open_files = shell, files
-        self._picture = BoardPicture(plain)
+        self._picture = BoardPicture(plain, N_("F opens a drill file."))
         self._window = SideWindow()
         self._was_at_work = False
         self._footer = urwid.Text("")

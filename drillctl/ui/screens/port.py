@@ -79,10 +79,10 @@ class PortScreen(urwid.Widget):
 
 def port_lines(port: PortView, report: PortReport | None) -> list[Line]:
     """The state of things, a line each; then the report."""
-    kind = _("a real machine") if port.real else _("simulated")
+    in_use = _("{port}, a real machine").format(port=port.in_use) if port.real else _("simulated")
     won = _(" (--port was given and wins)") if port.overridden else ""
     lines: list[Line] = [
-        _labelled(_("In use"), f"{port.in_use}, {kind}"),
+        _labelled(_("In use"), in_use),
         _labelled(_("Mode"), port.mode + won),
         _labelled(_("Card"), port.card),
         _labelled(_("Its port"), port.configured or _("none drives this card")),

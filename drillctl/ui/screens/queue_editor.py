@@ -18,7 +18,7 @@ from drillctl.ui.models.completion import completed, usage
 from drillctl.ui.models.history import History
 from drillctl.ui.real import asked_if_real
 from drillctl.ui.screens.table_editor import Size
-from drillctl.ui.shell import Shell
+from drillctl.ui.shell import Shell, asked_to_leave
 from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
@@ -66,10 +66,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
 
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys, then the text's own; Esc asks first where something would be lost."""
-        if key == "esc" and self.changed:
-            self._shell.ask(_("Leave without saving?"), self._give_up)
-            return None
-        if called(self, self.keys, key):
+        if asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key):
             return None
         left = super().keypress(size, key)
         self._keep()
@@ -221,7 +218,12 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         place = _("line {line}, column {column}").format(line=self._line + 1, column=column + 1)
         hint = "  ".join(fits) or usage(line, self._commands)
         found = self._desk.check_queue(self.text) if self.text.strip() else ()
-        return [[("key", place)], [hint], *_findings(found), *self._stopped]
+        return [[("key", place)], [hint], *self._verdict(found), *self._stopped]
+
+    def _verdict(self, found: tuple[Finding, ...]) -> list[Line]:
+        """What can't run; else what will run into a fault, which is no reason not to try it."""
+        too_far = () if found else self._desk.too_far(self.text)
+        return _findings(found, "danger") or _findings(too_far, "warning") or [[("good", _("sound"))]]
 
 
 def _stopped_lines(view: MachineView) -> list[Line]:
@@ -235,8 +237,8 @@ def _axis(axis: AxisView) -> str:
     return told.format(axis=axis.name.upper(), column=axis.column, state=f"{axis.state:+d}", steps=axis.position_steps)
 
 
-def _findings(found: tuple[Finding, ...]) -> list[Line]:
-    lines: list[Line] = [[("danger", told(str(finding)))] for finding in found[:MOST_FINDINGS]]
+def _findings(found: tuple[Finding, ...], attribute: str) -> list[Line]:
+    lines: list[Line] = [[(attribute, told(str(finding)))] for finding in found[:MOST_FINDINGS]]
     more = len(found) - MOST_FINDINGS
     rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
-    return [*lines, *rest] or [[("good", _("sound"))]]
+    return [*lines, *rest]

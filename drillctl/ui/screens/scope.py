@@ -116,8 +116,8 @@ class Scope(urwid.Widget):
         self._go(self._source.last_tick)
 
     def follow(self) -> None:
-        """There and away."""
-        following = not self._following
+        """There and away; a run out of a file has ended, and is only gone to the end of."""
+        following = self._live and not self._following
         self.end()
         self._following = following
 

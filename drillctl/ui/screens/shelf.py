@@ -31,13 +31,16 @@ class Shelf:
         self._shell.ask(question, lambda: self.drive(machine))
 
     def reset(self, name: str, then: Then) -> None:
-        """Asks first."""
+        """Asks first where there is something to go back to; else the refusal is all there is to say."""
 
         def yes() -> None:
             if not self._refused(_("Nothing changed"), self._desk.reset(self._kind, name)):
                 then()
 
-        self._shell.ask(_("Take your own copy away and go back to the shipped table?"), yes)
+        if any(entry.name == name and entry.ships for entry in self._desk.tables(self._kind)):
+            self._shell.ask(_("Take your own copy away and go back to the shipped table?"), yes)
+        else:
+            yes()
 
     def delete(self, name: str, then: Then) -> None:
         """Asks first; there is no way back."""

@@ -12,7 +12,7 @@ from drillctl.ui.keys import Key, called
 from drillctl.ui.lines import Line, boxed
 from drillctl.ui.models.history import History
 from drillctl.ui.screens.shelf import Shelf
-from drillctl.ui.shell import Shell
+from drillctl.ui.shell import Shell, asked_to_leave
 from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
@@ -68,10 +68,8 @@ class TableEditor(urwid.Widget):
 
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys; Esc asks first where something would be lost."""
-        if key == "esc" and self.changed:
-            self._shell.ask(_("Leave without saving?"), self._give_up)
-            return None
-        return None if called(self, self.keys, key) else key
+        taken = asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key)
+        return None if taken else key
 
     def edit(self, text: str) -> None:
         """A new text, checked at once."""

@@ -1,4 +1,7 @@
-"""The tables of one kind: choose one to edit, or copy it. Rule: says of each whose it is. Opened from the menu."""
+"""The tables of one kind: choose one to edit, or copy it. Rule: says of each whose it is, and whether it is in use.
+
+Opened from the menu.
+"""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -6,7 +9,7 @@ from typing import Any
 import urwid
 
 from drillctl.panel.console import Console
-from drillctl.panel.tables import Kind, TableDesk
+from drillctl.panel.tables import Kind, TableDesk, TableEntry
 from drillctl.ui.keys import Key, called
 from drillctl.ui.screens.configuration import Configuration
 from drillctl.ui.screens.phase_editor import PhaseEditor
@@ -61,7 +64,7 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         """The list anew; the cursor stays where it was."""
         at = self._list.focus_position if self._rows else 0
         self._entries = [*self._desk.tables(self.kind)]
-        lines = [f"{entry.name:{NAME_COLUMNS}}{_(ORIGINS[entry.origin])}" for entry in self._entries]
+        lines = list(map(_line, self._entries))
         self._rows[:] = [urwid.AttrMap(urwid.SelectableIcon(line, 0), "body", "focus") for line in lines]
         if lines:
             self._list.set_focus(min(at, len(lines) - 1))
@@ -99,3 +102,9 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
     @property
     def _current(self) -> str:
         return self._entries[self._list.focus_position].name
+
+
+def _line(entry: TableEntry) -> str:
+    """The sign stands before the name, where the eye goes down the list; the word where it is read."""
+    sign, word = ("*", _(", in use")) if entry.in_use else (" ", "")
+    return f"{sign} {entry.name:{NAME_COLUMNS}}{_(ORIGINS[entry.origin])}{word}"
