@@ -1,7 +1,7 @@
 """A serial line with a Firmata board at its end: opened, greeted, spoken to in whole messages.
 
-Rule: every wait is bounded; a line that is gone is PortLost, one that is too slow PortSlow; never a retry. No thread: what has arrived
-is read when it is asked for. Opened by firmata.py, which alone uses it.
+Rule: every wait is bounded; a line that is gone is PortLost, one that is too slow PortSlow; never a retry. No thread:
+what has arrived is read when it is asked for. Opened by firmata.py, which alone uses it.
 """
 
 import select

@@ -33,15 +33,14 @@ def machine() -> Machine:
     return Library.standard().machine("pcb-drill").at_rate(100)
 
 
-def children_left() -> bool:
-    """Whether any child of this process is there, collected or not."""
-    try:
-        return os.waitpid(-1, os.WNOHANG) is not None
-    except ChildProcessError:
-        return False
+@pytest.fixture
+def children_left() -> Callable[[], list[int]]:
+    """Tells the children of this process, collected or not, but those that an earlier test of it left for good."""
+    before = set(children_of(os.getpid()))
+    return lambda: [child for child in children_of(os.getpid()) if child not in before]
 
 
-def test_a_second(machine: Machine) -> None:
+def test_a_second(machine: Machine, children_left: Callable[[], list[int]]) -> None:
     told = measure(machine, 1)
     assert 1 <= told.ticker.wakes <= 100 and told.canary.wakes >= 1
     assert told.seconds >= 0.9 and not told.interrupted
@@ -59,7 +58,7 @@ def test_a_slow_tick_is_our_own_doing(machine: Machine, monkeypatch: pytest.Monk
     assert told.ours > 0
 
 
-def test_it_can_be_ended_early(machine: Machine) -> None:
+def test_it_can_be_ended_early(machine: Machine, children_left: Callable[[], list[int]]) -> None:
     looks: list[float] = []
 
     def third_look() -> bool:
@@ -72,7 +71,7 @@ def test_it_can_be_ended_early(machine: Machine) -> None:
     assert not children_left()
 
 
-def test_an_error_on_the_way_ends_the_children_too(machine: Machine) -> None:
+def test_an_error_on_the_way_ends_the_children_too(machine: Machine, children_left: Callable[[], list[int]]) -> None:
     def fail() -> bool:
         raise ZeroDivisionError
 
@@ -81,7 +80,7 @@ def test_an_error_on_the_way_ends_the_children_too(machine: Machine) -> None:
     assert not children_left()
 
 
-def test_a_dead_ticker_is_no_figure(machine: Machine) -> None:
+def test_a_dead_ticker_is_no_figure(machine: Machine, children_left: Callable[[], list[int]]) -> None:
     def kill_the_youngest() -> bool:
         time.sleep(0.1)
         if children := children_of(os.getpid()):
@@ -93,7 +92,9 @@ def test_a_dead_ticker_is_no_figure(machine: Machine) -> None:
     assert not children_left()
 
 
-def test_a_ticker_that_never_begins(machine: Machine, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_ticker_that_never_begins(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch, children_left: Callable[[], list[int]]
+) -> None:
     monkeypatch.setattr(latency, "START_S", 0.3)
     monkeypatch.setattr(latency, "LEAVE_S", 0.1)
     monkeypatch.setattr(latency, "run_ticker", lambda *_: time.sleep(LONG_S))
