@@ -98,16 +98,20 @@ def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], clo
 
 
 class _Field(urwid.Edit):
-    """A line of text with something to do on Enter."""
+    """A line of text with something to do on Enter. A character typed first takes the place of what was proposed."""
 
     entered: Act = staticmethod(nothing)
+    _untouched = True
 
     def keypress(self, size: Size, key: str) -> str | None:
         assert len(size) == 1
-        if key != "enter":
-            return super().keypress(size, key)
-        self.entered()
-        return None
+        if key == "enter":
+            self.entered()
+            return None
+        if self._untouched and self.valid_char(key):
+            self.set_edit_text("")
+        self._untouched = False
+        return super().keypress(size, key)
 
 
 def _first_selectable(body: Sequence[Part], otherwise: int) -> int:

@@ -109,7 +109,9 @@ class Sampler:
             index += 3
             if self._plant is not None:
                 put(index, tick, round(self._plant.position_steps(number)))
-                index += 1
+                behind_steps = self._plant.behind_steps(number, axis.travelled)
+                put(index + 1, tick, round(behind_steps * axis.columns_per_step))
+                index += 2
 
 
 def signals(machine: Machine, with_plant: bool, derived: bool) -> list[Signal]:
@@ -128,7 +130,7 @@ def signals(machine: Machine, with_plant: bool, derived: bool) -> list[Signal]:
         for name in machine.axis_names:
             found += [Signal(f"{name}.{field}", "count", False, True) for field in ("column", "position", "state")]
             if with_plant:
-                found.append(Signal(f"plant.{name}", "count", False, True))
+                found += [Signal(f"plant.{field}", "count", False, True) for field in _of_plant(name)]
     return found
 
 
@@ -150,5 +152,11 @@ def vcd_layout(machine: Machine, with_plant: bool) -> list[VcdVar]:
         VcdVar("kmd", "running", "string", "kmd", part="running"),
     ]
     if with_plant:
-        layout += [VcdVar("plant", name, "integer", f"plant.{name}") for name in machine.axis_names]
+        fields = [field for name in machine.axis_names for field in _of_plant(name)]
+        layout += [VcdVar("plant", field, "integer", f"plant.{field}") for field in fields]
     return layout
+
+
+def _of_plant(axis: str) -> tuple[str, str]:
+    """Where the carriage is, in steps; and how far behind the controller, in columns: its lag, and at rest what it lost."""
+    return axis, f"{axis}_behind"

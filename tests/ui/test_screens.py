@@ -108,11 +108,11 @@ def test_step_sizes_in_millimetres_are_the_axis_s_steps_and_each_unit_keeps_its_
 
 def test_going_to_a_hole_and_to_a_typed_place() -> None:
     program = Program(FakeConsole(loaded=BOARD))
-    program.press("h", "backspace", "3", "enter")
+    program.press("h", "3", "enter")  # instead of the 1 that was proposed
     program.press("t", *["backspace"] * 3, *"12,7 -3.5", "enter")
     assert program.console.asked == [("go_to", 40.0, 20.0), ("go_to", 12.7, -3.5)]
     program.press("h", "9", "enter")
-    assert "there is no hole '19'" in program.text() and len(program.console.asked) == 2
+    assert "there is no hole '9'" in program.text() and len(program.console.asked) == 2
 
 
 def test_space_resumes_what_is_held() -> None:
