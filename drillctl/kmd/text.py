@@ -11,7 +11,7 @@ from difflib import get_close_matches
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, RECORD, Form, Names, Op, Spec
+from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, MOST_AXES, RECORD, Form, Names, Op, Spec
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
@@ -45,11 +45,14 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
     rows: list[tuple[Op, int, int, int, list[int]]] = []
     floor_ticks = 0
     ended = False
-    for number, words in _lines(text, file):
+    parsed: dict[str, tuple[Spec, int, list[int]]] = {}  # a board's queue says two lines in three again and again
+    for number, line in _lines(text, file):
         try:
             if ended:
-                raise _LineError(words[0], "nothing may follow KMD_KONIEC")
-            spec, axes, args = _parse_line(words, names)
+                raise _LineError(_words(line)[0], "nothing may follow KMD_KONIEC")
+            if line not in parsed:
+                parsed[line] = _parse_line(_words(line), names)
+            spec, axes, args = parsed[line]
         except _LineError as error:
             raise KmdError(file, number, error.word.column, error.reason) from None
         if spec.op is Op.PREDKOSC:
@@ -72,13 +75,18 @@ def to_text(record: np.void, names: Names) -> str:
     return " ".join([spec.name, *_ARGUMENTS_OUT[spec.form](record, names)])
 
 
-def _lines(text: str, file: str) -> Iterator[tuple[int, list[_Word]]]:
+def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:
+    """Those that say something, without their comments, and their numbers."""
     for number, line in enumerate(text.removeprefix("\ufeff").split("\n"), start=1):
         if len(line) > LONGEST_LINE:
             raise KmdError(file, number, LONGEST_LINE + 1, f"a line of more than {LONGEST_LINE} characters")
-        words = [_Word(found[0], found.start() + 1) for found in _WORD.finditer(line.partition("#")[0])]
-        if words:
-            yield number, words
+        said = line.partition("#")[0]
+        if _WORD.search(said):
+            yield number, said
+
+
+def _words(line: str) -> list[_Word]:
+    return [_Word(found[0], found.start() + 1) for found in _WORD.finditer(line)]
 
 
 def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]:
@@ -222,9 +230,8 @@ _ARGUMENTS_OUT: Mapping[Form, Callable[[np.void, Names], list[str]]] = {
 
 def _program(rows: list[tuple[Op, int, int, int, list[int]]]) -> NDArray[np.void]:
     program = np.zeros(len(rows), dtype=RECORD)
-    for index, (op, flags, axes, floor_ticks, args) in enumerate(rows):
-        row = program[index]
-        row["sequence"], row["opcode"], row["flags"], row["axes"] = index + 1, op, flags, axes
-        row["floor_ticks"] = floor_ticks
-        row["args"][: len(args)] = args
+    program["sequence"] = np.arange(1, len(rows) + 1)
+    opcodes, flags, axes, floors, args = zip(*rows, strict=True)
+    program["opcode"], program["flags"], program["axes"], program["floor_ticks"] = opcodes, flags, axes, floors
+    program["args"] = [values + [0] * (MOST_AXES - len(values)) for values in args]
     return program
