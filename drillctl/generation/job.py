@@ -6,11 +6,11 @@ Rule: whatever is wrong with the input is found here, before a queue or a port e
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.drillfile import DrillFile, DrillFileError, read
 from drillctl.generation.errors import JobError
 from drillctl.generation.placing import Affine
 from drillctl.generation.program import board_program
@@ -18,6 +18,9 @@ from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import Group, WorkList, build
 from drillctl.kmd import KmdError, Names, parse_program, to_text
 from drillctl.machine import Machine
+
+if TYPE_CHECKING:
+    from drillctl.generation.drillfile import DrillFile, DrillFileError
 
 LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
 UNMOVED = Affine.of(np.eye(2))
@@ -96,6 +99,8 @@ def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = Non
     """A drill file or (``.kmd``) a queue as a job. Raises JobError with one line a problem."""
     if path.suffix.lower() == ".kmd":
         return _queue_job(path, machine)
+    from drillctl.generation.drillfile import DrillFileError, read
+
     try:
         drill_file = replace(read(path, fmt=fmt), name=str(path))
     except DrillFileError as error:
@@ -105,13 +110,13 @@ def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = Non
     return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
 
 
-def refusal(path: Path, error: DrillFileError) -> JobError:
+def refusal(path: Path, error: "DrillFileError") -> JobError:
     """What is wrong with a drill file, a line a problem, by the path that was given."""
     places = (f"{path}:{problem.line}" if problem.line else f"{path}" for problem in error.problems)
     return JobError([f"{place}: {problem.reason}" for place, problem in zip(places, error.problems, strict=True)])
 
 
-def file_warnings(path: Path, drill_file: DrillFile) -> list[str]:
+def file_warnings(path: Path, drill_file: "DrillFile") -> list[str]:
     """A line for each thing that was read with a doubt, and for what is not drilled."""
     told = [f"{path}{f':{w.line}' if w.line else ''}: {w.reason}" for w in drill_file.warnings]
     routs = drill_file.routs

@@ -5,17 +5,20 @@ of holes, panels become boards. Called by job.py.
 """
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.drillfile import DrillFile
 from drillctl.generation.drills import Drill, drill_problems
 from drillctl.generation.errors import JobError
 from drillctl.generation.order import TravelCost, plan_groups
 from drillctl.generation.placing import Affine, boards
 from drillctl.generation.wishes import Wishes
 from drillctl.machine import Machine, travel_table
+
+if TYPE_CHECKING:
+    from drillctl.generation.drillfile import DrillFile
 
 # A chain overlaps by half its drill: the waist left between two holes is then an eighth of the diameter.
 CHAIN_PITCH = 0.5
@@ -70,7 +73,7 @@ class WorkList:
         return WorkList(groups, self.hits.take(left), self.steps[left], self.boards, self.number[left])
 
 
-def build(drill_file: DrillFile, wishes: Wishes, machine: Machine) -> WorkList:
+def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine) -> WorkList:
     """The work list of a file on a machine. Raises JobError for a machine, tools or holes that don't fit."""
     axes = positioning_axes(machine)
     extent_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
@@ -97,7 +100,7 @@ def positioning_axes(machine: Machine) -> tuple[int, int]:
     return x, y
 
 
-def _hits(drill_file: DrillFile) -> Hits:
+def _hits(drill_file: "DrillFile") -> Hits:
     """Holes and slot chains, merged in the order of the file."""
     chains = [_chain(drill_file, index) for index in range(len(drill_file.slot_mm))]
     counts = [len(chain) for chain in chains]
@@ -108,7 +111,7 @@ def _hits(drill_file: DrillFile) -> Hits:
     return Hits(xy_mm, tool, line, np.zeros(len(tool), np.int64)).take(np.argsort(at, kind="stable"))
 
 
-def _chain(drill_file: DrillFile, index: int) -> Floats:
+def _chain(drill_file: "DrillFile", index: int) -> Floats:
     """A slot as holes from end to end, evenly apart."""
     start, end = drill_file.slot_mm[index].reshape(2, 2)
     diameter_mm = drill_file.tools[int(drill_file.slot_tool[index])].diameter_mm or CHAIN_DRILL_MM
@@ -117,7 +120,7 @@ def _chain(drill_file: DrillFile, index: int) -> Floats:
     return start + along * (end - start)
 
 
-def _chosen(drill_file: DrillFile, hits: Hits, wishes: Wishes) -> Hits:
+def _chosen(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> Hits:
     """Without the tools to skip. Raises JobError for a skipped tool that is not there, or when nothing is left."""
     numbers = np.array([tool.number for tool in drill_file.tools], np.int64)
     unknown = wishes.skip_tools - set(numbers.tolist())
@@ -136,7 +139,7 @@ def _on_every_board(hits: Hits, count: int) -> Hits:
     return Hits(repeated.xy_mm, repeated.tool, repeated.line, np.repeat(np.arange(count), len(hits.tool)))
 
 
-def _groups(drill_file: DrillFile, hits: Hits, wishes: Wishes) -> tuple[Group, ...]:
+def _groups(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> tuple[Group, ...]:
     used, starts = np.unique(hits.tool, return_index=True)
     bounds = [*starts.tolist(), len(hits.tool)]
     tools = [drill_file.tools[index] for index in used.tolist()]
@@ -168,7 +171,7 @@ def _travel(machine: Machine, axis: int, longest_steps: int) -> Integers:
 
 
 def _check_reach(
-    drill_file: DrillFile, hits: Hits, steps: Integers, base_steps: tuple[int, int], machine: Machine
+    drill_file: "DrillFile", hits: Hits, steps: Integers, base_steps: tuple[int, int], machine: Machine
 ) -> None:
     """``steps`` and what is told of them count from the working base."""
     reach = np.array([_reach(machine, axis) for axis in positioning_axes(machine)]) - np.array([base_steps]).T

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from drillctl.machine import Machine
 from drillctl.plant.base import Plant
-from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.plant.faults import PlantRefused
 from drillctl.plant.ideal import IdealPlant
 
@@ -35,6 +34,8 @@ class PlantChoice:
     def build(self, machine: Machine) -> Plant:
         """The plant. Raises PlantRefused where the machine can't have it."""
         if self.kind == DYNAMIC:
+            from drillctl.plant.dynamic.plant import DynamicPlant
+
             return DynamicPlant(machine, self.faults, self.seed)
         if self.faults:
             raise PlantRefused("only the dynamic plant can have faults: say --plant dynamic")

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.drillfile import read
 from drillctl.generation.job import Job, names_of
 from drillctl.kmd import Condition, to_text
 from drillctl.machine import AxisTable, Library, Machine, TableError
@@ -102,6 +101,8 @@ def _command_text(machine: Machine, status: np.void, program: NDArray[np.void] |
 
 def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None) -> BoardView:
     """A planned board; a queue has none. The file is read once more for what it says of its format."""
+    from drillctl.generation.drillfile import read
+
     drill_file = read(file, fmt=fmt)
     work = job.work
     assert work is not None

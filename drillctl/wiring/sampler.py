@@ -158,5 +158,5 @@ def vcd_layout(machine: Machine, with_plant: bool) -> list[VcdVar]:
 
 
 def _of_plant(axis: str) -> tuple[str, str]:
-    """Where the carriage is, in steps; and how far behind the controller, in columns: its lag, and at rest what it lost."""
+    """Where the carriage is, in steps; how far behind the controller, in columns: its lag, and at rest what it lost."""
     return axis, f"{axis}_behind"
