@@ -4,7 +4,7 @@ Rule: the first that has the file wins; a name never leaves its folder. Called b
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drillctl.machine.config import parse_machine
@@ -91,7 +91,8 @@ class Library:
 
     def _parse(self, source: Source) -> Machine:
         shipped = shipped_tables() in source.file.resolve().parents
-        return parse_machine(source, shipped, Parts(self.folders, source.file))
+        machine = parse_machine(source, shipped, Parts(self.folders, source.file))
+        return machine if shipped else replace(machine, shipped=_same_as_shipped(machine.files))
 
     def _phase_hazards(self, source: Source) -> list[str]:
         table = parse_phase(source)
@@ -122,6 +123,19 @@ _KINDS: Mapping[str, Callable[[Library, Source], list[str]]] = {
     "pulse": Library._motor_hazards,
     "inertia_kgm2": Library._dynamics_hazards,
 }
+
+
+def _same_as_shipped(files: tuple[str, ...]) -> bool:
+    """Whether all of a machine's files are shipped ones, to the byte: a checkout where the program is installed too.
+
+    Its traces call the machine by its name then, and can be replayed elsewhere.
+    """
+    pairs = ((file, shipped_tables() / file.parent.name / file.name) for file in map(Path, files))
+    return all(_same_bytes(file, shipped) for file, shipped in pairs)
+
+
+def _same_bytes(file: Path, other: Path) -> bool:
+    return file.is_file() and other.is_file() and file.read_bytes() == other.read_bytes()
 
 
 def _tables_beside(machine_file: Path) -> Path:

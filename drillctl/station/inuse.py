@@ -5,6 +5,7 @@ started anew, simulated. Made by station.
 """
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 from drillctl.machine import Library, Machine, TableError
@@ -116,6 +117,6 @@ class InUse:
     def _take(self, machine: Machine, running: Running) -> None:
         """With a recording from its first tick. Raises PortError."""
         ring = Recording.ring_for(machine)
-        link = start(machine, running, Path(self._folder.name) / "status", ring)
+        link = start(machine, replace(running, kept=True), Path(self._folder.name) / "status", ring)
         self.machine, self.running, self.link = machine, running, link
         self.recording = Recording(machine, link.measured, ring, lambda: int(link.status()["tick"]))

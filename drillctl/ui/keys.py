@@ -42,13 +42,17 @@ FRAME_KEYS = (
 
 
 def called(target: object, keys: Iterable[Key], pressed: str) -> bool:
-    """Calls the method of the key that was pressed, if there is such a row."""
-    for key in keys:
-        if pressed in key.names:
-            method = getattr(target, key.method)
-            method() if key.argument is None else method(key.argument)
-            return True
-    return False
+    """Calls the method of the key that was pressed, if there is such a row.
+
+    A capital without a row of its own is its letter: keys are printed as capitals, and Caps Lock may be on.
+    """
+    rows = tuple(keys)
+    key = _row(rows, pressed) or _row(rows, pressed.lower())
+    if key is None:
+        return False
+    method = getattr(target, key.method)
+    method() if key.argument is None else method(key.argument)
+    return True
 
 
 def key_parts(keys: Sequence[Key]) -> list[list[str | tuple[str, str]]]:
@@ -59,6 +63,10 @@ def key_parts(keys: Sequence[Key]) -> list[list[str | tuple[str, str]]]:
 def help_lines(keys: Sequence[Key]) -> list[str]:
     """A line a key."""
     return [f"{_(key.printed):<12}{_(key.help)}" for key in keys]
+
+
+def _row(keys: Sequence[Key], pressed: str) -> Key | None:
+    return next((key for key in keys if pressed in key.names), None)
 
 
 def _attribute(key: Key) -> str:

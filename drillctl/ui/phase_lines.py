@@ -36,7 +36,7 @@ class Phases(Protocol):
 def phase_line(axis: Phases) -> Line:
     """One line a motor: column, ramp state, and its wires."""
     wires = [lamp(name, lit) for name, _row, lit in axis.wires]
-    return [("title", f"{axis.name.upper():3}"), f"{axis.column:2} {axis.state:+d} ", *wires]
+    return [("title", f"{axis.name.upper():2} "), f"{axis.column:2} {axis.state:+d} ", *wires]
 
 
 def phase_table(axis: Phases) -> list[Line]:
@@ -44,7 +44,7 @@ def phase_table(axis: Phases) -> list[Line]:
     top = _("column {column}, ramp {state} of {top}").format(
         column=axis.column, state=f"{axis.state:+d}", top=axis.top_state
     )
-    return [[("title", f"{axis.name.upper():3}"), top], *(_wire_line(axis.column - 1, *wire) for wire in axis.wires)]
+    return [[("title", f"{axis.name.upper():2} "), top], *(_wire_line(axis.column - 1, *wire) for wire in axis.wires)]
 
 
 def lamp(name: str, lit: bool) -> tuple[str, str]:

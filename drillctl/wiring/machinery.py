@@ -36,6 +36,7 @@ class Running:
     plant: PlantChoice = IDEAL_PLANT
     engine: str | None = None  # tick or fast; None: fast where it may
     taped: bool = False  # where it goes fast, the record is kept in the segment form
+    kept: bool = False  # by a screen, from job to job; else its desk may not fall silent after the job either
 
 
 def port_of_mode(machine: Machine) -> str:
@@ -108,9 +109,11 @@ def start(machine: Machine, running: Running, status_file: Path, keeper: RingRec
         traced, derived = running.traced or keeper is not None, running.derived or keeper is not None
         return LocalLink(Ticker(machine, driver, plant, traced, derived, keeper=keeper))
     from drillctl.wiring.paced import PacedLink
+    from drillctl.wiring.paced_ticker import DESK_IDLE_NS, DESK_SAFE_NS
 
+    idle_ns = DESK_IDLE_NS if running.kept else DESK_SAFE_NS
     try:
-        return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper)
+        return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns)
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         raise PortRefused(running.port, f"no process of its own for the ticks: {where}{error.strerror}") from error

@@ -26,7 +26,7 @@ from drillctl.wiring.children import Child
 from drillctl.wiring.guard import SILENCE_NS, run_guard
 from drillctl.wiring.link import Touch, header_of
 from drillctl.wiring.loading import TableSlot
-from drillctl.wiring.paced_ticker import TOUCH, PacedTicker
+from drillctl.wiring.paced_ticker import DESK_IDLE_NS, TOUCH, PacedTicker
 from drillctl.wiring.sampler import signals
 
 GUARD_SILENCE_NS = 2 * SILENCE_NS
@@ -44,7 +44,8 @@ class PacedLink:
     """
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, file: Path,
-                 traced: bool, derived: bool, keeper: RingRecorder | None = None):  # fmt: skip
+                 traced: bool, derived: bool, keeper: RingRecorder | None = None,
+                 idle_ns: int = DESK_IDLE_NS):  # fmt: skip
         self.measured = plant is not None
         self.plant_header = header_of(plant)
         self._channel = Channel(file, create=True)
@@ -68,7 +69,9 @@ class PacedLink:
         for end in (self._touched, self._notices):
             os.set_blocking(end, False)
         ring, derived = keeper or self._ring, derived or keeper is not None
-        body = PacedTicker(machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end)
+        body = PacedTicker(
+            machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end, idle_ns
+        )
         self._ticker = Child(body.run)
         self._channel["ticker_pid"] = self._ticker.pid
         os.close(touch_end)

@@ -28,7 +28,7 @@ from drillctl.wiring.ticker import Ticker
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
 LOOK_NS = 20_000_000  # at rest the sensors are looked at so often
-DESK_IDLE_NS = 60_000_000_000  # at rest and without a job it may be busy so long: a large board is read and planned
+DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
 
@@ -37,9 +37,10 @@ class PacedTicker:
     """The body of the ticker's process. Made by the desk, its parent; ``touches`` and ``notices`` are pipes' ends."""
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, channel: Channel, slot: TableSlot,
-                 ring: RingRecorder | None, derived: bool, touches: int, notices: int):  # fmt: skip
+                 ring: RingRecorder | None, derived: bool, touches: int, notices: int, idle_ns: int):  # fmt: skip
         self.channel, self.port, self.slot = channel, port, slot
         self.touch_end, self.notice_end = touches, notices
+        self.idle_ns = idle_ns
         self.queue, self.requests = SharedQueue(channel), SharedRequests(channel)
         self.gate = SharedGate(channel)
         self.ticker = Ticker(
@@ -130,7 +131,7 @@ class PacedTicker:
         dead = os.getppid() != self.desk
         if (dead or silent_ns > DESK_HOLD_NS) and m.condition == Condition.READY and m.job:
             self.requests.own.post(Request.HOLD)
-        patience_ns = DESK_SAFE_NS if m.job or m.moving else DESK_IDLE_NS
+        patience_ns = DESK_SAFE_NS if m.job or m.moving else self.idle_ns
         if silent_ns <= patience_ns and not (dead and not m.moving):
             return False
         self._end_by(Fault.HEARTBEAT_LOST)

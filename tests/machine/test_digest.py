@@ -1,12 +1,13 @@
 """The digest of a machine: another one for whatever decides a run, the same for what does not."""
 
 import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from drillctl.machine import Library, TableError
+from drillctl.machine import Library, TableError, shipped_tables
 
 NUMBER = re.compile(r"(?<![\w\".-])-?\d+(?![\w\".])")
 Tables = Callable[..., Path]
@@ -80,3 +81,13 @@ def test_what_is_no_number_changes_it_too(table: str, old: str, new: str, tables
     before = digest(tmp_path)
     tables(table, old, new)
     assert digest(tmp_path) != before
+
+
+def test_a_copy_of_the_shipped_files_is_called_by_name(tmp_path: Path) -> None:
+    """A checkout beside an installed program: its traces must be replayable elsewhere. One byte, and it is a file."""
+    shutil.copytree(shipped_tables(), tmp_path / "tables")
+    library = Library((tmp_path / "tables",))
+    assert library.machine("pcb-drill").reference_from(tmp_path) == "pcb-drill"
+    ramp = tmp_path / "tables/ramp/seven-state.toml"
+    ramp.write_bytes(ramp.read_bytes() + b"\n")
+    assert library.machine("pcb-drill").reference_from(tmp_path) == "tables/machines/pcb-drill.toml"

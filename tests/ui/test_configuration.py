@@ -170,6 +170,17 @@ def test_the_list_marks_what_the_machine_at_hand_is_driven_by(
     assert second.startswith("  two") and second.endswith("shipped")
 
 
+def test_enter_opens_at_first_a_table_in_use(console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk = Tables(phase="1a 5 x.")
+    entries = [TableEntry("one", "shipped"), TableEntry("two", "shipped", in_use=True)]
+    monkeypatch.setattr(desk, "tables", lambda _kind: entries)
+    tables = TableList(console, shell, desk, "phase")
+    assert tables._current == "two"
+    press(tables, "up")
+    tables.fill()
+    assert tables._current == "one"
+
+
 def test_a_table_is_copied_from_the_list(console: Console) -> None:
     shell = Shell(types="one")
     press(TableList(console, shell, Tables(phase="1a 5 x."), "phase"), "c")

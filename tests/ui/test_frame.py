@@ -6,7 +6,7 @@ import pytest
 import urwid
 
 from drillctl.ui import app, words
-from drillctl.ui.keys import FRAME_KEYS
+from drillctl.ui.keys import FRAME_KEYS, Key, called
 from drillctl.ui.menus import MENUS, Item, hot_letter, plain_label
 from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import Files
@@ -194,3 +194,29 @@ def test_the_first_screen_stays_the_lowest() -> None:
     assert isinstance(program.app.screens[-1], Files) and "Esc Back" in program.text()
     program.press("esc")
     assert program.app.screens == [program.app.frame.body] and isinstance(program.app.frame.body, Drilling)
+
+
+class Hands:
+    def __init__(self) -> None:
+        self.done: list[str] = []
+
+    def stop(self) -> None:
+        self.done.append("stop")
+
+    def search(self, way: str) -> None:
+        self.done.append(way)
+
+
+@pytest.mark.parametrize(
+    ("pressed", "done"), [("x", ["stop"]), ("X", ["stop"]), ("n", ["on"]), ("N", ["back"]), ("Q", [])]
+)
+def test_a_capital_is_its_letter_unless_it_has_a_row(pressed: str, done: list[str]) -> None:
+    """With Caps Lock on, X must stop the machine all the same."""
+    hands = Hands()
+    keys = (
+        Key(("x",), "X", "stop", ""),
+        Key(("n",), "N", "search", "", "", "on"),
+        Key(("N",), "", "search", "", "", "back"),
+    )
+    assert called(hands, keys, pressed) is bool(done)
+    assert hands.done == done

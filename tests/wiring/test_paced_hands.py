@@ -15,6 +15,7 @@ from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.ports import PortSlow
 from drillctl.trace import Trace, write_text
 from drillctl.wiring.paced import PacedLink
+from drillctl.wiring.paced_ticker import DESK_IDLE_NS, DESK_SAFE_NS
 from drillctl.wiring.replay import replay
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
@@ -107,6 +108,19 @@ def test_a_port_too_slow_for_a_moving_machine_is_a_fault_of_its_own(link: PacedL
     until(link, lambda: link.status()["fault"] == Fault.PORT_SLOW)
     until(link, lambda: wires.words[OUTPUTS] == 0)
     assert not link.status()["position_known"]
+
+
+@pytest.mark.parametrize(("idle_ns", "held"), [(DESK_SAFE_NS, False), (DESK_IDLE_NS, True)], ids=["run", "screen"])
+def test_a_desk_silent_after_its_job_finds_the_coils_off_unless_a_screen_keeps_them(
+    idle_ns: int, held: bool, wires: Wires, tmp_path: Path
+) -> None:
+    made = PacedLink(MACHINE, wires, None, tmp_path / "status", traced=False, derived=False, idle_ns=idle_ns)
+    made.queue.put(parse_program("KMD_RUCHd x=3", names_of(MACHINE)))
+    until(made, lambda: made.status()["done"] == 2)
+    assert wires.words[OUTPUTS]
+    time.sleep(DESK_SAFE_NS / 1e9 + 0.2)
+    assert bool(wires.words[OUTPUTS]) == held
+    made.close()
 
 
 def test_an_output_set_by_hand_is_one_tick_and_stays(link: PacedLink, wires: Wires) -> None:

@@ -61,9 +61,10 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         return super().render(size, focus)
 
     def fill(self) -> None:
-        """The list anew; the cursor stays where it was."""
-        at = self._list.focus_position if self._rows else 0
+        """The list anew; the cursor stays where it was, and is at first on a table in use."""
         self._entries = [*self._desk.tables(self.kind)]
+        in_use = (row for row, entry in enumerate(self._entries) if entry.in_use)
+        at = self._list.focus_position if self._rows else next(in_use, 0)
         lines = list(map(_line, self._entries))
         self._rows[:] = [urwid.AttrMap(urwid.SelectableIcon(line, 0), "body", "focus") for line in lines]
         if lines:
