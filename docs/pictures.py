@@ -95,7 +95,7 @@ def table(kind: str, name: str, title: str) -> Iterator[Act]:
     """Opened from the list of its kind, which is in the order of the names."""
     names = sorted(file.stem for file in (ROOT / "tables" / kind).glob("*.toml"))
     yield Act(menu(EDITORS[kind]), (names[0], name))
-    yield Act((*["Down"] * names.index(name), "Enter"), (f"{title}: {name}",))
+    yield Act(("Home", *["Down"] * names.index(name), "Enter"), (f"{title}: {name}",))
 
 
 def larger() -> Iterator[Act | str]:
