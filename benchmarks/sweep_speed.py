@@ -7,8 +7,10 @@ places to the bit, which is looked at too. One after another, what rests is left
 import os
 import time
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drillctl.lab.moves import move
 from drillctl.machine import Library, shipped_tables
@@ -46,16 +48,20 @@ def alone(lane: Lane, images: list[int]) -> float:
     return axis.cycles
 
 
+def together(lanes: list[Lane], images: NDArray[np.int64]) -> NDArray[np.float64]:
+    """All of them side by side."""
+    return Fleet(lanes, wires_of(TABLE)).run(images)
+
+
 def main() -> None:
     images = move(TABLE, STEPS).images
     scalar = len(images) / seconds(lambda: alone(lanes(1)[0], images.tolist()))
     print(f"one after another: {scalar:12,.0f} machine ticks a second")
     for size in SIZES:
         chosen = lanes(size)
-        rate = size * len(images) / seconds(lambda found=chosen: Fleet(found, wires_of(TABLE)).run(images))  # type: ignore[misc]
+        rate = size * len(images) / seconds(partial(together, chosen, images))
         print(f"fleet of {size:5}:    {rate:12,.0f} machine ticks a second, {rate / scalar:5.1f} times")
-    together = Fleet(lanes(SIZES[0]), wires_of(TABLE)).run(images)
-    same = np.array_equal(together, [alone(lane, images.tolist()) for lane in lanes(SIZES[0])])
+    same = np.array_equal(together(lanes(SIZES[0]), images), [alone(lane, images.tolist()) for lane in lanes(SIZES[0])])
     print(f"places the same to the bit: {same}; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 
 

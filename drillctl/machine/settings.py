@@ -7,6 +7,7 @@ draw, and by config.py for the names.
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import msgspec
 from msgspec.inspect import FloatType, IntType, LiteralType, StructType, TupleType, Type, type_info
@@ -94,10 +95,10 @@ def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
 
 
 def _setting(raw: MachineFile, place: Place, axis: str) -> Setting:
-    value: object = raw
+    value: Any = raw  # a place leads through lists and records alike
     shape: Type = type_info(MachineFile)
     for part in place:
-        value = value[part] if isinstance(part, int) else getattr(value, part)  # type: ignore[index]  # a place leads through lists and records alike
+        value = value[part] if isinstance(part, int) else getattr(value, part)
         shape = _shape_inside(shape, part)
     assert isinstance(value, Value)
     return _bounded(place, axis, value, shape)

@@ -5,6 +5,7 @@ in characters. Called by the verbs that draw.
 """
 
 import io
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from drillctl.panel.picture import Chart, Curve, Picture, Style
@@ -32,11 +33,9 @@ def check_format(suffix: str) -> str:
     kind = suffix.removeprefix(".").lower()
     if kind not in FORMATS:
         raise PictureRefused(f"a picture is a .png or a .svg, not {suffix or 'a file without suffix'!r}")
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError as error:
+    if find_spec("matplotlib") is None:
         reason = f"{kind.upper()} needs matplotlib: pip install 'drillctl[plot]'; without --out it is drawn here"
-        raise PictureRefused(reason) from error
+        raise PictureRefused(reason)
     return kind
 
 

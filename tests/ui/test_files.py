@@ -1,6 +1,5 @@
 """Files: formats by name, recent and interrupted jobs, panel, how to drill, and placing by measured holes."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 
 from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob, UnfinishedJob
-from drillctl.ui import app, words
+from drillctl.ui import words
 from drillctl.ui.formats import FORMATS
 from drillctl.ui.models.measuring import far_apart
 from drillctl.ui.screens.alignment import AlignmentScreen
@@ -19,12 +18,7 @@ SIZES = [(80, 24), (160, 50)]
 CUT = UnfinishedJob("/state/four.journal", "/home/four.drl", "pcb-drill", 3, 26, (4,), True, True)
 
 
-@pytest.fixture(autouse=True)
-def english(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    words.use("en")
-    monkeypatch.setattr(app, "TURNING_S", 0.0)
-    yield
-    words.use("en")
+pytestmark = pytest.mark.usefixtures("idle")
 
 
 @pytest.fixture

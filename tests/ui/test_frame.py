@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 import urwid
 
-from drillctl.ui import app, words
+from drillctl.ui import words
 from drillctl.ui.keys import FRAME_KEYS, Key, called
 from drillctl.ui.menus import MENUS, Item, hot_letter, plain_label
 from drillctl.ui.screens.drilling import Drilling
@@ -16,10 +16,7 @@ from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
 SIZES = [(80, 24), (160, 50), (50, 15)]
 
 
-@pytest.fixture(autouse=True)
-def english(monkeypatch: pytest.MonkeyPatch) -> None:
-    words.use("en")
-    monkeypatch.setattr(app, "TURNING_S", 0.0)  # a console without a machine needs no time
+pytestmark = pytest.mark.usefixtures("idle")
 
 
 @pytest.mark.parametrize("language", words.LANGUAGES)

@@ -6,7 +6,6 @@ import pytest
 
 from drillctl.panel.console import Problems
 from drillctl.panel.ports import PortReport, PortView
-from drillctl.ui import words
 from drillctl.ui.screens.port import PortScreen
 from tests.ui.desk import VIEW, FakeConsole, Program
 from tests.ui.editor_fakes import Shell, press, text_of
@@ -43,11 +42,6 @@ class Ports:
 
 def screen(ports: Ports, shell: Shell | None = None) -> PortScreen:
     return PortScreen(FakeConsole(), shell or Shell(), ports)
-
-
-@pytest.fixture(autouse=True)
-def english() -> None:
-    words.use("en")
 
 
 def test_what_is_in_use_and_what_is_configured() -> None:

@@ -1,6 +1,5 @@
 """The scope on a canvas, upon the run of a real queue."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,7 @@ from drillctl.machine import Library
 from drillctl.panel.console import Problems
 from drillctl.panel.scope import ScopeSource
 from drillctl.station.tracefile import TraceFile
-from drillctl.ui import app, words
+from drillctl.ui import words
 from drillctl.ui.app import App
 from drillctl.ui.screens.scope import Scope
 from drillctl.ui.screens.scope_keys import SCOPE_KEYS, SEARCHES
@@ -22,12 +21,7 @@ SIZES = [(80, 24), (160, 50)]
 FIRST_STEP = 6  # the tick after which the first column of a move from rest is out
 
 
-@pytest.fixture(autouse=True)
-def english(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    words.use("en")
-    monkeypatch.setattr(app, "TURNING_S", 0.0)
-    yield
-    words.use("en")
+pytestmark = pytest.mark.usefixtures("idle")
 
 
 @pytest.fixture(scope="module")

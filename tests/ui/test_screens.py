@@ -1,6 +1,5 @@
 """Files and Drilling on a canvas, upon a console that keeps what it was asked."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +9,7 @@ import urwid
 
 from drillctl.panel.console import Asked, MachineView, ToolWanted
 from drillctl.panel.records import Progress
-from drillctl.ui import app, words
+from drillctl.ui import words
 from drillctl.ui.dialogs import pair_mm
 from drillctl.ui.lines import Line
 from drillctl.ui.models.jog_sizes import JOG_SIZES, MM, STEPS
@@ -23,12 +22,7 @@ from tests.ui.desk import BOARD, VIEW, WIRES, FakeConsole, Program
 MIDDLE = Progress(2, 4, 1, 2500, 5.0, 5.0)
 
 
-@pytest.fixture(autouse=True)
-def english(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    words.use("en")
-    monkeypatch.setattr(app, "TURNING_S", 0.0)
-    yield
-    words.use("en")
+pytestmark = pytest.mark.usefixtures("idle")
 
 
 def plain_text(lines: list[Line]) -> list[str]:

@@ -7,7 +7,6 @@ import pytest
 from drillctl.machine import Library, shipped_tables
 from drillctl.panel.handwork import SignalView
 from drillctl.station.handbench import signals_of
-from drillctl.ui import words
 from drillctl.ui.models.signal_grid import grid_lines, grid_rows, moved
 from drillctl.ui.screens.signals import Signals
 from tests.ui.desk import VIEW
@@ -32,11 +31,6 @@ def screen(shown: tuple[SignalView, ...] = SOME, shell: Shell | None = None, por
     console = Console()
     hands = Hands(console, shown, port)
     return Signals(console, shell or Shell(), hands), hands
-
-
-@pytest.fixture(autouse=True)
-def english() -> None:
-    words.use("en")
 
 
 def test_state_level_and_bit_are_told_in_words() -> None:

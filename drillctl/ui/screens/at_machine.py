@@ -33,7 +33,7 @@ class AtMachine:
 
     def refresh(self, view: MachineView) -> None:
         """Draws what changed."""
-        raise NotImplementedError
+        raise NotImplementedError  # by the screen that this is a part of
 
     def jog_on(self, axis: int) -> None:
         """By the step size."""

@@ -56,7 +56,7 @@ class TableEditor(urwid.Widget):
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
         """The table itself, for so much room: what each kind of editor draws in its own way."""
-        raise NotImplementedError
+        raise NotImplementedError  # by PhaseEditor and RampEditor
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Name, table, findings."""

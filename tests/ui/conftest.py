@@ -1,0 +1,21 @@
+"""What the tests of the screens share: English to begin with, and a program that does not wait for its console."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from drillctl.ui import app, words
+
+
+@pytest.fixture(autouse=True)
+def english() -> Iterator[None]:
+    """Whatever a test spoke, the next one begins in English."""
+    words.use("en")
+    yield
+    words.use("en")
+
+
+@pytest.fixture
+def idle(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A console without a machine needs no time to get on."""
+    monkeypatch.setattr(app, "TURNING_S", 0.0)
