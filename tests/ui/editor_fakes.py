@@ -137,9 +137,10 @@ class Tables:
     def __init__(self, **shipped: str):
         self.shipped: dict[str, str] = dict(shipped)
         self.own: dict[str, str] = {}
+        self.in_use = True
 
     def tables(self, kind: Kind) -> list[TableEntry]:
-        return [TableEntry("one", "yours" if kind in self.own else "shipped")]
+        return [TableEntry("one", "yours" if kind in self.own else "shipped", in_use=self.in_use)]
 
     def read(self, kind: Kind, name: str) -> str:
         return self.own.get(kind, self.shipped[kind])

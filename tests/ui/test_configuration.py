@@ -151,6 +151,7 @@ def test_leaving_asks_only_where_something_would_be_lost(screen: Configuration, 
 @pytest.mark.parametrize("kind", EDITORS)
 def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: str) -> None:
     desk = Tables(phase="1a 5 x.", ramp="0 0 0 1", machines=FILE)
+    desk.in_use = False
     tables = TableList(console, shell, desk, kind)  # type: ignore[arg-type]
     assert text_of(tables).split("\n")[0].split() == ["one", "shipped"]
     desk.own[kind] = desk.shipped[kind]

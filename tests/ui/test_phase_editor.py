@@ -201,6 +201,14 @@ def test_a_refusal_of_the_machine_is_told(desk: Tables) -> None:
     assert console.chosen == ["drill"] and shell.told == [("Not loaded", ["at work"])]
 
 
+def test_a_table_that_drives_nothing_here_is_saved_without_a_question(desk: Tables) -> None:
+    shell, console = Shell(says_yes=True), Console()
+    desk.in_use = False
+    press(PhaseEditor(console, shell, desk, "one"), " ", "f2")
+    assert "phase" in desk.own and not shell.asked and not console.chosen
+    assert [title for title, _lines in shell.told] == ["Saved"]
+
+
 def test_leaving_asks_only_where_something_would_be_lost(editor: PhaseEditor, shell: Shell) -> None:
     assert press(editor, "esc") == ["esc"]
     assert press(editor, " ", "esc") == [] and shell.asked == ["Leave without saving?"] and shell.closed == 0

@@ -58,7 +58,8 @@ class Rig:
 
 @pytest.fixture
 def desk(tmp_path: Path) -> Workbench:
-    return Workbench(Library((tmp_path, shipped_tables())), tmp_path)
+    library = Library((tmp_path, shipped_tables()))
+    return Workbench(library, tmp_path, lambda: library.machine("pcb-drill"))
 
 
 def measure(rig: Rig, desk: Workbench, *typed: str, yes: bool = True) -> tuple[Answers, Configuration]:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
-from drillctl.machine import Library
+from drillctl.machine import Library, shipped_tables
 from drillctl.panel.console import Problems
 from drillctl.panel.scope import ScopeSource
 from drillctl.station.tracefile import TraceFile
@@ -194,6 +194,16 @@ def test_rows_are_hidden_isolated_scrolled_and_shown_again(square: TraceFile) ->
     assert "y.1a" not in program.text() and "x.state" in program.text() and "x.1a" in program.text()
     program.press("v", *["page down"] * 9)
     assert ">fault" in program.text() and "command" not in program.row("fault")
+
+
+def test_a_fault_is_named_whole_at_the_foot_wherever_its_row_is(tmp_path: Path) -> None:
+    queue, file = tmp_path / "q.kmd", tmp_path / "q.trace"
+    queue.write_text("KMD_CZEKAJ 5\nKMD_GOTO_X_Y 10 10\n")
+    assert main(["run", str(queue), "--trace", str(file)]) == 1
+    program = Scoped(TraceFile(file, Library((shipped_tables(),))))
+    assert "HOMING_REQUIRED" not in program.text()
+    program.press("f")
+    assert "HOMING_REQUIRED" in program.text() and "run.fault" not in program.text()
 
 
 def test_going_to_a_typed_tick_and_to_one_that_is_none(square: TraceFile) -> None:

@@ -142,7 +142,15 @@ def _foot(source: ScopeSource, look: Look, moment: Moment, columns: int, with_ta
     seconds = f"{moment.tick / source.tick_hz:.3f}"
     place: Line = [("title", _("tick {tick}, {seconds} s").format(tick=moment.tick, seconds=seconds)), "  "]
     axes = [] if with_tables else packed([_axis_part(axis) for axis in moment.axes], columns)
-    return [[*place, moment.command or "-"], *axes, [_between(look, source.tick_hz), "  ", ("warning", look.said)]]
+    said: Line = [_between(look, source.tick_hz), "  ", ("warning", look.said)]
+    return [[*place, moment.command or "-", *_fault(source, moment)], *axes, said]
+
+
+def _fault(source: ScopeSource, moment: Moment) -> Line:
+    """What has befallen the machine, whole: its row may be out of sight, or cut."""
+    values = zip(source.signals(), moment.values, strict=True)
+    latched = [(row, value) for row, (signal, value) in enumerate(values) if signal.name == "fault" and value]
+    return [part for row, value in latched for part in ("  ", ("warning", source.shown(row, value, moment.tick)))]
 
 
 def _axis_part(axis: AxisMoment) -> Line:

@@ -23,12 +23,15 @@ class Shelf:
         self._console, self._shell, self._desk, self._kind = console, shell, desk, kind
 
     def save(self, name: str, text: str, machine: str, then: Then) -> None:
-        """To the user's own copy; then ``machine`` can be started anew with it."""
+        """To the user's own copy; where it drives the machine at hand, ``machine`` can then be started anew with it."""
         if self._refused(_("Not saved"), self._desk.save(self._kind, name, text)):
             return
         then()
-        question = _("Saved. Drive the machine with it now? The position will be lost.")
-        self._shell.ask(question, lambda: self.drive(machine))
+        if any(entry.name == name and entry.in_use for entry in self._desk.tables(self._kind)):
+            question = _("Saved. Drive the machine with it now? The position will be lost.")
+            self._shell.ask(question, lambda: self.drive(machine))
+        else:
+            self._shell.message(_("Saved"), [_("The machine at hand is driven by other tables.")])
 
     def reset(self, name: str, then: Then) -> None:
         """Asks first where there is something to go back to; else the refusal is all there is to say."""
