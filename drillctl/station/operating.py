@@ -28,12 +28,23 @@ from drillctl.wiring.link import Link
 BUSY = "the machine is at work; hold or stop it first"
 
 
+class Hand:
+    """A desk.Operator: a hold that is pressed before the first command has begun is asked for until it is so."""
+
+    def __init__(self) -> None:
+        self.held = False
+
+    def requests(self) -> tuple[Request, ...]:
+        """None: the rest is posted when its key is pressed."""
+        return ()
+
+
 class Operating:
     """One machine, one job at a time. ``tools``: ask or assume at a tool change; None: as the machine's file has it."""
 
     def __init__(self, used: InUse, tools: str | None):
         self._used, self._tools = used, tools
-        self._gate = ToolGate()
+        self._gate, self._hand = ToolGate(), Hand()
         self._jogs = Jogging(
             lambda axis, steps: self.run_queue(f"KMD_RUCHd {axis}={steps}\n"),
             lambda: self.link.post(Request.STOP),
@@ -129,12 +140,14 @@ class Operating:
     def hold(self) -> Problems:
         """A request: it overtakes the queue."""
         self._jogs.forget()
+        self._hand.held = self.at_work
         return self._post(Request.HOLD, self.at_work, "nothing runs that could be held")
 
     def resume(self) -> Problems:
         """After a hold; a paused clock goes on too."""
         held = self.link.gate.paused or self.link.status()["condition"] == Condition.HOLDING
         self.link.gate.open()
+        self._hand.held = False
         return self._post(Request.RESUME, held, "nothing is held")
 
     def stop(self) -> Problems:
@@ -168,9 +181,10 @@ class Operating:
             return problems
         asks = asks_for_tools(self.machine, self.link.measured, self._tools)
         self._gate.open_for(job)
+        self._hand.held = False
         self._desk = Desk(
             job, self.link, _nobody, journal, done_before, foreseen,
-            tool_change=self._gate if asks else None, resumes_itself=False,
+            tool_change=self._gate if asks else None, operator=self._hand, resumes_itself=False,
         )  # fmt: skip
         self._desk.begin()
         self.recording.begin(job.program, int(self._desk.first["done"]))

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
@@ -53,10 +53,17 @@ def test_before_anything_runs(number: int, code: int, started: Started, folder: 
     """The job is a pipe that nobody writes to: the program waits for it."""
     os.mkfifo(folder / "job.drl")
     process = started("run", "job.drl", "--trace", "l.trace")
-    time.sleep(1.0)
-    assert process.poll() is None
+    silent_end: list[int] = []
+
+    def is_read() -> bool:
+        with suppress(OSError):  # as long as nobody reads it
+            silent_end.append(os.open(folder / "job.drl", os.O_WRONLY | os.O_NONBLOCK))
+        return bool(silent_end)
+
+    wait_for(is_read)
     process.send_signal(number)
     out, err = process.communicate(timeout=30)
+    os.close(*silent_end)
     assert (process.returncode, out, err) == (code, "", "")
     assert not list(folder.glob(".*")) and not (folder / "l.trace").exists()
 

@@ -2,8 +2,7 @@
 
 import json
 import os
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +17,9 @@ from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.session import default_journal
 from tests.support.journalled import BOARD
+from tests.support.operator import settle, until
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
-PATIENCE_S = 60.0
 
 
 def made(machine: str = "pcb-drill") -> Station:
@@ -41,22 +40,11 @@ def board(tmp_path: Path) -> Path:
     return tmp_path / "job.drl"
 
 
-def turn_until(station: Station, reached: Callable[[], bool]) -> None:
-    until_s = time.monotonic() + PATIENCE_S
-    while not reached():
-        assert time.monotonic() < until_s
-        station.turn()
-
-
-def settle(station: Station) -> None:
-    turn_until(station, lambda: not station.at_work)
-
-
 def cut_off(station: Station, board: Path, holes: int, asked: Asked | None = None) -> None:
     """The board is drilled as far as so many holes, and stopped."""
     assert station.load(str(board), asked or Asked()) == ()
     assert station.start(dry=False) == ()
-    turn_until(station, lambda: (told := station.progress()) is not None and told.holes_done >= holes)
+    until(station, lambda: (told := station.progress()) is not None and told.holes_done >= holes)
     station.stop()
     settle(station)
 
@@ -98,7 +86,7 @@ def test_an_interrupted_job_is_offered_and_exactly_its_rest_is_drilled(station: 
 def test_another_program_goes_on_where_one_was_killed(station: Station, board: Path) -> None:
     station.load(str(board), Asked(rotate_deg=90.0, peck_mm=1.0, skip_tools=(2,)))
     station.start(dry=False)
-    turn_until(station, lambda: (told := station.progress()) is not None and told.holes_done >= 1)
+    until(station, lambda: (told := station.progress()) is not None and told.holes_done >= 1)
     station.close()
     other = made()
     try:
@@ -301,7 +289,7 @@ def test_a_hole_is_done_when_the_head_is_up_again(station: Station, board: Path)
         return view.command.startswith("KMD_WIERTLO_GORA") and view.axes[2].position_steps > 20
 
     assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
-    turn_until(station, on_its_way_up)
+    until(station, on_its_way_up)
     told = station.progress()
     assert told is not None and told.holes_done == 0
 

@@ -1,8 +1,7 @@
 """The machine under a person's hands, from the desk: signals, outputs, single ticks; and the way to a real port."""
 
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -14,9 +13,9 @@ from drillctl.station.handbench import HandBench
 from drillctl.station.portbench import PortBench
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
+from tests.support.operator import until
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
-PATIENCE_S = 20.0
 QUEUE = "KMD_RUCHd x=30\n"
 REAL_CARD = "firmata:/dev/no-such-line"
 
@@ -31,13 +30,6 @@ def station(library: Library) -> Iterator[Station]:
     made = Station(library, library.machine("cnc-shield").at_rate(1000), Running(pace="real"), tick_hz=1000)
     yield made
     made.close()
-
-
-def until(station: Station, holds: Callable[[], object]) -> None:
-    deadline_s = time.monotonic() + PATIENCE_S
-    while not holds():
-        assert time.monotonic() < deadline_s, "never came"
-        station.turn()
 
 
 def signal(hands: HandBench, name: str) -> SignalView:

@@ -12,6 +12,7 @@ from drillctl.panel.console import Problems
 from drillctl.station.jogging import HELD_PRESSES, REPEAT_S, SILENT_S, Jogging
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
+from tests.support.operator import settle
 
 WAY = 5000
 REPEATED_S = 0.03
@@ -129,13 +130,6 @@ def station() -> Iterator[Station]:
     settle(made)
     yield made
     made.close()
-
-
-def settle(station: Station) -> None:
-    until_s = time.monotonic() + 40.0
-    while station.at_work:
-        assert time.monotonic() < until_s
-        station.turn()
 
 
 def hold_key(station: Station, steps: int, for_s: float) -> None:

@@ -27,6 +27,7 @@ from drillctl.wiring.recorded import Player, playback
 from drillctl.wiring.sampler import signals
 from drillctl.wiring.ticker import Ticker
 from drillctl.wiring.trace_files import read_trace
+from tests.support.operator import settle
 
 QUEUE = "KMD_INICJALIZACJA\nKMD_GOTO_X_Y 60 40\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA\nKMD_LINIAd x=30 y=-7\n"
 LIBRARY = Library.standard()
@@ -247,13 +248,6 @@ def station() -> Iterator[Station]:
     made = Station(LIBRARY, LIBRARY.machine("pcb-drill"), Running(pace="free"))
     yield made
     made.close()
-
-
-def settle(station: Station) -> None:
-    until_s = time.monotonic() + PATIENCE_S
-    while station.at_work:
-        assert time.monotonic() < until_s, "the machine never came to rest"
-        station.turn()
 
 
 def test_the_machines_run_is_recorded_as_the_sampler_sees_it(station: Station, truth: Trace) -> None:

@@ -13,9 +13,9 @@ from drillctl.panel.console import Asked
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.paced import PacedLink
+from tests.support.operator import settle, until
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-PATIENCE_S = 40.0
 
 
 @pytest.fixture
@@ -24,16 +24,6 @@ def station() -> Iterator[Station]:
     made = Station(library, library.machine("pcb-drill").at_rate(5000), Running(pace="real"))
     yield made
     made.close()
-
-
-def settle(station: Station) -> None:
-    """Until the machine rests and nothing runs."""
-    until_s = time.monotonic() + PATIENCE_S
-    while time.monotonic() < until_s:
-        station.turn()
-        if not station.at_work:
-            return
-    raise AssertionError("the machine never came to rest")
 
 
 def test_initialise_jog_base_and_go(station: Station) -> None:
@@ -80,8 +70,7 @@ def test_hold_resume_and_stop(station: Station) -> None:
     for _ in range(20):
         station.turn()
     assert station.hold() == ()
-    while station.view().condition != "held":
-        station.turn()
+    until(station, lambda: station.view().condition == "held")
     held_at = station.view().axes[0].position_steps
     assert 0 < held_at < 9000
     assert station.jog("y", 5)[0].startswith("the machine is at work")
@@ -97,18 +86,30 @@ def test_hold_resume_and_stop(station: Station) -> None:
     assert view.position_known and view.condition == "ready" and 0 < view.axes[0].position_steps < 9000
 
 
+def test_a_hold_in_one_breath_with_the_start_holds_before_a_hole_is_made(station: Station) -> None:
+    assert station.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
+    assert station.start(dry=False) == () == station.hold()
+    for _ in range(200):
+        station.turn()
+    view, progress = station.view(), station.progress()
+    assert view.condition == "held" and view.at_work
+    assert progress is not None and progress.holes_done == 0
+    assert station.resume() == ()
+    settle(station)
+    progress = station.progress()
+    assert progress is not None and progress.holes_done == 26
+
+
 def test_an_emergency_stop_latches_until_it_is_acknowledged(station: Station) -> None:
     station.initialise()
     settle(station)
     assert station.emergency_stop() == ()
-    while station.view().condition != "latched":
-        station.turn()
+    until(station, lambda: station.view().condition == "latched")
     view = station.view()
     assert view.fault is not None and view.fault.name == "EMERGENCY_STOP" and not view.position_known
     assert station.jog("x", 5) == ("a fault waits to be acknowledged",)
     assert station.acknowledge() == ()
-    while station.view().condition != "ready":
-        station.turn()
+    until(station, lambda: station.view().condition == "ready")
     assert station.initialise() == ()
     settle(station)
     assert station.view().position_known

@@ -1,7 +1,6 @@
 """The tool change on the screen: the queue waits at rest, and goes on, is held, or ends, as the operator says."""
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,26 +10,19 @@ from drillctl.panel.console import Asked, ToolWanted
 from drillctl.station.station import Station
 from drillctl.station.toolgate import asks_for_tools
 from drillctl.wiring.machinery import Running
+from tests.support.operator import until
 
 TWO_TOOLS = "M48\nMETRIC\nT1C0.800\nT2C1.000\n%\nT1\nX10.0Y10.0\nT2\nX12.0Y10.0\nM30\n"
-PATIENCE_S = 40.0
 
 
 @pytest.fixture
 def station(tmp_path: Path) -> Iterator[Station]:
     library = Library.standard()
-    made = Station(library, library.machine("pcb-drill").at_rate(5000), Running(pace="real"), tools="ask")
+    made = Station(library, library.machine("pcb-drill").at_rate(5000), Running(pace="free"), tools="ask")
     (tmp_path / "two.drl").write_text(TWO_TOOLS)
     assert made.load(str(tmp_path / "two.drl"), Asked(format="mm,decimal")) == ()
     yield made
     made.close()
-
-
-def until(station: Station, true: Callable[[], bool]) -> None:
-    deadline_s = time.monotonic() + PATIENCE_S
-    while not true():
-        assert time.monotonic() < deadline_s, station.view()
-        station.turn()
 
 
 def wanted(station: Station) -> ToolWanted | None:
