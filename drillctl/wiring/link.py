@@ -84,7 +84,8 @@ class Link(Protocol):
 @dataclass
 class LocalLink:
     """A ticker in this process, running free: a turn is as many ticks as the queue is sure to last for, and on to the
-    end of the command in execution, in which the queue can't run dry.
+    end of the command in execution, in which the queue can't run dry. A request has a turn of a single tick: who asked
+    sees what came of it before a short job is over.
     """
 
     ticker: Ticker
@@ -134,6 +135,9 @@ class LocalLink:
 
     def turn(self) -> None:
         """As far as the queue is sure to last, or for a moment."""
+        if self.ticker.requests.waiting:
+            self.ticker.advance(1)
+            return
         self.ticker.turn(self.ticker.over)
         if self.ticker.controller.busy:
             self.ticker.advance(MOMENT_TICKS, lambda: not self.ticker.controller.busy)

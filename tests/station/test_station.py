@@ -3,18 +3,19 @@
 import os
 import signal
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from drillctl.machine import Library
-from drillctl.panel.console import Asked
+from drillctl.panel.console import Asked, Problems
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.paced import PacedLink
 from tests.support.operator import settle, until
 
+Begin = Callable[[Station], Problems]
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
@@ -86,18 +87,57 @@ def test_hold_resume_and_stop(station: Station) -> None:
     assert view.position_known and view.condition == "ready" and 0 < view.axes[0].position_steps < 9000
 
 
-def test_a_hold_in_one_breath_with_the_start_holds_before_a_hole_is_made(station: Station) -> None:
-    assert station.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
-    assert station.start(dry=False) == () == station.hold()
-    for _ in range(200):
-        station.turn()
-    view, progress = station.view(), station.progress()
-    assert view.condition == "held" and view.at_work
-    assert progress is not None and progress.holes_done == 0
+BEGUN: dict[str, Begin] = {
+    "a jog": lambda station: station.jog("x", 300),
+    "a place": lambda station: station.go_to(10.0, 10.0),
+    "a queue": lambda station: station.run_queue("KMD_GOTO_X_Y 500 500\n"),
+    "a board": lambda station: station.start(dry=False),
+    "a dry run": lambda station: station.start(dry=True),
+}
+NOT_BEGUN_STEPS = 5
+
+
+@pytest.fixture(params=["free", "real"])
+def with_a_board(request: pytest.FixtureRequest) -> Iterator[Station]:
+    library = Library.standard()
+    made = Station(library, library.machine("pcb-drill"), Running(pace=request.param), tools="assume")
+    assert made.load(str(EXAMPLES / "blinker.drl"), Asked()) == () == made.initialise()
+    settle(made)
+    yield made
+    made.close()
+
+
+@pytest.mark.parametrize("begin", BEGUN.values(), ids=BEGUN)
+def test_a_hold_in_one_breath_with_the_start_holds_before_anything_moves(with_a_board: Station, begin: Begin) -> None:
+    """By then no command has been taken from the queue that could be held."""
+    station = with_a_board
+    assert begin(station) == () == station.hold()
+    until(station, lambda: station.view().condition == "held")
+    assert station.at_work and farthest(station) < NOT_BEGUN_STEPS
     assert station.resume() == ()
+    until(station, lambda: station.view().condition == "ready")
+    assert station.at_work and station.stop() == ()
     settle(station)
-    progress = station.progress()
-    assert progress is not None and progress.holes_done == 26
+
+
+@pytest.mark.parametrize("begin", BEGUN.values(), ids=BEGUN)
+def test_a_stop_in_one_breath_with_the_start_ends_it(with_a_board: Station, begin: Begin) -> None:
+    station = with_a_board
+    assert begin(station) == () == station.stop()
+    until(station, lambda: not station.at_work)
+    assert station.view().condition == "ready" and farthest(station) < NOT_BEGUN_STEPS
+
+
+@pytest.mark.parametrize("begin", BEGUN.values(), ids=BEGUN)
+def test_an_emergency_stop_in_one_breath_with_the_start_latches(with_a_board: Station, begin: Begin) -> None:
+    station = with_a_board
+    assert begin(station) == () == station.emergency_stop()
+    until(station, lambda: not station.at_work)
+    assert station.view().condition == "latched" and farthest(station) < NOT_BEGUN_STEPS
+
+
+def farthest(station: Station) -> int:
+    return max(abs(axis.position_steps) for axis in station.view().axes)
 
 
 def test_an_emergency_stop_latches_until_it_is_acknowledged(station: Station) -> None:
