@@ -9,6 +9,7 @@ import drillctl
 
 PACKAGE = Path(drillctl.__file__).parent
 FIELD = re.compile(r"\{[^{}]*\}")
+OF_MSGSPEC = {"expected {}, got {}", "expected {}", "invalid enum value {}", "unknown key {}", "{} is missing"}
 ERRORS = {"JobError", "PlacingError", "AlignmentError", "JournalError"}
 
 
@@ -36,9 +37,9 @@ def trees(*rooms: str) -> Iterator[ast.Module]:
 
 
 def all_forms() -> set[str]:
-    """Every string below the screen that might be told."""
+    """Every string below the screen that might be told; what msgspec says of a table is put plainly by machine."""
     rooms = trees("generation", "station", "wiring", "machine", "kmd")
-    return {without_place(text) for tree in rooms for text in texts(tree)}
+    return {without_place(text) for tree in rooms for text in texts(tree)} | OF_MSGSPEC
 
 
 def refusals() -> set[str]:
@@ -51,11 +52,17 @@ def refusals() -> set[str]:
 
 
 def editors_findings() -> set[str]:
-    """What the editors of queues and tables find wrong with a text, or dangerous."""
-    files = ("kmd/text.py", "machine/hazards.py", "machine/ramp.py", "machine/phase.py", "machine/settings.py")
-    nodes = [node for file in files for node in ast.walk(ast.parse((PACKAGE / file).read_text("utf-8")))]
+    """What the editors of queues, tables and the configuration find wrong with a text, or dangerous."""
+    trees_read = [ast.parse((PACKAGE / "kmd/text.py").read_text("utf-8")), *trees("machine")]
+    nodes = [node for tree in trees_read for node in ast.walk(tree)]
+    called = [node for node in nodes if isinstance(node, ast.Call) and _name(node.func) in {"TableError", "error"}]
     forms = {form for node in nodes if isinstance(node, ast.JoinedStr) for form in texts(node)}
-    return {bare for form in forms if len(re.findall(r"[a-z]{2,}", bare := without_place(form))) >= 3}
+    forms |= {form for node in called for form in texts(node)}
+    return {bare for form in forms if len(re.findall(r"[a-z]{2,}", bare := without_place(form))) >= 3 and " " in bare}
+
+
+def _name(called: ast.expr) -> str:
+    return called.attr if isinstance(called, ast.Attribute) else getattr(called, "id", "")
 
 
 def without_place(text: str) -> str:

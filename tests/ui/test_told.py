@@ -10,6 +10,9 @@ from hypothesis import strategies as st
 from drillctl.generation.drillfile import read
 from drillctl.generation.drillfile.errors import REFUSALS, WARNINGS
 from drillctl.kmd import KmdError, Names, parse_program
+from drillctl.machine import Library, shipped_tables
+from drillctl.machine.errors import TableError
+from drillctl.machine.source import Source
 from drillctl.ui import words
 from drillctl.ui.told import told
 from tests.support.sentences import editors_findings, form_of, refusals
@@ -76,6 +79,29 @@ def test_a_wrong_line_of_a_queue_is_told(line: str, word: str) -> None:
     with pytest.raises(KmdError) as refused:
         parse_program(line, Names(("x", "y"), {}, {}))
     assert told(f"3:1: {refused.value.reason}") == f"3:1: {word}"
+
+
+@pytest.mark.parametrize(
+    ("written", "instead", "word"),
+    [
+        ("tick_hz = 500", "tick_hz = 0", "tick_hz: oczekiwano int >= 1"),
+        ("tick_hz = 500", 'tick_hz = "a"', "tick_hz: oczekiwano int, jest str"),
+        ("tick_hz = 500", "", "tick_hz: brak"),
+        ("tick_hz = 500", "tick_hz = 500\nhz = 1", "nieznany klucz hz"),
+        ("tick_hz = 500", "tick_hz = =", "to nie TOML: Invalid value"),
+        ('"drop"', '"x"', "emergency_stop: niedozwolona wartość 'x'"),
+        ('name = "x"', 'name = "x y"', "axis[0].name: nazwa to litery, cyfry, - i _, nie zaczyna się od - ani _"),
+        ('name = "y_min"', 'name = "x_min"', "sensor x_min: ta nazwa już jest"),
+        ('"x.1b" = 1', '"x.1b" = 0', 'wiring: bit wyjściowy 0 dla "x.1b" zajmuje już x.1a'),
+        ('"x.1b" = 1', "", 'wiring: brak bitu dla "x.1b", przewodu z tablicy faz'),
+    ],
+)
+def test_a_wrong_machine_is_told(written: str, instead: str, word: str) -> None:
+    text = (shipped_tables() / "machines" / "pcb-drill.toml").read_text("utf-8")
+    assert written in text
+    with pytest.raises(TableError) as refused:
+        Library((shipped_tables(),)).check_source(Source(Path("own.toml"), text.replace(written, instead, 1)))
+    assert told(str(refused.value)).partition(": ")[2] == word
 
 
 @pytest.mark.parametrize("code", [*REFUSALS, *WARNINGS])

@@ -38,8 +38,10 @@ def folder(tmp_path: Path) -> Path:
 
 
 def start(folder: Path, *arguments: str) -> "subprocess.Popen[str]":
+    """In a process group of its own, as a shell would: one without a parent outside can't be suspended by SIGTSTP."""
     call = [sys.executable, "-m", "drillctl", "run", *arguments]
-    return subprocess.Popen(call, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    pipe = subprocess.PIPE
+    return subprocess.Popen(call, cwd=folder, stdout=pipe, stderr=pipe, text=True, process_group=0)
 
 
 def finish(run: "subprocess.Popen[str]") -> dict[str, Any]:
