@@ -80,5 +80,5 @@ def _write_vcd(job: "Job", done: "Run", vcd: "Output | None") -> None:
     kept = done.trace
     if vcd is not None and kept is not None:
         assert not isinstance(kept, Segments), "derived signals are kept as changes"
-        with_plant = any(signal.name.startswith("plant.") for signal in kept.signals)
-        vcd.write(lambda file: write_vcd(kept, file, vcd_layout(job.machine, with_plant)))
+        layout = [var for var in vcd_layout(job.machine) if kept.has(var.source)]
+        vcd.write(lambda file: write_vcd(kept, file, layout))

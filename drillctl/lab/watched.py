@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from drillctl.lab.errors import LabError
 from drillctl.lab.tables import axis_index
 from drillctl.machine import AxisTable, Library, Machine
-from drillctl.plant.choice import DYNAMIC, PlantChoice
+from drillctl.plant.choice import DYNAMIC
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.plant.dynamic.recorder import Recorded, Recorder
 from drillctl.plant.faults import PlantRefused
 from drillctl.ports import CARD_BITS
 from drillctl.trace import Trace, dense
-from drillctl.wiring.recorded import machine_of, same_tables
+from drillctl.wiring.recorded import choice_of, machine_of, same_tables
 from drillctl.wiring.rerun import with_columns
 from drillctl.wiring.trace_files import read_trace
 
@@ -85,9 +85,8 @@ def _farthest(columns: list[Counts]) -> int:
 
 
 def _plant(recorded: Trace, machine: Machine) -> tuple[DynamicPlant, bool]:
-    described, seed = ("".join(recorded.header_values(key)[:1]) for key in ("plant", "seed"))
     try:
-        choice = PlantChoice.of_header(described, seed)
+        choice = choice_of(recorded)
         as_run = choice.kind == DYNAMIC
         return DynamicPlant(machine, choice.faults if as_run else (), choice.seed), as_run
     except PlantRefused as error:

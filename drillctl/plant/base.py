@@ -9,15 +9,22 @@ from drillctl.machine import Machine
 from drillctl.plant.carriage import Carriage
 from drillctl.plant.rotor import Rotor
 
+# What a recording can have of an axis, by what follows the axis's name: the carriage's place in whole steps; by how
+# many columns it is behind the controller (its lag, and at rest what it lost); the currents that pull, in mA.
+PLACE_LANES = ("", "_behind")
+CURRENT_LANES = ("_i1_mA", "_i2_mA")
+
 
 class Plant:
     """A machine beyond the ports.
 
+    lanes      what a recording has of each axis: some of those above
     described  the plant in a word or some, for a trace; ``seed`` is what its scatter comes from
     inputs     the input image, 1 where a sensor's wire is high
     touches    how often the first head's bit has met the board, coming down
     """
 
+    lanes: tuple[str, ...] = PLACE_LANES
     described = ""
     seed = 0
 
@@ -50,6 +57,11 @@ class Plant:
     def behind_steps(self, axis: int, travelled: int) -> float:
         """How far a carriage is from where the controller has it, as far as this plant can tell."""
         return self.lost_steps(axis, travelled)
+
+    def lane_values(self, axis: int, travelled: int) -> tuple[int, ...]:
+        """Of each of ``lanes``, now."""
+        behind_columns = self.behind_steps(axis, travelled) / abs(self.carriages[axis].steps_per_column)
+        return round(self.position_steps(axis)), round(behind_columns)
 
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)

@@ -119,4 +119,4 @@ class InUse:
         ring = Recording.ring_for(machine)
         link = start(machine, replace(running, kept=True), Path(self._folder.name) / "status", ring)
         self.machine, self.running, self.link = machine, running, link
-        self.recording = Recording(machine, link.measured, ring, lambda: int(link.status()["tick"]))
+        self.recording = Recording(machine, link.plant_lanes, ring, lambda: int(link.status()["tick"]))

@@ -20,7 +20,7 @@ from drillctl.trace import Signal
 from drillctl.trace.lanes import Lanes
 from drillctl.trace.ring import CHANGE, RingRecorder
 from drillctl.trace.values import OPCODES
-from drillctl.wiring.sampler import signals
+from drillctl.wiring.sampler import EVERY_LANE, signals
 
 MOST_ROWS = 4_000_000  # of a recording: 16 bytes each; drilling makes five of them a tick
 MOST_WAITING = 500  # times that the ring was emptied while nobody looked
@@ -121,16 +121,16 @@ class Recording(RunScope):
     ticks  how many the ticker has run
     """
 
-    def __init__(self, machine: Machine, with_plant: bool, ring: RingRecorder, ticks: Callable[[], int]):
-        super().__init__(machine.name, machine, signals(machine, with_plant, derived=True), MOST_ROWS)
+    def __init__(self, machine: Machine, plant_lanes: Sequence[str], ring: RingRecorder, ticks: Callable[[], int]):
+        super().__init__(machine.name, machine, signals(machine, plant_lanes, derived=True), MOST_ROWS)
         self._ring, self._ticks = ring, ticks
         self._waiting: list[NDArray[np.void]] = []
         self._programs: deque[tuple[int, int, NDArray[np.void]]] = deque(maxlen=MOST_PROGRAMS)
 
     @staticmethod
     def ring_for(machine: Machine) -> RingRecorder:
-        """Large enough with a plant and without."""
-        return RingRecorder(len(signals(machine, with_plant=True, derived=True)))
+        """Large enough with any plant and without."""
+        return RingRecorder(len(signals(machine, EVERY_LANE, derived=True)))
 
     def keep(self) -> None:
         """Empties the ring; cheap, and to be called often."""

@@ -1,7 +1,8 @@
 """Wiring: the run of a trace file as the scope sees it. What the file leaves out is found by running it again.
 
 Rule: the file is shown at once, and the axes at the cursor with it; the waves of columns, positions and states follow,
-a little at every turn, so that nothing has to wait for a long run. Created by the scope verb and by scopebench.
+and those of the dynamic plant that a run was made on, a little at every turn, so that nothing has to wait for a long
+run. Created by the scope verb and by scopebench.
 """
 
 import time
@@ -13,10 +14,12 @@ import numpy as np
 
 from drillctl.machine import Library, Machine
 from drillctl.panel.scope import Notice
+from drillctl.plant import Plant, PlantRefused
+from drillctl.plant.choice import DYNAMIC
 from drillctl.station.scope import RunScope
 from drillctl.trace import Signal, Trace, TraceError
 from drillctl.trace.values import IDLE, Values
-from drillctl.wiring.recorded import check_tick, machine_of, same_tables
+from drillctl.wiring.recorded import check_tick, choice_of, machine_of, same_tables
 from drillctl.wiring.rerun import AxisState, Jumps, rerun
 from drillctl.wiring.sampler import signals
 from drillctl.wiring.trace_files import read_trace
@@ -34,7 +37,9 @@ class TraceFile(RunScope):
         recorded = read_trace(file)
         machine = machine_of(recorded, file, library)
         check_tick(recorded, file, from_tick)
-        derived = [signal for signal in signals(machine, False, True) if signal.derived]
+        plant = _dynamic(recorded, machine)
+        sampled = signals(machine, plant.lanes if plant else (), True)
+        derived = [signal for signal in sampled if signal.derived]
         missing = [signal for signal in derived if not recorded.has(signal.name)]
         own, values = _idle_first(recorded)
         super().__init__(f"{file.name} ({machine.name})", machine, (*own, *missing), MOST_ROWS)
@@ -44,7 +49,7 @@ class TraceFile(RunScope):
         self._missing = {signal.name for signal in missing}
         self._other_tables = not same_tables(recorded, machine, file)
         self._trouble: Notice | None = None
-        self._derivation = self._derived(recorded, machine, file) if missing else iter(())
+        self._derivation = self._derived(recorded, machine, file, plant, sampled) if missing else iter(())
         self._known_to = 0 if missing else recorded.end
         self._jumps = self._able_to_jump(recorded, machine, file) if missing else None
         self._here: tuple[int, tuple[AxisState, ...]] = (-1, ())
@@ -94,11 +99,12 @@ class TraceFile(RunScope):
             self._trouble = Notice("underivable", error.reason)
             return None
 
-    def _derived(self, recorded: Trace, machine: Machine, file: Path) -> Iterator[int]:
+    def _derived(self, recorded: Trace, machine: Machine, file: Path, plant: Plant | None, sampled: list[Signal]
+                 ) -> Iterator[int]:  # fmt: skip
         """Runs the trace again, its derived signals into the lanes; gives the tick up to which they are known."""
-        place = self._places(signals(machine, False, True))
+        place = self._places(sampled)
         try:
-            for stretch in rerun(recorded, machine, file):
+            for stretch in rerun(recorded, machine, file, plant):
                 rows = np.flatnonzero(place[stretch.signal] >= 0)
                 if len(self.lanes) + len(rows) > MOST_ROWS:
                     self._trouble = Notice("too long", self._known_to)
@@ -116,6 +122,15 @@ class TraceFile(RunScope):
 
     def _written(self, sequence: int, tick: int) -> str:
         return self._commands.get(str(sequence), "")
+
+
+def _dynamic(recorded: Trace, machine: Machine) -> Plant | None:
+    """The dynamic plant that a run was made on, new; None where there was another, or this program can't build it."""
+    try:
+        choice = choice_of(recorded)
+        return choice.build(machine) if choice.kind == DYNAMIC else None
+    except PlantRefused:
+        return None
 
 
 def _idle_first(trace: Trace) -> tuple[list[Signal], Values]:

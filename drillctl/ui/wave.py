@@ -1,7 +1,9 @@
-"""Waves in characters: a line for a wire, a line for numbers or words, a ruler of ticks. Functions of strips and sizes.
+"""Waves in characters: a line for a wire, one for numbers or words, a ruler of ticks. Functions of strips and sizes.
 
 Rule: what can't be drawn is said, never left out: a column in which a wire changed more than once shows a busy sign, a
-number for which there is no room shows a dot, never some of its digits. Used by the scope screen.
+number for which there is no room shows a dot, never some of its digits. Numbers that change too often for digits are a
+curve, but only where every tick has its column: a curve of some of the ticks could show what was not there. Used by the
+scope screen.
 """
 
 from collections.abc import Callable, Sequence
@@ -27,6 +29,7 @@ class Signs(NamedTuple):
     cursor: str
 
 
+LEVELS = {False: "▁▂▃▄▅▆▇█", True: "_.-=+*%@"}  # from the lowest value that is drawn to the highest
 SIGNS = {False: Signs("▁", "▔", "│", "▒", "·", "…", "▼"), True: Signs("_", "-", "|", "#", ".", "~", "v")}
 
 
@@ -57,6 +60,22 @@ def word_line(strip: Strip, shown: Callable[[int, int], str], may_cut: bool, pla
         text = shown(start, int(strip.values[start])) if room > 0 else ""
         parts.append(mark + fitted(text, room, may_cut, signs))
     return "".join(parts)
+
+
+def number_line(strip: Strip, shown: Callable[[int, int], str], exact: bool, plain: bool = False) -> str:
+    """Numbers as ``word_line`` has them; a curve where there is no room for most of them, and ``exact``."""
+    line = word_line(strip, shown, may_cut=False, plain=plain)
+    signs = SIGNS[plain]
+    without_digits = sum(map(line.count, (signs.edge, signs.busy, signs.hidden)))
+    return level_line(strip, plain) if exact and 2 * without_digits > len(line) else line
+
+
+def level_line(strip: Strip, plain: bool = False) -> str:
+    """How high the value of each column is, between the lowest and the highest of them."""
+    levels = LEVELS[plain]
+    low, high = int(strip.values.min()), int(strip.values.max())
+    codes = np.round((strip.values - low) * (len(levels) - 1) / max(1, high - low)).astype(np.int64)
+    return "".join(np.array(list(levels))[codes].tolist())
 
 
 def fitted(text: str, room: int, may_cut: bool, signs: Signs) -> str:

@@ -48,7 +48,7 @@ class FastTicker(Ticker):
         if self.derived:
             self.sampler = Sampler(self.controller, None, True, self.keeper)
         if self.taped:
-            kept = signals(self.machine, with_plant=True, derived=False)
+            kept = signals(self.machine, (), derived=False)
             recorder = TapeRecorder(kept, self.engine.reel, len(self.machine.axes) + 1)
             self.sampler = Sampler(self.controller, self.plant, False, recorder)
 

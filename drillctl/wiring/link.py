@@ -4,7 +4,7 @@ Rule: commands, requests and status go through the doors (kmd) and nothing else 
 them. Created by the verbs' wiring, used by desk.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -37,6 +37,10 @@ class Link(Protocol):
     @property
     def measured(self) -> bool:
         """Whether a plant tells of lost steps."""
+
+    @property
+    def plant_lanes(self) -> Sequence[str]:
+        """What a recording has of it, by axis; none where there is no plant."""
 
     @property
     def plant_header(self) -> Header:
@@ -102,6 +106,11 @@ class LocalLink:
     def measured(self) -> bool:
         """True where there is a plant."""
         return self.ticker.plant is not None
+
+    @property
+    def plant_lanes(self) -> Sequence[str]:
+        """The plant's."""
+        return self.ticker.plant.lanes if self.ticker.plant else ()
 
     @property
     def plant_header(self) -> Header:

@@ -47,6 +47,7 @@ class PacedLink:
                  traced: bool, derived: bool, keeper: RingRecorder | None = None,
                  idle_ns: int = DESK_IDLE_NS):  # fmt: skip
         self.measured = plant is not None
+        self.plant_lanes = plant.lanes if plant else ()
         self.plant_header = header_of(plant)
         self._channel = Channel(file, create=True)
         self._status = self._channel.status()
@@ -54,7 +55,7 @@ class PacedLink:
         self.gate = SharedGate(self._channel)
         self._slot = TableSlot()
         self._requests = SharedRequests(self._channel)
-        self._signals = signals(machine, plant is not None, derived) if traced else None
+        self._signals = signals(machine, self.plant_lanes, derived) if traced else None
         self._ring = RingRecorder(len(self._signals)) if self._signals else None
         self._changes: list[np.ndarray] = []
         self._port = port

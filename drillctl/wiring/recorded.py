@@ -16,6 +16,7 @@ from drillctl.kmd import KmdError, Request, RequestBit, parse_program, to_text
 from drillctl.kmd.queue import bit_and_value
 from drillctl.machine import Library, Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
+from drillctl.plant import PlantChoice
 from drillctl.portio.playback import PlaybackCard
 from drillctl.ports import CARD_BITS
 from drillctl.trace import Trace, TraceError
@@ -61,6 +62,12 @@ def machine_of(trace: Trace, file: Path, library: Library) -> Machine:
 def same_tables(trace: Trace, machine: Machine, file: Path) -> bool:
     """Whether a trace was recorded with the tables that ``machine`` has now."""
     return header_value(trace, "digest", file) == machine.digest
+
+
+def choice_of(trace: Trace) -> PlantChoice:
+    """The plant that a run was made on; ideal where its header tells of none. Raises PlantRefused."""
+    described, seed = ("".join(trace.header_values(key)[:1]) for key in ("plant", "seed"))
+    return PlantChoice.of_header(described, seed)
 
 
 def check_tick(recorded: Trace, file: Path, tick: int) -> None:

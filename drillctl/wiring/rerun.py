@@ -1,7 +1,8 @@
 """Wiring: what a trace leaves out (columns, positions and states of the axes), found by running it again.
 
 Rule: where the ideal plant gives the inputs that were recorded, whole commands are taken at once; as soon as it
-doesn't, the recorded inputs are ticked through. Both find the same. Called by the scope and by the lab.
+doesn't, the recorded inputs are ticked through. Both find the same. A plant that is to be watched is driven by what is
+put out once more, tick by tick, and its sensors are not asked. Called by the scope and by the lab.
 """
 
 from collections.abc import Iterator
@@ -13,6 +14,8 @@ from numpy.typing import NDArray
 
 from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Machine
+from drillctl.plant import Plant
+from drillctl.portio.simulated import WatchedCard
 from drillctl.trace import Recorder, Trace
 from drillctl.trace.values import Values
 from drillctl.wiring.fast_ticker import FastTicker
@@ -24,7 +27,7 @@ from drillctl.wiring.ticker import Ticker
 class Stretch(NamedTuple):
     """Rows (n,) of a run up to tick ``end``, ticks rising within each signal; a value may be that of the row before.
 
-    signal  indexes into ``sampler.signals`` of the machine, without its plant, derived ones too
+    signal  indexes into ``sampler.signals`` of the machine, with the lanes of the watched plant, derived ones too
     """
 
     end: int
@@ -41,10 +44,18 @@ class AxisState(NamedTuple):
     state: int
 
 
-def rerun(recorded: Trace, machine: Machine, file: Path) -> Iterator[Stretch]:
-    """Runs a trace again a little at a time. Raises TraceError before the first stretch."""
+def rerun(recorded: Trace, machine: Machine, file: Path, watched: Plant | None = None) -> Iterator[Stretch]:
+    """Runs a trace again a little at a time; ``watched``: a new plant of the kind that it was made on.
+
+    Raises TraceError before the first stretch.
+    """
     card = playback(recorded, machine, file)
-    recorder = Recorder(signals(machine, with_plant=False, derived=True))
+    recorder = Recorder(signals(machine, watched.lanes if watched else (), derived=True))
+    if watched is not None:
+        beside = WatchedCard(card, watched)
+        seen = Ticker(machine, beside, watched, traced=True, derived=True, keeper=recorder)
+        yield from _stretches(seen, recorder, recorded, machine, file)
+        return
     foreseen = FastTicker.ideal(machine, traced=True, capacity=CAPACITY, keeper=recorder)
     known, inputs = 0, _Inputs(recorded, machine)
     for stretch in _stretches(foreseen, recorder, recorded, machine, file):
@@ -63,7 +74,7 @@ def rerun(recorded: Trace, machine: Machine, file: Path) -> Iterator[Stretch]:
 
 def with_columns(recorded: Trace, machine: Machine, file: Path) -> Trace:
     """The whole run with its derived signals, under an empty header. Raises TraceError."""
-    whole = Recorder(signals(machine, with_plant=False, derived=True))
+    whole = Recorder(signals(machine, (), derived=True))
     end = 0
     for stretch in rerun(recorded, machine, file):
         end = stretch.end
@@ -107,7 +118,7 @@ class _Inputs:
     """Holds a run that is made again against the recorded inputs, stretch after stretch."""
 
     def __init__(self, recorded: Trace, machine: Machine):
-        numbers = {signal.name: number for number, signal in enumerate(signals(machine, False, False))}
+        numbers = {signal.name: number for number, signal in enumerate(signals(machine, (), False))}
         names = [f"in.{card}" for card in range(machine.cards)]
         self._recorded = [(numbers[name], *recorded.changes_of(name)) for name in names]
         self._last = [-1] * len(names)  # which no port word is

@@ -4,6 +4,7 @@ Rule: tick() knows no trace; this module alone knows which number becomes which 
 Called by ticker after each tick, and by replay.
 """
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -16,10 +17,12 @@ from drillctl.kmd.commands import BY_OP
 from drillctl.machine import Machine
 from drillctl.machine.shape import MOST_CARDS
 from drillctl.plant import Plant
+from drillctl.plant.base import CURRENT_LANES, PLACE_LANES
 from drillctl.ports import CARD_BITS, CARD_MASK, word
 from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
+EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
 QUIET = 4  # signals in which a course has nothing: request, hand, late, fault
 _REQUESTS = [request.name for request in Request if request]
 REQUEST_WORDS = tuple(
@@ -47,7 +50,7 @@ class Sampler:
         self._cards = range(controller.machine.cards)
         self._plant = plant
         self._derived = derived
-        self.signals = signals(controller.machine, plant is not None, derived)
+        self.signals = signals(controller.machine, plant.lanes if plant else (), derived)
         self.recorder = Recorder(self.signals) if recorder is None else recorder
 
     def follow(self, controller: Controller) -> None:
@@ -108,14 +111,15 @@ class Sampler:
             put(index + 2, tick, axis.state)
             index += 3
             if self._plant is not None:
-                put(index, tick, round(self._plant.position_steps(number)))
-                behind_steps = self._plant.behind_steps(number, axis.travelled)
-                put(index + 1, tick, round(behind_steps * axis.columns_per_step))
-                index += 2
+                for value in self._plant.lane_values(number, axis.travelled):
+                    put(index, tick, value)
+                    index += 1
 
 
-def signals(machine: Machine, with_plant: bool, derived: bool) -> list[Signal]:
-    """The signals of a machine's traces, in the order in which Sampler counts them."""
+def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list[Signal]:
+    """The signals of a machine's traces, in the order in which Sampler counts them. ``plant_lanes``: as a plant has
+    them, none without one.
+    """
     found = []
     for card in range(machine.cards):
         found += [Signal(f"in.{card}", "word", True), Signal(f"out.{card}", "word", False)]
@@ -129,13 +133,14 @@ def signals(machine: Machine, with_plant: bool, derived: bool) -> list[Signal]:
     if derived:
         for name in machine.axis_names:
             found += [Signal(f"{name}.{field}", "count", False, True) for field in ("column", "position", "state")]
-            if with_plant:
-                found += [Signal(f"plant.{field}", "count", False, True) for field in _of_plant(name)]
+            found += [Signal(f"plant.{name}{lane}", "count", False, True) for lane in plant_lanes]
     return found
 
 
-def vcd_layout(machine: Machine, with_plant: bool) -> list[VcdVar]:
-    """Scopes of the VCD form: an axis's wires as its phase table names them, then sensors, kmd and plant."""
+def vcd_layout(machine: Machine) -> list[VcdVar]:
+    """Scopes of the VCD form: an axis's wires as its phase table names them, then sensors, kmd, and all that any plant
+    has.
+    """
     layout = []
     for axis in machine.axes:
         for wire, bit in zip(axis.phase.wire_names(), axis.wire_bits, strict=True):
@@ -151,12 +156,5 @@ def vcd_layout(machine: Machine, with_plant: bool) -> list[VcdVar]:
         VcdVar("kmd", "opcode", "integer", "kmd", part="opcode"),
         VcdVar("kmd", "running", "string", "kmd", part="running"),
     ]
-    if with_plant:
-        fields = [field for name in machine.axis_names for field in _of_plant(name)]
-        layout += [VcdVar("plant", field, "integer", f"plant.{field}") for field in fields]
-    return layout
-
-
-def _of_plant(axis: str) -> tuple[str, str]:
-    """Where the carriage is, in steps; how far behind the controller, in columns: its lag, and at rest what it lost."""
-    return axis, f"{axis}_behind"
+    fields = [f"{name}{lane}" for name in machine.axis_names for lane in EVERY_LANE]
+    return [*layout, *(VcdVar("plant", field, "integer", f"plant.{field}") for field in fields)]

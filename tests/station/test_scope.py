@@ -14,6 +14,7 @@ from drillctl.kmd import parse_program
 from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Library
 from drillctl.panel.scope import BACKWARDS, FORWARDS, Find, Notice, ScopeSignal
+from drillctl.plant import PlantChoice
 from drillctl.station import scope, tracefile
 from drillctl.station.operating import BUSY
 from drillctl.station.scope import RunScope
@@ -24,7 +25,7 @@ from drillctl.station.tracefile import TraceFile
 from drillctl.trace import Trace, TraceError, dense, read_text, write_text
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.recorded import Player, playback
-from drillctl.wiring.sampler import signals
+from drillctl.wiring.sampler import EVERY_LANE, signals
 from drillctl.wiring.ticker import Ticker
 from drillctl.wiring.trace_files import read_trace
 from tests.support.operator import settle
@@ -241,6 +242,29 @@ def test_a_run_that_would_take_too_much_memory_is_known_in_part(file: Path, monk
     x_column = index(source, "x", "column")
     assert source.window(x_column, known - 9, known + 9).ticks[-1] < known and source.first_tick == 0
     assert source.at(known - 1).axes and source.at(known).axes
+
+
+def test_a_run_on_the_dynamic_plant_has_its_lanes_from_a_file_too(tmp_path: Path) -> None:
+    job, file = tmp_path / "job.kmd", tmp_path / "job.trace"
+    job.write_text(QUEUE)
+    told = ("--plant", "dynamic", "--seed", "7", "--fault", "loose.x=0.3")
+    assert main(["run", str(job), *told, "--trace", str(file)]) == 0
+    machine = LIBRARY.machine("pcb-drill")
+    ticker = Ticker.simulated(machine, True, True, PlantChoice("dynamic", ("loose.x=0.3",), 7))
+    ticker.queue.put(parse_program(QUEUE, names_of(machine)))
+    ticker.run(10**6, ticker.over)
+    truth = ticker.finished_trace(())
+    assert truth is not None
+    source = run_through(TraceFile(file, LIBRARY))
+    shown = [signal.name for signal in source.signals() if signal.group == "plant"]
+    assert shown == [f"{axis}{lane}" for axis in "xyz" for lane in EVERY_LANE]
+    for name in shown:
+        values = dense(truth, f"plant.{name}")
+        assert np.ptp(values) and drawn(source, index(source, "plant", name)) == values.tolist()
+
+
+def test_a_run_on_the_ideal_plant_has_no_lanes_of_one(file: Path) -> None:
+    assert not [signal for signal in TraceFile(file, LIBRARY).signals() if signal.group == "plant"]
 
 
 @pytest.fixture

@@ -47,7 +47,7 @@ def disturb(ticker: Ticker, what: int) -> None:
 def twins(machine: Machine, program: NDArray[np.void], disturbances: Disturbances, ticks: int
           ) -> tuple[Ticker, FastTicker]:  # fmt: skip
     """The law and the fast one, after the same; both keep columns, positions and states, and no rotors."""
-    kept = signals(machine, with_plant=False, derived=True)
+    kept = signals(machine, (), derived=True)
     slow, fast = Ticker.simulated(machine), FastTicker.ideal(machine, traced=True, keeper=Recorder(kept))
     slow.sampler = Sampler(slow.controller, None, True)
     return ran(slow, program, disturbances, ticks), ran(fast, program, disturbances, ticks)

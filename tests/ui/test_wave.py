@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from drillctl.panel.scope import Strip
 from drillctl.trace.lanes import Column
-from drillctl.ui.wave import SIGNS, ruler, wire_line, word_line
+from drillctl.ui.wave import LEVELS, SIGNS, level_line, number_line, ruler, wire_line, word_line
 
 
 def strip(values: list[int], ticks_a_column: int) -> Strip:
@@ -55,6 +55,29 @@ def test_every_number_that_is_shown_is_one_of_the_run(values: list[int], ticks_a
     assert len(line) == -(-len(values) // ticks_a_column)
     shown = line.replace("|", " ").replace("#", " ").replace(".", " ").split()
     assert {int(word) for word in shown} <= set(values)
+
+
+def curve(values: list[int], ticks_a_column: int, plain: bool = True) -> str:
+    exact = ticks_a_column == 1
+    return number_line(strip(values, ticks_a_column), lambda _column, value: str(value), exact, plain)
+
+
+def test_numbers_that_change_too_often_for_digits_are_a_curve() -> None:
+    assert curve([-70, -50, -30, -10, 10, 30, 50, 70, 70, 0], 1, plain=False) == "▁▂▃▄▅▆▇██▅"
+    assert curve([5, 5, 5, 5, 6, 6, 6, 6], 1) == "5   |6  ", "where there is room they stay numbers"
+
+
+def test_a_curve_of_some_of_the_ticks_alone_is_never_drawn() -> None:
+    assert curve([*range(40)], 4) == "#" * 10
+
+
+@given(st.lists(st.integers(-(10**9), 10**9), min_size=1, max_size=60), st.booleans())
+def test_a_curve_keeps_the_order_of_what_it_shows(values: list[int], plain: bool) -> None:
+    heights = [LEVELS[plain].index(sign) for sign in level_line(strip(values, 1), plain)]
+    pairs = sorted(zip(values, heights, strict=True))
+    assert [height for _value, height in pairs] == sorted(heights)
+    assert heights[values.index(min(values))] == 0
+    assert min(values) == max(values) or heights[values.index(max(values))] == len(LEVELS[plain]) - 1
 
 
 def test_words_may_be_cut_with_a_sign() -> None:

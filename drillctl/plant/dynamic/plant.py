@@ -7,7 +7,7 @@ tables, the faults told to it and the seed, to the bit. Called by portio/simulat
 from collections.abc import Sequence
 
 from drillctl.machine import Machine
-from drillctl.plant.base import Plant
+from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
 from drillctl.plant.dynamic.drilling import Bit
 from drillctl.plant.dynamic.rotor import DynamicRotor
 from drillctl.plant.dynamic.worn import LooseCarriage, WornSwitch
@@ -19,6 +19,8 @@ class DynamicPlant(Plant):
 
     motors, belts   its rotors and carriages, as what they are here
     """
+
+    lanes = (*PLACE_LANES, *CURRENT_LANES)
 
     def __init__(self, machine: Machine, faults: Sequence[str] = (), seed: int = 0):
         self.described = " ".join(("dynamic", *faults))
@@ -50,6 +52,12 @@ class DynamicPlant(Plant):
         """Lag, friction, play and lost steps together."""
         belt = self.belts[axis]
         return belt.start + travelled * abs(belt.steps_per_column) - self.position_steps(axis)
+
+    def lane_values(self, axis: int, travelled: int) -> tuple[int, ...]:
+        """With the currents: of each phase that of one half winding, less that of the other, which pulls against it."""
+        first, against_first, against_second, second = self.motors[axis].axis.currents  # as WINDING_DEGREES has them
+        pulling = round(1000 * (first - against_first)), round(1000 * (second - against_second))
+        return (*super().lane_values(axis, travelled), *pulling)
 
     def _mounted_bit(self, machine: Machine, told: Faults) -> Bit | None:
         if told.of("broken"):

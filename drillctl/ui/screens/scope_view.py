@@ -14,7 +14,7 @@ from drillctl.ui.lines import Line, packed
 from drillctl.ui.models.rows import Rows
 from drillctl.ui.models.viewport import Viewport
 from drillctl.ui.phase_lines import phase_line, phase_table
-from drillctl.ui.wave import SIGNS, fitted, ruler, wire_line, word_line
+from drillctl.ui.wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
 from drillctl.ui.words import N_, _
 
 WIDE = 116  # columns from which the phase tables stand beside the waves
@@ -128,13 +128,16 @@ def _wave(source: ScopeSource, look: Look, edges: Ints, row: int) -> str:
     if len(known) < 2:
         return unknown
     strip, shape = source.strip(row, known), source.signals()[row].shape
+    exact = look.view.zoom.ticks == 1
     if shape == "wire":
-        return wire_line(strip, look.view.zoom.ticks == 1, look.plain) + unknown
+        return wire_line(strip, exact, look.plain) + unknown
 
     def shown(column: int, value: int) -> str:
         return source.shown(row, value, int(known[column + 1]) - 1)
 
-    return word_line(strip, shown, shape == "words", look.plain) + unknown
+    if shape == "count":
+        return number_line(strip, shown, exact, look.plain) + unknown
+    return word_line(strip, shown, True, look.plain) + unknown
 
 
 def _foot(source: ScopeSource, look: Look, moment: Moment, columns: int, with_tables: bool) -> list[Line]:
