@@ -1,4 +1,5 @@
-"""A class hour on a terminal: a board from file to the last hole, a table edited, a fault provoked and put right.
+"""A class hour on a terminal: a board from file to the last hole, a table edited, a fault provoked and put right, a
+board cut off and gone on with.
 
 One script, played at two sizes and in two languages by the real program on its own pseudo-terminal. The words come
 from the program's catalogue. The machine runs free, so that a busy computer makes the hour longer and nothing else.
@@ -17,7 +18,7 @@ from tests.support.labels import menu, word
 terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev extra) reads what the program draws")
 Act = terminals.Act
 
-NAME, HOLES, SIZE = "lesson.drl", 5, "9.99 x 5.00 mm"
+NAME, HOLES, OF_THE_FIRST_TOOL, SIZE = "lesson.drl", 5, 3, "9.99 x 5.00 mm"
 BOARD = """M48
 METRIC
 T1C0.800
@@ -32,6 +33,7 @@ X5.0Y10.0
 X10.0Y7.5
 M30
 """
+FIRST, SECOND = "T1, 0.800 mm", "T2, 1.000 mm"
 BEYOND = ("KMD_INICJALIZACJA", "Enter", "KMD_GOTO_X_Y 999999 0")
 YES = ("Right", "Enter")
 
@@ -44,11 +46,20 @@ def at_rest(known: str) -> str:
     return f"{word('at rest')} | {word(known)}"
 
 
-def board() -> Iterator["terminals.Act"]:
-    """Opened, understood, and back to the machine."""
-    yield Act((), (word("No board is loaded."), at_rest("position not known")))
+def waits_for(tool: str) -> str:
+    return word("The job waits for {tool}; the machine is at rest.").format(tool=tool)
+
+
+def opened() -> Iterator["terminals.Act"]:
+    """From the list of files, and understood."""
     yield Act(menu("files"), (NAME,))
     yield Act(("Down", "Enter"), (SIZE, "T2"))
+
+
+def board() -> Iterator["terminals.Act"]:
+    """The first look, and back to the machine."""
+    yield Act((), (word("No board is loaded."), at_rest("position not known")))
+    yield from opened()
     yield Act(("Esc",), (word("Sensors"),))
 
 
@@ -60,13 +71,20 @@ def basing() -> Iterator["terminals.Act"]:
     yield Act(("b",), (word("this place is the working base"),))
 
 
+def begun() -> Iterator["terminals.Act"]:
+    """After a question; the first tool is asked for."""
+    yield Act(menu("drilling", "start"), (word("Drill {holes} holes of {name}?").format(holes=HOLES, name=NAME),))
+    yield Act(YES, (waits_for(FIRST),))
+
+
 def drilling() -> Iterator["terminals.Act"]:
-    """After a question; held on the way, and gone on with. The hold is pressed in one go with the start: by the time
-    a busy computer has shown that it moves, a machine that runs free may have done with five holes.
+    """With a hold on the way, pressed in one go with the tool's yes: a machine that runs free may have done with its
+    holes before a busy computer has shown that it moves.
     """
-    yield Act(("s",), (word("Drill {holes} holes of {name}?").format(holes=HOLES, name=NAME),))
-    yield Act((*YES, " "), (word("HELD"),))
-    yield Act((" ",), (made(HOLES), at_rest("position known")))
+    yield from begun()
+    yield Act((*YES, " "), (word("HELD"),), gone=(word("Tool change"),))
+    yield Act((" ",), (waits_for(SECOND),))
+    yield Act(YES, (made(HOLES), at_rest("position known")))
 
 
 def table() -> Iterator["terminals.Act"]:
@@ -81,17 +99,6 @@ def table() -> Iterator["terminals.Act"]:
     yield Act(YES, (f"({word('shipped')})",))
 
 
-def again() -> Iterator["terminals.Act"]:
-    """The new machine gets its board. It stands where the queue has left it."""
-    yield Act(menu("files"), (NAME,))
-    yield Act(("Down", "Enter"), (SIZE, "T2", at_rest("position known")))
-
-
-def dry() -> Iterator["terminals.Act"]:
-    """The same journey with the drill up."""
-    yield Act(menu("drilling", "dry_run"), (made(HOLES), at_rest("position known")))
-
-
 def fault() -> Iterator["terminals.Act"]:
     """A queue beyond the range: cause and remedy are read, the fault acknowledged."""
     told = FAULT_WORDS[Fault.SOFT_LIMIT]
@@ -99,6 +106,24 @@ def fault() -> Iterator["terminals.Act"]:
     yield Act(BEYOND, ("2: X: 999999",))
     yield Act(("F5",), ("SOFT_LIMIT", word("Cause: ") + word(told.cause)[:30], word(told.remedy)[:30]))
     yield Act(("Enter",), (word("READY"),))
+
+
+def cut_off() -> Iterator["terminals.Act"]:
+    """An emergency stop with the second tool in hand; then gone on with, and no hole drilled twice."""
+    done = word("{done} of {total} holes are drilled").format(done=OF_THE_FIRST_TOOL, total=HOLES)
+    yield from opened()
+    yield from begun()
+    yield Act(YES, (waits_for(SECOND),))
+    yield Act(("F10",), ("EMERGENCY_STOP", word("position lost: initialise again")))
+    yield Act(("Enter",), (word("READY"), at_rest("position not known")))
+    yield Act(menu("drilling", "start"), (word("Interrupted job"), done))
+    yield Act(YES, (waits_for(SECOND),))
+    yield Act(YES, (made(HOLES), at_rest("position known")))
+
+
+def dry() -> Iterator["terminals.Act"]:
+    """The same journey with the drill up."""
+    yield Act(menu("drilling", "dry_run"), (made(HOLES), at_rest("position known")))
 
 
 @pytest.fixture(params=words.LANGUAGES)
@@ -111,9 +136,9 @@ def language(request: pytest.FixtureRequest) -> Iterator[str]:
 @pytest.mark.parametrize("size", [(80, 24), (160, 50)], ids=str)
 def test_an_hour_at_the_machine(language: str, size: tuple[int, int], tmp_path: Path) -> None:
     (tmp_path / NAME).write_text(BOARD, "utf-8")
-    terminal = terminals.Terminal("--pace", "free", "--lang", language, folder=tmp_path, size=size)
+    terminal = terminals.Terminal("--pace", "free", "--tools", "ask", "--lang", language, folder=tmp_path, size=size)
     try:
-        for part in (board, basing, drilling, table, fault, again, dry):
+        for part in (board, basing, drilling, table, fault, cut_off, dry):
             terminal.play(part())
             terminal.settle()  # what was asked last has ended, and the machine takes the next
         terminal.play([Act(("F4",), (word("Question"),))])  # the queue was not saved
