@@ -7,6 +7,7 @@ draw, and by config.py for the names.
 
 import math
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import msgspec
@@ -96,12 +97,17 @@ def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
 
 def _setting(raw: MachineFile, place: Place, axis: str) -> Setting:
     value: Any = raw  # a place leads through lists and records alike
-    shape: Type = type_info(MachineFile)
+    shape = _shape_of_a_machine()
     for part in place:
         value = value[part] if isinstance(part, int) else getattr(value, part)
         shape = _shape_inside(shape, part)
     assert isinstance(value, Value)
     return _bounded(place, axis, value, shape)
+
+
+@cache
+def _shape_of_a_machine() -> Type:
+    return type_info(MachineFile)
 
 
 def _shape_inside(shape: Type, part: str | int) -> Type:

@@ -16,6 +16,7 @@ from tests.ui.whole import Event, Whole, at_home
 
 EVENTS = 2000
 MANY_EVENTS = 10_000
+LONG = (pytest.mark.long, pytest.mark.timeout(900))  # a minute on an idle computer
 SIZES = [(80, 24), (160, 50), (60, 18)]
 KEYS = [
     *"abcdefghijklmnopqrstuvwxyzABX0123456789 +-=.,", "enter", "enter", "esc", "esc", "tab", "up", "down", "left",
@@ -99,7 +100,7 @@ def check_stop(chance: Chance) -> None:
 
 @pytest.mark.parametrize(
     ("seed", "events"),
-    [(1996, EVENTS), *(pytest.param(seed, MANY_EVENTS, marks=pytest.mark.long) for seed in range(5))],
+    [(1996, EVENTS), *(pytest.param(seed, MANY_EVENTS, marks=LONG) for seed in range(5))],
 )
 def test_random_events_raise_nothing_move_nothing_unasked_and_leave_the_stop_alive(
     seed: int, events: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
