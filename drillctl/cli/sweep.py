@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from drillctl.lab.question import Question
     from drillctl.lab.results import Results
     from drillctl.lab.sweep import Crew
-    from drillctl.machine import Library
+    from drillctl.machine import Library, Machine
 
 VALUES = "N,N,... or FROM:TO:STEP"
 MOST_WORKERS = 1024
@@ -50,11 +50,13 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.lab.sweep import Crew
     from drillctl.lab.sweep_picture import losing, sweep_picture
 
-    question = _question(arguments, options.library(arguments))
+    library = options.library(arguments)
+    machine = library.machine(arguments.machine)
+    question = _question(arguments, machine, library)
     with drawing.drawn(arguments.picture, (arguments.out,)) as draw:
         with Results(arguments.out, question) as results:
             _work(question, results, Crew(arguments.workers or cores(), arguments.cluster))
-        draw(sweep_picture(question, losing(arguments.out)))
+        draw(sweep_picture(question, losing(arguments.out), machine.name))
     return 0
 
 
@@ -65,12 +67,11 @@ def _add_luck(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--seed", type=int, default=0, metavar="N", help="of the draws; default: %(default)s")
 
 
-def _question(arguments: argparse.Namespace, library: "Library") -> "Question":
+def _question(arguments: argparse.Namespace, machine: "Machine", library: "Library") -> "Question":
     from drillctl.lab.numbers import numbers, whole_numbers
     from drillctl.lab.question import FASTEST_HZ, LONGEST_STEPS, SLOWEST_HZ, Question
     from drillctl.lab.tables import axis_of, phases, ramps
 
-    machine = library.machine(arguments.machine)
     axis = axis_of(machine, arguments.axis)
     return Question(
         axis,

@@ -28,8 +28,8 @@ def losing(path: Path) -> NDArray[np.bool_]:
     return np.array([row.split(",")[LOST] != "0" for row in rows])
 
 
-def sweep_picture(question: Question, lost: NDArray[np.bool_]) -> Picture:
-    """From which machines lost steps, (machines,)."""
+def sweep_picture(question: Question, lost: NDArray[np.bool_], machine: str) -> Picture:
+    """From which machines lost steps, (machines,), all of them variants of ``machine``."""
     factors = _factors(question)
     across = max(range(TICK_HZ, len(factors) - 1), key=lambda place: len(factors[place][1]))
     beside = _lines_by(factors, across)
@@ -42,7 +42,10 @@ def sweep_picture(question: Question, lost: NDArray[np.bool_]) -> Picture:
     if mixed := [factors[n][0] for n in range(len(factors)) if n not in (across, *beside) and len(factors[n][1]) > 1]:
         notes.append(f"each point is the mean over all values of {', '.join(mixed)}")
     chart = Chart(name, "machines that lose steps, %", curves)
-    return Picture(f"sweep of {question.axis.name}, {question.digest}", (chart,), tuple(notes))
+    fixed = ", ".join(f"{name} {values[0]}" for name, values in factors[:-1] if len(values) == 1)
+    notes += [f"with {fixed}"] * bool(fixed) + [f"the question: {question.digest}"]
+    title = f"{machine}, axis {question.axis.name}: which machines lose steps"
+    return Picture(title, (chart,), tuple(notes))
 
 
 def _factors(question: Question) -> list[Factor]:

@@ -1,11 +1,12 @@
 """Pictures of numbers in characters: curves as braille dots between labelled axes. Functions of a record and a size.
 
-Rule: on a terminal every curve has its colour; in a pipe all are alike, and the legend names them. Called by the verbs
-that draw; plotted.py draws the same records into files.
+Rule: where there are several, every curve has a letter in it, by which the legend names it; on a terminal a colour too.
+Called by the verbs that draw; plotted.py draws the same records into files.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from string import ascii_lowercase
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,12 +52,20 @@ def _chart_lines(chart: Chart, look: Look) -> list[str]:
     body = [side + row for side, row in zip(sides, rows, strict=True)]
     left, right = (f"{value:.4g}" for value in (frame.low[0], frame.high[0]))
     foot = " " * MARGIN + left + right.rjust(frame.columns - len(left))
-    head = f"{chart.y_label}   {_legend(chart.curves, look)}"
-    return [head, *body, foot, chart.x_label.rjust(MARGIN + frame.columns)]
+    return [*_head(chart, look), *body, foot, chart.x_label.rjust(MARGIN + frame.columns)]
 
 
-def _legend(curves: Sequence[Curve], look: Look) -> str:
-    return "   ".join(_painted("-- " + curve.label, number, look) for number, curve in enumerate(curves))
+def _head(chart: Chart, look: Look) -> list[str]:
+    """What is drawn upwards, and the legend: beside it, or below where there is no room."""
+    names = [f"{_letter(number, chart.curves)} {curve.label}" for number, curve in enumerate(chart.curves)]
+    legend = [_painted(name, number, look) for number, name in enumerate(names)]
+    if len("   ".join((chart.y_label, *names))) <= max(look.columns, LEAST_COLUMNS):
+        return ["   ".join((chart.y_label, *legend))]
+    return [chart.y_label, *legend]
+
+
+def _letter(number: int, curves: Sequence[Curve]) -> str:
+    return ascii_lowercase[number % len(ascii_lowercase)] if len(curves) > 1 else "--"
 
 
 def _painted(text: str, number: int, look: Look) -> str:
@@ -88,12 +97,19 @@ class _Frame:
         """Rows of characters from the top; a cell has the colour of the last curve in it."""
         shape = (self.rows * CELL_DOTS[0], self.columns * CELL_DOTS[1])
         grid, owner = np.zeros(shape, bool), np.zeros((self.rows, self.columns), int)
+        letters: dict[tuple[int, int], str] = {}
         for number, curve in enumerate(curves):
             down, across = self._dots(curve, shape)
             grid[down, across] = True
-            owner[down // CELL_DOTS[0], across // CELL_DOTS[1]] = number
-        rows = zip(braille_cells(grid), owner.tolist(), strict=True)
-        return [_row(cells, owners, look) for cells, owners in rows]
+            cells = down // CELL_DOTS[0], across // CELL_DOTS[1]
+            owner[cells] = number
+            if len(curves) > 1 and len(down):
+                place = _lettered(*cells, (2 * number + 1) * self.columns // (2 * len(curves)))
+                letters[place] = _painted(_letter(number, curves), number, look)
+        rows = [_row(*row, look) for row in zip(braille_cells(grid), owner.tolist(), strict=True)]
+        for (row, column), letter in letters.items():
+            rows[row][column] = letter
+        return ["".join(row) for row in rows]
 
     def _dots(self, curve: Curve, shape: tuple[int, int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Row and column of each dot that a curve goes through."""
@@ -105,12 +121,16 @@ class _Frame:
         return shape[0] - 1 - up, across
 
 
-def _row(cells: Sequence[str], owners: Sequence[int], look: Look) -> str:
+def _lettered(down: NDArray[np.int64], across: NDArray[np.int64], wanted: int) -> tuple[int, int]:
+    """The cell for a curve's letter: of its own the nearest to this column, which is another one for every curve."""
+    nearest = int(np.abs(across - wanted).argmin())
+    return int(down[nearest]), int(across[nearest])
+
+
+def _row(cells: Sequence[str], owners: Sequence[int], look: Look) -> list[str]:
     if look.plain:
-        return "".join(" " if cell == NO_DOTS else "*" for cell in cells)
-    if not look.coloured:
-        return "".join(cells)
-    return "".join(_painted(cell, owner, look) for cell, owner in zip(cells, owners, strict=True))
+        return [" " if cell == NO_DOTS else "*" for cell in cells]
+    return [_painted(cell, owner, look) for cell, owner in zip(cells, owners, strict=True)]
 
 
 def _stepped(curve: Curve) -> Curve:

@@ -190,7 +190,7 @@ def test_every_parameter_can_be_varied() -> None:
 def test_the_picture_has_a_line_for_each_pair_of_tables(whole: bytes, tmp_path: Path) -> None:
     (tmp_path / "r.csv").write_bytes(whole)
     lost = losing(tmp_path / "r.csv")
-    picture = sweep_picture(ASKED, lost)
+    picture = sweep_picture(ASKED, lost, "a-machine")
     curves = picture.charts[0].curves
     assert picture.charts[0].x_label == "times coulomb_nm" and curves[0].x.tolist() == [0.5, 1, 2]
     assert len(curves) == 8 and curves[0].label == "phase two-phase-forced, ramp seven-state, tick_hz 300"
@@ -200,6 +200,7 @@ def test_the_picture_has_a_line_for_each_pair_of_tables(whole: bytes, tmp_path: 
     assert curves[-1].y.mean() == pytest.approx(100 * np.mean(unforced))
     assert lost.sum() == sum(row["lost"] != "0" for row in rows)
     assert picture.notes[1] == "each point is the mean over all values of times inertia_kgm2, load_nm, draw"
+    assert picture.title.startswith("a-machine, axis x") and ASKED.digest in picture.notes[-1]
 
 
 @pytest.mark.parametrize(

@@ -71,6 +71,23 @@ def test_colours_are_for_terminals_and_a_narrow_one_is_too_narrow() -> None:
     assert max(len(row) for row in body(plain)) == LEAST_COLUMNS - MARGIN
 
 
+def test_several_curves_are_told_apart_without_colours() -> None:
+    curves = [Curve.of(f"level {level}", [0, 9], [level, level]) for level in range(4)]
+    lines = picture_lines(picture(*curves), Look(60, 8, plain=True))
+    assert [name in lines[2] for name in ("a level 0", "b level 1", "c level 2", "d level 3")] == [True] * 4
+    rows = body(lines)
+    assert ["".join(filter(str.isalpha, row)) for row in rows if row.strip()] == ["d", "c", "b", "a"]
+    same = [Curve.of(name, [0, 9], [1, 1]) for name in ("this one", "the other")]
+    line = next(row for row in body(picture_lines(picture(*same), Look(60, 8, plain=True))) if row.strip())
+    assert line.strip("*").replace("*", "") == "ab", "curves that cover each other have both their letters"
+
+
+def test_a_legend_without_room_beside_stands_below() -> None:
+    curves = [Curve.of("a very long name of a curve " * 2, [0, 1], [0, 1]) for _ in range(2)]
+    lines = picture_lines(picture(*curves), Look(80, 5))
+    assert lines[2] == "up" and lines[3].startswith("a a very") and lines[4].startswith("b a very")
+
+
 def test_curves_have_as_many_values_as_places() -> None:
     with pytest.raises(ValueError, match="odd"):
         Curve.of("odd", [1, 2], [1])
