@@ -21,6 +21,7 @@ def report(m: Controller, status: np.void) -> None:
     for index, axis in enumerate(m.axes):
         status["position"][index] = axis.position
         status["target"][index] = axis.target
+        status["base"][index] = axis.base
         status["steps"][index] = axis.made
         status["state"][index] = axis.state
         status["column"][index] = axis.column + 1

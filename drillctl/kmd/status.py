@@ -42,6 +42,7 @@ STATUS = np.dtype(
         ("queued", "<u2"),
         ("position", "<i8", (MOST_AXES,)),
         ("target", "<i8", (MOST_AXES,)),
+        ("base", "<i8", (MOST_AXES,)),  # of the working base: where absolute commands count from
         ("steps", "<i8", (MOST_AXES,)),  # made so far, both directions added
         ("lost", "<i4", (MOST_AXES,)),  # steps that the plant is behind; 0 where there is no plant to ask
         ("state", "i1", (MOST_AXES,)),

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.journal import Journal
-from drillctl.kmd import Condition, KmdError, Request, parse_program
+from drillctl.kmd import Condition, KmdError, Op, Request, parse_program
 from drillctl.machine import Machine
 from drillctl.panel.console import Problems
 from drillctl.panel.records import Progress
 from drillctl.station.dryrun import visited
+from drillctl.station.hand import Hand
 from drillctl.station.inuse import InUse
 from drillctl.station.jogging import TOO_FAR, Jogging, way_left
 from drillctl.station.scope import Recording
@@ -26,17 +27,7 @@ from drillctl.wiring.desk import Desk
 from drillctl.wiring.link import Link
 
 BUSY = "the machine is at work; hold or stop it first"
-
-
-class Hand:
-    """A desk.Operator: a hold that is pressed before the first command has begun is asked for until it is so."""
-
-    def __init__(self) -> None:
-        self.held = False
-
-    def requests(self) -> tuple[Request, ...]:
-        """None: the rest is posted when its key is pressed."""
-        return ()
+BASES = (Op.INICJALIZACJA, Op.BAZA)
 
 
 class Operating:
@@ -86,8 +77,11 @@ class Operating:
             self.link.touches()
         elif self._desk.advance():
             self._over(self._desk)
-        if self.link.status()["condition"] == Condition.RETURNING:  # by the homing table, which ends at machine zero
+        condition = self.link.status()["condition"]
+        if condition == Condition.RETURNING:  # by the homing table, which ends at machine zero
             self._base.move(0, 0)
+        if self._hand.wish is False and condition != Condition.HOLDING:
+            self._hand.wish = None
         self.recording.keep()
         self._jogs.carry_on(self.at_work, time.monotonic())
         return self.at_work and self._used.runs_free
@@ -106,10 +100,7 @@ class Operating:
 
     def initialise(self) -> Problems:
         """Machine zero becomes the working base."""
-        problems = self.run_queue("KMD_INICJALIZACJA\n")
-        if not problems:
-            self._base.move(0, 0)
-        return problems
+        return self.run_queue("KMD_INICJALIZACJA\n")
 
     def jog(self, axis: str, steps: int) -> Problems:
         """Not while anything else runs, nor while a jog is held; nor farther than the axis is long, known or not."""
@@ -123,15 +114,12 @@ class Operating:
 
     def go_to(self, x_mm: float, y_mm: float) -> Problems:
         """The drill goes up first."""
-        x, y = (round(mm * self._steps_per_mm(axis)) for axis, mm in (("x", x_mm), ("y", y_mm)))
+        x, y = (self._from_base(axis, mm) for axis, mm in (("x", x_mm), ("y", y_mm)))
         return self.run_queue(f"KMD_WIERTLO_GORA\nKMD_GOTO_X_Y {x} {y}\n")
 
     def set_base(self) -> Problems:
         """For X and Y."""
-        problems = self.run_queue("KMD_BAZA\n")
-        if not problems:
-            self._base.take(self.link.status()["position"].tolist())
-        return problems
+        return self.run_queue("KMD_BAZA\n")
 
     def tool_changed(self) -> Problems:
         """The queue goes on, unless it is held."""
@@ -140,20 +128,23 @@ class Operating:
     def hold(self) -> Problems:
         """A request: it overtakes the queue."""
         self._jogs.forget()
-        self._hand.held = self.at_work
+        self._hand.wish = self.at_work or None
         return self._post(Request.HOLD, self.at_work, "nothing runs that could be held")
 
     def resume(self) -> Problems:
         """After a hold; a paused clock goes on too."""
-        held = self.link.gate.paused or self.link.status()["condition"] == Condition.HOLDING
+        held = self._hand.held or self.link.gate.paused or self.link.status()["condition"] == Condition.HOLDING
         self.link.gate.open()
-        self._hand.held = False
+        self._hand.wish = False
         return self._post(Request.RESUME, held, "nothing is held")
 
     def stop(self) -> Problems:
-        """Ends the job."""
+        """Ends the job. Of a machine at rest there is nothing to stop, and what is asked next must not be."""
         self._jogs.forget()
-        return self._post(Request.STOP, True, "")
+        status = self.link.status()
+        if self.at_work or status["moving"] or status["job"] or status["condition"] != Condition.READY:
+            self.link.post(Request.STOP)
+        return ()
 
     def emergency_stop(self) -> Problems:
         """At once."""
@@ -181,7 +172,7 @@ class Operating:
             return problems
         asks = asks_for_tools(self.machine, self.link.measured, self._tools)
         self._gate.open_for(job)
-        self._hand.held = False
+        self._hand.wish = None
         self._desk = Desk(
             job, self.link, _nobody, journal, done_before, foreseen,
             tool_change=self._gate if asks else None, operator=self._hand, resumes_itself=False,
@@ -193,6 +184,9 @@ class Operating:
     def _over(self, desk: Desk) -> None:
         """A job has ended: nothing of it is left to be done or waited for."""
         self._last, self._desk = replace(_progress(desk), seconds_left=None), None
+        self._hand.wish = None
+        if _took_a_base(desk):
+            self._base.take(desk.status["base"].tolist())
         self._gate.close()
         self.link.gate.open()
 
@@ -202,9 +196,19 @@ class Operating:
         self.link.post(request)
         return ()
 
-    def _steps_per_mm(self, name: str) -> float:
+    def _from_base(self, name: str, mm: float) -> int:
+        """A place that counts from the operator's base, in steps from execution's."""
         index = self.machine.axis_index(name)
-        return 0.0 if index is None else self.machine.axes[index].steps_per_mm
+        if index is None:
+            return 0
+        apart = self._base.steps[index] - int(self.link.status()["base"][index])
+        return apart + round(mm * self.machine.axes[index].steps_per_mm)
+
+
+def _took_a_base(desk: Desk) -> bool:
+    """Of what the operator asked for; the program of a board takes the operator's base again."""
+    done = int(desk.status["done"] - desk.first["done"])
+    return desk.job.work is None and bool(np.isin(desk.job.program["opcode"][:done], BASES).any())
 
 
 def _progress(desk: Desk) -> Progress:

@@ -1,4 +1,8 @@
-"""The operator's working base: where millimetres count from. Used by station; execution has its own (KMD_BAZA)."""
+"""The operator's working base: where millimetres count from, and boards are drilled. Used by station.
+
+Rule: it changes once a base has been taken, not when that is asked. Execution has its own (KMD_BAZA), and they differ
+after a board that was stopped before it had taken the operator's base again.
+"""
 
 from drillctl.machine import Machine
 
@@ -23,7 +27,6 @@ class WorkingBase:
         places = {"x": x_steps, "y": y_steps}
         self.steps = [places.get(name, 0) for name in self._machine.axis_names]
 
-    def take(self, position: list[int]) -> None:
-        """Of all axes that position the board: where they are."""
-        heads = self._machine.drill_axes
-        self.steps = [0 if i in heads else position[i] for i in range(len(self._machine.axes))]
+    def take(self, base: list[int]) -> None:
+        """By axis, as execution has it now."""
+        self.steps = base[: len(self._machine.axes)]

@@ -83,11 +83,12 @@ class App(Boxes):
     def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
         """Before any widget: the emergency stop, and a new size of the terminal."""
         stops = {*EMERGENCY.names} - ({TYPED_STOP} if TYPED_STOP in keys and self._typing_at_rest() else set())
-        if stops.intersection(keys):
-            self.emergency_stop()
         if "window resize" in keys:
             self.layers.restack()
-        return [key for key in keys if key not in stops]
+        if not stops.intersection(keys):
+            return keys
+        self.emergency_stop()  # nothing typed with it may still reach the machine, an acknowledgement least of all
+        return [key for key in keys if key == "window resize"]
 
     def unhandled(self, pressed: Pressed) -> bool:
         """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""
@@ -143,7 +144,8 @@ class App(Boxes):
 
     def leave(self) -> None:
         """At once from a machine at rest with nothing unsaved, else after a question."""
-        reasons = [_("The machine is moving. Stop it and leave?")] if self._console.view().moving else []
+        view = self._console.view()
+        reasons = [_("The machine is at work. Stop it and leave?")] if view.moving or view.at_work else []
         lost = {_(getattr(screen, "title", "")) for screen in [*self.screens, *self._made.values()] if unsaved(screen)}
         if lost:
             reasons.append(_("Not saved: {screens}. Leave without saving?").format(screens=", ".join(sorted(lost))))

@@ -112,6 +112,14 @@ def test_a_fault_is_told_once_and_acknowledged() -> None:
     assert program.console.asked == [("acknowledge",)] and "look why" not in program.text()
 
 
+def test_nothing_typed_with_an_emergency_stop_reaches_the_machine() -> None:
+    """An Enter in the same breath would acknowledge it."""
+    program = Program(FakeConsole(now=replace(VIEW, condition="latched", fault=FAULT)))
+    program.app.turn()
+    program.press("enter", "f10", "i")
+    assert program.console.asked == [("emergency_stop",)]
+
+
 @pytest.mark.parametrize("language", words.LANGUAGES)
 @pytest.mark.parametrize("screen", [Drilling, Files])
 def test_the_help_tells_of_every_key(screen: type[Drilling | Files], language: str) -> None:
@@ -123,12 +131,15 @@ def test_the_help_tells_of_every_key(screen: type[Drilling | Files], language: s
         assert f"{words._(key.printed):<12}{words._(key.help)}" in text
 
 
-def test_leaving_asks_only_while_something_moves() -> None:
+@pytest.mark.parametrize("state", [{"moving": True}, {"at_work": True}], ids=["moves", "held, or waiting for a tool"])
+def test_leaving_asks_only_while_the_machine_is_at_work(state: dict[str, bool]) -> None:
     with pytest.raises(urwid.ExitMainLoop):
         Program(FakeConsole()).press("f4")
-    program = Program(FakeConsole(now=replace(VIEW, moving=True)))
-    program.press("f4", "enter")
-    assert "moving. Stop it" not in program.text()
+    program = Program(FakeConsole(now=replace(VIEW, **state)))
+    program.press("f4")
+    assert "at work. Stop it" in program.text()
+    program.press("enter")
+    assert "at work. Stop it" not in program.text()
     with pytest.raises(urwid.ExitMainLoop):
         program.press("f4", "right", "enter")
 
