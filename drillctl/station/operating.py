@@ -114,7 +114,8 @@ class Operating:
 
     def go_to(self, x_mm: float, y_mm: float) -> Problems:
         """The drill goes up first."""
-        x, y = (self._from_base(axis, mm) for axis, mm in (("x", x_mm), ("y", y_mm)))
+        base = self.link.status()["base"].tolist()
+        x, y = (self._base.commanded(axis, mm, base) for axis, mm in (("x", x_mm), ("y", y_mm)))
         return self.run_queue(f"KMD_WIERTLO_GORA\nKMD_GOTO_X_Y {x} {y}\n")
 
     def set_base(self) -> Problems:
@@ -195,14 +196,6 @@ class Operating:
             return (otherwise,)
         self.link.post(request)
         return ()
-
-    def _from_base(self, name: str, mm: float) -> int:
-        """A place that counts from the operator's base, in steps from execution's."""
-        index = self.machine.axis_index(name)
-        if index is None:
-            return 0
-        apart = self._base.steps[index] - int(self.link.status()["base"][index])
-        return apart + round(mm * self.machine.axes[index].steps_per_mm)
 
 
 def _took_a_base(desk: Desk) -> bool:

@@ -27,6 +27,13 @@ class WorkingBase:
         places = {"x": x_steps, "y": y_steps}
         self.steps = [places.get(name, 0) for name in self._machine.axis_names]
 
+    def commanded(self, axis: str, mm: float, base: list[int]) -> int:
+        """A place that counts from here as a command has it, which counts from execution's ``base``, by axis."""
+        index = self._machine.axis_index(axis)
+        if index is None:
+            return 0
+        return round(mm * self._machine.axes[index].steps_per_mm) + self.steps[index] - base[index]
+
     def take(self, base: list[int]) -> None:
         """By axis, as execution has it now."""
         self.steps = base[: len(self._machine.axes)]
