@@ -33,8 +33,8 @@ class Board:
     @property
     def places(self) -> list[Place]:
         """By hole: X and Y in steps from machine zero; the lowest X and Y of the board lie there."""
-        lowest = [min(hole[axis] for hole in self.holes) for axis in (0, 1)]
-        return [tuple((hole[axis] - lowest[axis]) * STEPS_PER_MM for axis in (0, 1)) for hole in self.holes]  # type: ignore[misc]
+        x_low, y_low = (min(hole[axis] for hole in self.holes) for axis in (0, 1))
+        return [((x - x_low) * STEPS_PER_MM, (y - y_low) * STEPS_PER_MM) for x, y in self.holes]
 
     def hole_at(self, x_steps: float, y_steps: float) -> int | None:
         """The number of the hole that the bit met there, None for a place where there is no hole."""

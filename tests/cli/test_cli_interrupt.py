@@ -72,7 +72,7 @@ def test_before_anything_runs(number: int, code: int, started: Started, folder: 
 def tickers(monkeypatch: pytest.MonkeyPatch) -> list[Ticker]:
     """Every ticker that a link in this process makes, so that its card can be looked at afterwards."""
     made: list[Ticker] = []
-    simulated = LocalLink.simulated.__func__  # type: ignore[attr-defined]
+    simulated = LocalLink.simulated.__func__
 
     def spy(cls: type[LocalLink], /, *args: object, **named: object) -> LocalLink:
         link: LocalLink = simulated(cls, *args, **named)

@@ -5,6 +5,7 @@ import json
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,7 +14,7 @@ MACHINES = pytest.mark.parametrize("machine", ["pcb-drill", "pcb-drill-ramp-lab"
 DYNAMIC = ("--plant", "dynamic")
 
 
-def outcome(done: "subprocess.CompletedProcess[str]") -> dict[str, object]:
+def outcome(done: "subprocess.CompletedProcess[str]") -> dict[str, Any]:
     told = json.loads(done.stdout)
     assert isinstance(told, dict)
     return told
@@ -43,8 +44,8 @@ def test_a_blunt_drill_passes_zmax_without_the_lower_sensor(machine: str, drillc
     """The paper's own symptom, and not told to anybody: the motor stalls in the board, the controller counts on."""
     done = drillctl("run", "kicad.drl", "--machine", machine, "--json", *DYNAMIC, "--fault", "blunt=3")
     told = outcome(done)
-    assert done.returncode == 1 and told["fault"]["code"] and told["fault"]["name"] == "DRILL_NOT_DOWN"  # type: ignore[index]
-    assert told["lost_steps"]["z"] > 0 and told["lost_steps"]["x"] == 0 and told["holes_done"] == 0  # type: ignore[index]
+    assert done.returncode == 1 and told["fault"]["code"] and told["fault"]["name"] == "DRILL_NOT_DOWN"
+    assert told["lost_steps"]["z"] > 0 and told["lost_steps"]["x"] == 0 and told["holes_done"] == 0
 
 
 def test_too_fast_loses_steps_and_the_outcome_says_so(drillctl: Drillctl, folder: Path) -> None:

@@ -21,7 +21,9 @@ MM = {"INCH": 25.4, "METRIC": 1.0}
 def holes_by_tool(file: Path) -> dict[int, list[tuple[float, float]]]:
     """Decimal Excellon only: a T line, then X..Y.. lines."""
     text = file.read_text()
-    unit_mm = MM[re.search(r"^(INCH|METRIC)", text, re.M)[1]]  # type: ignore[index]
+    unit = re.search(r"^(INCH|METRIC)", text, re.M)
+    assert unit is not None
+    unit_mm = MM[unit[1]]
     found: dict[int, list[tuple[float, float]]] = {}
     for tool, x, y in re.findall(r"^T(\d+)$|^X(-?[\d.]+)Y(-?[\d.]+)$", text.partition("\n%")[2], re.M):
         if tool:

@@ -102,7 +102,7 @@ def test_a_new_card_is_safe_and_its_inputs_are_known_at_once(
 def test_each_bit_comes_out_at_its_pin(arduino: SimulatedBoard, case: Case, card: FirmataCard) -> None:
     for bit, pin in case.output_pins.items():
         card.flush(1 << bit)
-        wait_until(lambda: high_pins(arduino, case) == {pin}, f"bit {bit} at D{pin}")  # noqa: B023
+        wait_until(lambda: high_pins(arduino, case) == {pin}, f"bit {bit} at D{pin}")  # noqa: B023  # called at once
     card.flush(0)
     wait_until(lambda: not high_pins(arduino, case), "all low again")
 
@@ -111,7 +111,7 @@ def test_inputs_come_back(arduino: SimulatedBoard, case: Case, card: FirmataCard
     for bit, pin in case.input_pins.items():
         for level in (0, 1, 0, 1):
             arduino.set_input(pin, level)
-            wait_until(lambda: card.latch() >> bit & 1 == level, f"level {level} of D{pin} at bit {bit}")  # noqa: B023
+            wait_until(lambda: card.latch() >> bit & 1 == level, f"level {level} of D{pin} at bit {bit}")  # noqa: B023  # called at once
 
 
 def test_writing_outputs_leaves_the_pull_ups_on(arduino: SimulatedBoard, case: Case, card: FirmataCard) -> None:

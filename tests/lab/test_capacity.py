@@ -1,5 +1,7 @@
 """A rate that this computer can't work off is refused before anything moves, with the rate that it can."""
 
+from pathlib import Path
+
 import pytest
 
 from drillctl.lab import capacity
@@ -15,7 +17,7 @@ def test_the_papers_rate_is_no_trouble_for_any_computer_of_today() -> None:
     assert most_ticks_hz(MACHINE) > MACHINE.tick_hz
 
 
-def test_a_slow_computer_refuses_and_says_what_it_can(monkeypatch: pytest.MonkeyPatch, tmp_path: object) -> None:
+def test_a_slow_computer_refuses_and_says_what_it_can(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(capacity, "_seconds_a_tick", lambda ticker: 0.004)
     with pytest.raises(PortRefused, match=r"500 ticks a second of pcb-drill are too many .*--tick-hz 250 is the most"):
-        start(MACHINE, Running(pace="real"), tmp_path / "status")  # type: ignore[operator]
+        start(MACHINE, Running(pace="real"), tmp_path / "status")

@@ -255,7 +255,8 @@ def test_the_verb_refuses(
     try:
         code = main(call)
     except SystemExit as left:
-        code = left.code  # type: ignore[assignment]
+        assert isinstance(left.code, int)
+        code = left.code
     assert code == 2 and reason in capsys.readouterr().err and not (tmp_path / "r.csv").exists()
 
 

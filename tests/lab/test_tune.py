@@ -1,5 +1,6 @@
 """Tuning: the ramp found loses nothing on the load asked for, every change of it does or is slower, and it lands."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -90,7 +91,10 @@ def test_the_shipped_ramps_land_on_new_targets(ramp: RampTable) -> None:
 
 def test_a_ramp_that_misses_a_new_target_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """An automaton that calls any state rest loses its count of where it should stop."""
-    rest = lambda ramp, state, direction, to_go, may_rise: 0 if to_go <= 3 else state + direction * (state == 0)  # noqa: E731
+
+    def rest(ramp: RampTable, state: int, direction: int, to_go: int, may_rise: bool) -> int:
+        return 0 if to_go <= 3 else state + direction * (state == 0)
+
     monkeypatch.setattr(RampTable, "after_step", rest)
     monkeypatch.setattr("drillctl.execution.axis.Axis._at_state_zero", lambda axis, to_go: axis._rest())
     assert first_missed(RAMPS[0], LAB.axes[0]) is not None
@@ -108,9 +112,9 @@ def test_no_ramp_can_save_a_motor_that_is_too_weak(quick: None) -> None:
         (lambda: Bench(BENCH.axis, 20, 1.3), "20 Hz is outside 50 to 20000"),
     ],
 )
-def test_what_can_not_be_tuned_is_refused(bench: object, reason: str) -> None:
+def test_what_can_not_be_tuned_is_refused(bench: Callable[[], Bench], reason: str) -> None:
     with pytest.raises(LabError, match=reason):
-        bench()  # type: ignore[operator]
+        bench()
 
 
 def test_the_verb_writes_once(

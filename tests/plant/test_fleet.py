@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from drillctl.lab.moves import move, side_by_side
 from drillctl.lab.trials import Trial, errors_full_steps, lost
-from drillctl.machine import Library, shipped_tables
+from drillctl.machine import AxisTable, Library, shipped_tables
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import coefficients
 from drillctl.plant.dynamic.fleet import Fleet, Lane
@@ -107,7 +107,7 @@ def test_a_load_is_what_loses_steps() -> None:
 
 
 @pytest.mark.parametrize("table", TABLES, ids=lambda table: table.dynamics.name)
-def test_a_move_is_what_the_automaton_puts_out(table) -> None:  # type: ignore[no-untyped-def]
+def test_a_move_is_what_the_automaton_puts_out(table: AxisTable) -> None:
     """From rest to rest: columns one by one, forcing off once it rests."""
     for steps in (1, -1, 40, -40):
         for column in range(12):

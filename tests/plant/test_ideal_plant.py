@@ -1,6 +1,7 @@
 """The ideal plant behind the simulated card: carriages, sensors with hysteresis and polarity, the bit on the board."""
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -36,8 +37,8 @@ def levels(machine: Machine, plant: IdealPlant) -> dict[str, int]:
     return {sensor.name: plant.inputs >> sensor.bit & 1 for sensor in machine.sensors}
 
 
-def with_sensor(machine: Machine, name: str, **changes: object) -> Machine:
-    sensors = tuple(replace(s, **changes) if s.name == name else s for s in machine.sensors)  # type: ignore[arg-type]
+def with_sensor(machine: Machine, name: str, **changes: Any) -> Machine:
+    sensors = tuple(replace(s, **changes) if s.name == name else s for s in machine.sensors)
     return replace(machine, sensors=sensors)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from drillctl.plant import Plant
 from drillctl.ports import LONGEST_WAIT_S, Driver, Wiring, bits_of
 
 # One card: three motors of the paper's six wires, a spindle; six sensors.
@@ -19,11 +20,11 @@ PATIENCE_S = 2.0
 QUICK_S = 0.03  # no wait: far below anything that sleeps, well above a busy computer's hiccup on average
 
 
-class StandInPlant:
+class StandInPlant(Plant):
     """Beyond a simulated card: takes the outputs, gives whatever inputs it is told to."""
 
     def __init__(self) -> None:
-        self.image = self.inputs = 0
+        self.image = self.inputs = 0  # of no machine
 
     def drive(self, image: int) -> None:
         self.image = image

@@ -21,7 +21,7 @@ from tests.portio.firmata_stand_in import StandIn
 class SimulatedBench(Bench):
     def __init__(self) -> None:
         self.plant = StandInPlant()
-        self.driver = SimulatedCard(self.plant)  # type: ignore[arg-type]
+        self.driver = SimulatedCard(self.plant)
 
     def outputs(self) -> int:
         return self.plant.image

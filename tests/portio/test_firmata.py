@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from typing import Any
 
 import pytest
 
@@ -21,8 +22,8 @@ LONGEST_OPENING_S = 3.0
 def stand_in() -> Iterator[Callable[..., StandIn]]:
     made: list[StandIn] = []
 
-    def make(**faults: object) -> StandIn:
-        made.append(StandIn(Faults(**faults)))  # type: ignore[arg-type]
+    def make(**faults: Any) -> StandIn:
+        made.append(StandIn(Faults(**faults)))
         return made[-1]
 
     yield make

@@ -16,7 +16,7 @@ from tests.portio.conformance import StandInPlant
 
 def card_at(file: Path, cards: int = 1) -> tuple[MappedCard, StandInPlant]:
     plant = StandInPlant()
-    return MappedCard(SimulatedCard(plant), file, cards), plant  # type: ignore[arg-type]
+    return MappedCard(SimulatedCard(plant), file, cards), plant
 
 
 def test_the_layout_is_as_written_down(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from tests.portio.conformance import StandInPlant
 
 def test_rows_are_ticks_and_columns_cards() -> None:
     plant = StandInPlant()
-    driver = RecordingDriver(SimulatedCard(plant), capacity_ticks=5, cards=2)  # type: ignore[arg-type]
+    driver = RecordingDriver(SimulatedCard(plant), capacity_ticks=5, cards=2)
     for number in range(3):
         plant.inputs = number << 32
         driver.latch()
@@ -22,7 +22,7 @@ def test_rows_are_ticks_and_columns_cards() -> None:
 
 def test_when_it_is_full_the_port_goes_on_and_the_rest_is_counted() -> None:
     plant = StandInPlant()
-    driver = RecordingDriver(SimulatedCard(plant), capacity_ticks=2)  # type: ignore[arg-type]
+    driver = RecordingDriver(SimulatedCard(plant), capacity_ticks=2)
     for image in (1, 2, 3, 4):
         driver.flush(image)
     assert driver.full and driver.missed == 2
@@ -35,7 +35,7 @@ def test_what_was_not_put_out_is_not_kept() -> None:
         def flush(self, image: int) -> None:
             raise PortLost("lost", "gone")
 
-    driver = RecordingDriver(Lost(StandInPlant()), 4)  # type: ignore[arg-type]
+    driver = RecordingDriver(Lost(StandInPlant()), 4)
     with pytest.raises(PortLost):
         driver.flush(1)
     assert driver.ticks == 0

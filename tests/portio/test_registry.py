@@ -22,7 +22,7 @@ GUIDE = (Path(__file__).resolve().parents[2] / "docs" / "WIRING.md").read_text("
 
 
 def simulated() -> SimulatedCard:
-    return SimulatedCard(StandInPlant())  # type: ignore[arg-type]
+    return SimulatedCard(StandInPlant())
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -55,8 +56,8 @@ def test_a_place_that_cannot_be_written_stops_nothing(tmp_path: Path) -> None:
 
 
 @given(data=st.binary(max_size=200) | JSON.map(lambda value: json.dumps(value).encode()))
-def test_any_file_reads_as_a_list(tmp_path_factory: object, data: bytes) -> None:
-    file = Path(str(tmp_path_factory.getbasetemp())) / "recent.json"  # type: ignore[attr-defined]
+def test_any_file_reads_as_a_list(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    file = tmp_path_factory.getbasetemp() / "recent.json"
     file.write_bytes(data)
     assert isinstance(RecentJobs(file).read(), list)
 

@@ -1,5 +1,7 @@
 """The record: what is kept, in what order, how it is asked, and what it refuses."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -127,9 +129,9 @@ def test_a_value_without_meaning_is_refused(kind: str, value: int) -> None:
         ({"names": ("-", "HOLD", "HOLD")}, "different"),
     ],
 )
-def test_a_signal_that_could_not_be_recorded_is_refused(wrong: dict[str, object], reason: str) -> None:
+def test_a_signal_that_could_not_be_recorded_is_refused(wrong: dict[str, Any], reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
-        Signal(**{"name": "request", "kind": "name", "stimulus": True, **wrong})  # type: ignore[arg-type]
+        Signal(**{"name": "request", "kind": "name", "stimulus": True, **wrong})
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import io
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -103,9 +104,9 @@ def test_magic_first_line(content: bytes, expected: bool, tmp_path: Path) -> Non
     ],
 )
 def test_what_could_not_be_read_back_is_not_written(
-    changes: dict[str, object], reason: str, tmp_path: Path
+    changes: dict[str, Any], reason: str, tmp_path: Path
 ) -> None:
-    parts: dict[str, object] = {
+    parts: dict[str, Any] = {
         "header": (),
         "signals": (Signal("late", "count", stimulus=True),),
         "ticks": [0],
@@ -113,7 +114,7 @@ def test_what_could_not_be_read_back_is_not_written(
         "values": [1],
         "end": 1,
     }
-    trace = Trace.of_changes(**{**parts, **changes})  # type: ignore[arg-type]
+    trace = Trace.of_changes(**{**parts, **changes})
     with pytest.raises(ValueError, match=reason):
         write_text(trace, tmp_path / "golden")
     assert not (tmp_path / "golden").exists()

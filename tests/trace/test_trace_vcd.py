@@ -39,7 +39,7 @@ def vcd_of(trace: Trace, layout: tuple[VcdVar, ...] = LAYOUT) -> str:
 def read_back(text: str) -> Any:
     """The file as vcdvcd understands it. Its import resets a process-wide signal, which is put back here."""
     before = signal.getsignal(signal.SIGPIPE)
-    from vcdvcd import VCDVCD  # type: ignore[import-untyped]
+    from vcdvcd import VCDVCD
 
     signal.signal(signal.SIGPIPE, before)
     return VCDVCD(vcd_string=text)
@@ -153,10 +153,10 @@ def test_nothing_in_the_head_ends_the_comment() -> None:
         ({"scope": "two words"}, "without blanks"),
     ],
 )
-def test_a_variable_that_does_not_exist(wrong: dict[str, object], reason: str) -> None:
-    right: dict[str, object] = {"scope": "x", "name": "y", "kind": "integer", "source": "out.0"}
+def test_a_variable_that_does_not_exist(wrong: dict[str, Any], reason: str) -> None:
+    right: dict[str, Any] = {"scope": "x", "name": "y", "kind": "integer", "source": "out.0"}
     with pytest.raises(ValueError, match=reason):
-        VcdVar(**(right | wrong))  # type: ignore[arg-type]
+        VcdVar(**(right | wrong))
 
 
 def test_refusals_leave_no_file(trace: Trace, tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ import pytest
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.settings import settings
 from drillctl.machine.source import Source
-from drillctl.panel.tables import FieldView, TableEntry
+from drillctl.panel.tables import FieldView, Kind, TableEntry
 from drillctl.station.workbench import Workbench
 from drillctl.ui import words
 from drillctl.ui.screens.compare import label_of
@@ -149,15 +149,15 @@ def test_leaving_asks_only_where_something_would_be_lost(screen: Configuration, 
 
 
 @pytest.mark.parametrize("kind", EDITORS)
-def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: str) -> None:
+def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: Kind) -> None:
     desk = Tables(phase="1a 5 x.", ramp="0 0 0 1", machines=FILE)
     desk.in_use = False
-    tables = TableList(console, shell, desk, kind)  # type: ignore[arg-type]
+    tables = TableList(console, shell, desk, kind)
     assert text_of(tables).split("\n")[0].split() == ["one", "shipped"]
     desk.own[kind] = desk.shipped[kind]
     assert "your own copy" in text_of(tables), "what changed meanwhile shows"
     press(tables, "enter")
-    assert isinstance(shell.opened[0], EDITORS[kind])  # type: ignore[arg-type,index]
+    assert isinstance(shell.opened[0], EDITORS[kind])
 
 
 def test_the_list_marks_what_the_machine_at_hand_is_driven_by(

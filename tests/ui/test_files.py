@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -37,7 +38,9 @@ def opened(console: FakeConsole | None = None, size: tuple[int, int] = (80, 24))
 
 def asked(program: Program) -> Asked:
     """As the board was asked for last."""
-    return next(request[2] for request in reversed(program.console.asked) if request[0] == "load")  # type: ignore[return-value]
+    wanted = next(request[2] for request in reversed(program.console.asked) if request[0] == "load")
+    assert isinstance(wanted, Asked)
+    return wanted
 
 
 def typed(program: Program, *texts: str, wiped: int = 10) -> None:
@@ -280,9 +283,9 @@ def test_holes_are_added_and_taken_off(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "told"), [({"position_known": False}, "position is not known"), ({"moving": True}, "machine is moving")]
 )
-def test_a_machine_that_moves_or_is_lost_finds_no_hole(folder: Path, change: dict[str, bool], told: str) -> None:
+def test_a_machine_that_moves_or_is_lost_finds_no_hole(folder: Path, change: dict[str, Any], told: str) -> None:
     program = aligning(folder)
-    program.console.now = replace(STANDING, **change)  # type: ignore[arg-type]
+    program.console.now = replace(STANDING, **change)
     program.press("enter")
     assert told in program.text() and "X0.000 Y0.000" not in program.text()
 
@@ -313,10 +316,11 @@ def test_an_exclamation_mark_is_typed_at_rest_and_stops_otherwise(folder: Path) 
     assert ("emergency_stop",) not in program.console.asked
     program.press("!")
     assert program.console.asked.pop() == ("emergency_stop",)
-    for busy in ({"moving": True}, {"command": "KMD_CZEKAJ 100"}, {"queued": 3}):
+    states: tuple[dict[str, Any], ...] = ({"moving": True}, {"command": "KMD_CZEKAJ 100"}, {"queued": 3})
+    for busy in states:
         program = opened()
         program.press("/")
-        program.console.now = replace(VIEW, **busy)  # type: ignore[arg-type]
+        program.console.now = replace(VIEW, **busy)
         program.press("!")
         assert program.console.asked[-1] == ("emergency_stop",)
 

@@ -8,7 +8,7 @@ import pytest
 pyte = pytest.importorskip("pyte", reason="pyte (the dev extra) reads what the program draws")
 
 from docs import pictures, screen_svg  # noqa: E402 - they need pyte
-from docs.pictures import SESSIONS, Session  # noqa: E402
+from docs.pictures import SESSIONS, Session  # noqa: E402 - they too
 
 QUICK = ("work", "editors")  # these in every run; the others show the same screens in another size or language
 

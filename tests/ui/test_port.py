@@ -11,7 +11,8 @@ from tests.ui.desk import VIEW, FakeConsole, Program
 from tests.ui.editor_fakes import Shell, press, text_of
 
 PORT = PortView("simulated", False, "REAL", "MEGA", "firmata", False)
-GOOD = PortReport("firmata", ("StandIn 2.5 answers", "outputs: " + " ".join(f"D{n}" for n in range(16, 40))), (("x_min", True), ("x_max", False)))  # fmt: skip  # noqa: E501
+OUTPUTS = "outputs: " + " ".join(f"D{n}" for n in range(16, 40))
+GOOD = PortReport("firmata", ("StandIn 2.5 answers", OUTPUTS), (("x_min", True), ("x_max", False)))
 BAD = PortReport("firmata", problem="firmata: no Firmata answers; upload StandardFirmata, and check the baud rate")
 
 

@@ -1,5 +1,7 @@
 """The ramp editor: numbers typed over, everything drawn of them at once, nothing unsound saved."""
 
+from typing import Any
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -112,7 +114,7 @@ def test_a_ramp_of_many_states_shows_the_cursor_the_profile_and_the_verdict(
 class Unread(Tables):
     """A desk that can't read the rows of a ramp."""
 
-    def ramp(self, text: str):  # type: ignore[no-untyped-def]
+    def ramp(self, text: str) -> Any:
         return type(super().ramp(TABLE))(())
 
 

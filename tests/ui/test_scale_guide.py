@@ -65,7 +65,7 @@ def desk(tmp_path: Path) -> Workbench:
 def measure(rig: Rig, desk: Workbench, *typed: str, yes: bool = True) -> tuple[Answers, Configuration]:
     """With the cursor on the scale of X."""
     shell = Answers(says_yes=yes, typed=list(typed))
-    screen = Configuration(rig, shell, desk, "pcb-drill")  # type: ignore[arg-type]
+    screen = Configuration(rig, shell, desk, "pcb-drill")
     press(screen, "down", "down", "down", "f12")
     return shell, screen
 
@@ -117,9 +117,9 @@ def test_the_steps_that_were_made_count_and_not_those_asked_for(desk: Workbench)
 def test_a_reading_while_it_moves_is_asked_for_again(desk: Workbench) -> None:
     rig = Rig()
     shell = Answers(typed=["2400"])
-    screen = Configuration(rig, shell, desk, "pcb-drill")  # type: ignore[arg-type]
+    screen = Configuration(rig, shell, desk, "pcb-drill")
     press(screen, "down", "down", "down")
-    rig.jog = lambda axis, steps: setattr(rig, "moving", True) or ()  # type: ignore[method-assign]
+    rig.jog = lambda axis, steps: setattr(rig, "moving", True) or ()
     shell.typed.append("51.3")
     press(screen, "f12")
     assert shell.asked[-1].startswith("It still moves. When X rests") and shell.told == []
@@ -146,7 +146,7 @@ def test_where_a_measurement_would_mean_nothing_it_is_not_begun(
 
 def test_only_an_axis_has_a_scale_and_nothing_typed_may_be_saved_with_it(desk: Workbench) -> None:
     shell = Answers(typed=["2400", "51.3"])
-    screen = Configuration(Rig(), shell, desk, "pcb-drill")  # type: ignore[arg-type]
+    screen = Configuration(Rig(), shell, desk, "pcb-drill")
     press(screen, "f12")
     press(screen, "down", "down", "down", "end", "5", "f12")
     assert [lines for _title, lines in shell.told] == [
@@ -175,7 +175,7 @@ def locked(desk: Workbench, tmp_path: Path) -> Workbench:
 
 def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Workbench) -> None:
     shell = Answers()
-    screen = Configuration(Rig(), shell, locked, "pcb-drill")  # type: ignore[arg-type]
+    screen = Configuration(Rig(), shell, locked, "pcb-drill")
     rows = [row for row in text_of(screen, (80, 40)).split("\n") if "locked" in row]
     assert [row.split(":")[0].strip()[0] for row in rows] == ["X", "X", "I"]
     press(screen, *["down"] * 5, "end", "9")

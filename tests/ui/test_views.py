@@ -1,6 +1,7 @@
 """Views as text: each is a function of a record, so no terminal is needed."""
 
 import io
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,13 +13,13 @@ from drillctl.ui.progress import ProgressView, clock
 from drillctl.ui.summary import summary_lines
 
 
-def outcome(**changes: object) -> Outcome:
-    told: dict[str, object] = {
+def outcome(**changes: Any) -> Outcome:
+    told: dict[str, Any] = {
         "machine": "m", "holes_done": 3, "holes_total": 4, "ticks": 1000, "tick_hz": 500,
         "steps": {"x": 7, "y": 8}, "position": {"x": -1, "y": 2}, "position_known": True,
         "lost_steps": {"x": 0, "y": 0}, "starved": 0, "fault": None,
     }  # fmt: skip
-    return Outcome(**{**told, **changes})  # type: ignore[arg-type]
+    return Outcome(**{**told, **changes})
 
 
 def test_summary_of_a_good_run() -> None:
