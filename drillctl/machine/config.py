@@ -11,7 +11,7 @@ import msgspec
 from drillctl.machine.model import AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
-from drillctl.machine.settings import settings_of
+from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
 
@@ -122,7 +122,7 @@ def _check_inputs(source: Source, raw: MachineFile) -> None:
 def _check_locked(source: Source, raw: MachineFile) -> None:
     if not raw.locked:
         return
-    known = frozenset(name for setting in settings_of(raw) for name in setting.names)
+    known = frozenset(name for setting in (*settings_of(raw), *wire_settings_of(raw)) for name in setting.names)
     for name in raw.locked:
         if name not in known:
             raise source.error(f"locked: no setting is named {name!r}; there are {', '.join(sorted(known))}", "locked")

@@ -1,4 +1,5 @@
-"""The values of a machine's file that the configuration screen shows (the paper's Fig. 4), with what each may be.
+"""The values of a machine's file that screens change: the configuration (the paper's Fig. 4) and the bit of each wire
+(Table 1), with what each may be.
 
 Rule: types and bounds come from shape.py, which holds files to them too; no bound is written twice. What ``locked``
 names, by its key or as AXIS.KEY, is shown and not changed. Called by the workbench, which turns these into what screens
@@ -6,6 +7,7 @@ draw, and by config.py for the names.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -13,7 +15,7 @@ from typing import Any
 import msgspec
 from msgspec.inspect import FloatType, IntType, LiteralType, StructType, TupleType, Type, type_info
 
-from drillctl.machine.shape import MachineFile
+from drillctl.machine.shape import LAST_BIT, MachineFile
 from drillctl.machine.source import Place, Source, Value
 
 # In the paper's order; those of an axis stand once for each.
@@ -22,7 +24,14 @@ CARD_PLACES: tuple[Place, ...] = (
     ("configuration", "card_address"),
     ("configuration", "mode"),
 )
-AXIS_PLACES: tuple[Place, ...] = (("columns_per_inch",), ("columns_per_step",), ("range", 0), ("range", 1))
+AXIS_PLACES: tuple[Place, ...] = (
+    ("columns_per_inch",),
+    ("columns_per_step",),
+    ("range", 0),
+    ("range", 1),
+    ("phase",),
+    ("ramp",),
+)
 OTHER_PLACES: tuple[Place, ...] = (
     ("configuration", "longest_drilling_s"),
     ("configuration", "spin_up_s"),
@@ -30,6 +39,9 @@ OTHER_PLACES: tuple[Place, ...] = (
     ("tick_hz",),
     ("description",),
 )
+
+
+WIRING = "wiring"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +65,9 @@ class Setting:
 
     @property
     def names(self) -> frozenset[str]:
-        """What ``locked`` may call it."""
+        """What ``locked`` may call it; all wires together are ``wiring``."""
+        if self.place[0] == WIRING:
+            return frozenset({WIRING, self.key})
         return frozenset({self.key, f"{self.axis}.{self.key}"} if self.axis else {self.key})
 
     def parsed(self, typed: str) -> Value:
@@ -91,7 +105,29 @@ def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
         (("axis", index, *place), row.name) for index, row in enumerate(raw.axis) for place in AXIS_PLACES
     ]
     places = [*((place, "") for place in CARD_PLACES), *axes, *((place, "") for place in OTHER_PLACES)]
-    found = (_setting(raw, place, axis) for place, axis in places)
+    return _with_locks(raw, (_setting(raw, place, axis) for place, axis in places))
+
+
+def wire_settings(source: Source) -> tuple[Setting, ...]:
+    """The output bit of every motor's wire, in the order of the file. Raises TableError for a text of wrong shape."""
+    return wire_settings_of(source.records(MachineFile))
+
+
+def wire_settings_of(raw: MachineFile) -> tuple[Setting, ...]:
+    """As ``wire_settings``, for a file whose shape was checked. A bit that is no number is left to the readers."""
+    axes = {row.name for row in raw.axis}
+    wires = ((name, name.partition(".")[0], bit) for name, bit in raw.wiring.items() if isinstance(bit, int))
+    return _with_locks(
+        raw,
+        (
+            Setting((WIRING, name), axis, bit, int, least=0, greatest=LAST_BIT)
+            for name, axis, bit in wires
+            if axis in axes
+        ),
+    )
+
+
+def _with_locks(raw: MachineFile, found: Iterable[Setting]) -> tuple[Setting, ...]:
     return tuple(replace(setting, locked=bool(setting.names & set(raw.locked))) for setting in found)
 
 

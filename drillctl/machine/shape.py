@@ -12,7 +12,8 @@ from drillctl.machine.phase import Name
 
 MOST_CARDS = 4
 SLOWEST_TICK_HZ, FASTEST_TICK_HZ = 1, 100_000
-Bit = Annotated[int, msgspec.Meta(ge=0, lt=MOST_CARDS * CARD_BITS)]
+LAST_BIT = MOST_CARDS * CARD_BITS - 1
+Bit = Annotated[int, msgspec.Meta(ge=0, le=LAST_BIT)]
 Steps = Annotated[int, msgspec.Meta(ge=-100_000_000, le=100_000_000)]
 Positive = Annotated[int, msgspec.Meta(ge=1, le=1_000_000)]
 TickHz = Annotated[int, msgspec.Meta(ge=SLOWEST_TICK_HZ, le=FASTEST_TICK_HZ)]

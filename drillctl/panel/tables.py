@@ -137,5 +137,8 @@ class TableDesk(Protocol):
     def fields(self, text: str) -> tuple[FieldView, ...]:
         """What can be configured in a machine's text; none for a text that is no machine."""
 
+    def wires(self, text: str) -> tuple[FieldView, ...]:
+        """The output bit of every motor's wire in a machine's text; none for a text that is no machine."""
+
     def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
         """The text with what was typed at a place, or unchanged with the reason."""

@@ -11,9 +11,9 @@ from pathlib import Path
 from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
 from drillctl.machine.edit import UNSAVED, set_pattern, set_reverse, set_state_row, set_value
 from drillctl.machine.edit_ramp import with_states, without_states
-from drillctl.machine.phase import NAME, phase_rows
+from drillctl.machine.phase import NAME, parse_phase, phase_rows
 from drillctl.machine.ramp import MOST_STATES, parse_ramp, proposals, ramp_rows
-from drillctl.machine.settings import Setting, settings
+from drillctl.machine.settings import Setting, settings, wire_settings
 from drillctl.machine.source import Place, Source
 from drillctl.machine.travel import stopping
 from drillctl.panel.console import Problems
@@ -28,6 +28,7 @@ KEY_OF: dict[Kind, tuple[str, ...]] = {
     "machines": ("axis",),
 }
 LONGEST_NAME = 40
+TABLES_OF_A_MOTOR = ("phase", "ramp")  # keys of an axis that name a table
 
 
 class Workbench:
@@ -152,19 +153,47 @@ class Workbench:
     def fields(self, text: str) -> tuple[FieldView, ...]:
         """In the order of the paper's screen."""
         try:
-            return tuple(map(_field_view, settings(_source(text))))
+            return tuple(map(self._field_view, settings(_source(text))))
+        except TableError:
+            return ()
+
+    def wires(self, text: str) -> tuple[FieldView, ...]:
+        """In the order of the file."""
+        try:
+            return tuple(map(self._field_view, wire_settings(_source(text))))
         except TableError:
             return ()
 
     def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
         """Comments and layout stay, and an address in hexadecimal stays so."""
         try:
-            setting = next(setting for setting in settings(_source(text)) if setting.place == place)
+            source = _source(text)
+            known = (*settings(source), *wire_settings(source))
+            setting = next(setting for setting in known if setting.place == place)
             if setting.locked:
-                return text, (_locked(_source(text), setting),)
+                return text, (_locked(source, setting),)
             return set_value(text, place, setting.parsed(typed)), ()
         except (TableError, ValueError) as error:
             return text, (str(error),)
+
+    def _field_view(self, setting: Setting) -> FieldView:
+        choices = self._tables_for(setting) if setting.key in TABLES_OF_A_MOTOR else setting.choices
+        return FieldView(setting.place, setting.axis, _shown(setting), choices, _bounds(setting), setting.locked)
+
+    def _tables_for(self, setting: Setting) -> tuple[str, ...]:
+        """The tables that a motor may have in place of its own: every ramp, and phase tables of the same wires."""
+        names = self._library.names(setting.key)
+        wires = {name: self._wire_names(name) for name in names} if setting.key == "phase" else {}
+        own = wires.get(str(setting.value))
+        return tuple(name for name in names if wires.get(name) == own)
+
+    def _wire_names(self, phase: str) -> frozenset[str] | None:
+        """None for a table that can't be read."""
+        file = self._library.find("phase", phase)
+        try:
+            return frozenset(parse_phase(Source.read(file)).wire_names()) if file else None
+        except TableError:
+            return None
 
     def _check(self, kind: Kind, source: Source) -> Checked:
         try:
@@ -209,12 +238,6 @@ def _unlinked(own: Path) -> Problems:
 def _locked(source: Source, setting: Setting) -> str:
     line = source.line_of("locked")
     return f"{setting.key} is locked in line {line} of the machine's file; whoever keeps the file opens it there"
-
-
-def _field_view(setting: Setting) -> FieldView:
-    return FieldView(
-        setting.place, setting.axis, _shown(setting), setting.choices, _bounds(setting), setting.locked
-    )
 
 
 def _shown(setting: Setting) -> str:

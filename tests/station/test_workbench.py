@@ -171,6 +171,37 @@ def test_fields_have_values_bounds_and_choices(bench: Workbench) -> None:
     assert bench.fields("name = 1") == ()
 
 
+def test_a_motor_has_a_choice_of_ramps_and_of_phase_tables_for_its_wires(bench: Workbench, user: Path) -> None:
+    assert bench.copy("phase", "two-phase-forced", "mine") == ()
+    fields = {field.place: field for field in bench.fields(bench.read("machines", "pcb-drill"))}
+    assert fields[("axis", 2, "phase")].choices == ("mine", "two-phase-forced")
+    assert "seven-state" in fields[("axis", 2, "ramp")].choices
+    text, problems = bench.with_field(bench.read("machines", "pcb-drill"), ("axis", 2, "phase"), "mine")
+    assert problems == () and bench.save("machines", "pcb-drill", text) == ()
+    axes = Library((user, shipped_tables())).machine("pcb-drill").axes
+    assert [axis.phase.name for axis in axes] == ["two-phase-forced", "two-phase-forced", "mine"]
+
+
+def test_the_bit_of_a_wire_is_changed_and_never_shared(bench: Workbench) -> None:
+    text = bench.read("machines", "pcb-drill")
+    wires = {field.place: field for field in bench.wires(text)}
+    assert wires[("wiring", "y.24b")].value == "14" and wires[("wiring", "y.24b")].axis == "y"
+    assert wires[("wiring", "y.24b")].bounds == "0..127" and len(wires) == 18
+    moved, problems = bench.with_field(text, ("wiring", "y.24b"), "15")
+    assert problems == () and '"y.24b" = 15' in moved and bench.check("machines", moved).problems == ()
+    shared, _ = bench.with_field(text, ("wiring", "y.24b"), "13")
+    assert "bit 13" in str(bench.check("machines", shared).problems[0])
+    assert bench.with_field(text, ("wiring", "y.24b"), "128") == (text, ("128: out of range",))
+    assert bench.wires("name = 1") == ()
+
+
+def test_locked_wiring_stays(bench: Workbench) -> None:
+    text = 'locked = ["wiring"]\n' + bench.read("machines", "pcb-drill")
+    assert bench.check("machines", text).problems == ()
+    assert bench.with_field(text, ("wiring", "x.1a"), "4")[0] == text
+    assert all(field.locked for field in bench.wires(text))
+
+
 @pytest.mark.parametrize(
     ("place", "typed", "line"),
     [

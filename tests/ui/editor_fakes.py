@@ -143,7 +143,7 @@ class Tables:
         return [TableEntry("one", "yours" if kind in self.own else "shipped", in_use=self.in_use)]
 
     def read(self, kind: Kind, name: str) -> str:
-        return self.own.get(kind, self.shipped[kind])
+        return self.own.get(kind, self.shipped.get(kind, ""))
 
     def check(self, kind: Kind, text: str) -> Checked:
         lines = list(enumerate(text.split("\n"), start=1))
@@ -198,7 +198,7 @@ class Tables:
         return "\n".join(" ".join(map(str, row)) for row in rows)
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
-        pairs = [line.partition(" ") for line in text.split("\n")]
+        pairs = [line.partition(" ") for line in text.split("\n") if line]
         places: dict[str, tuple[Place, str, tuple[str, ...]]] = {
             "tick_hz": (("tick_hz",), "", ()),
             "mode": (("configuration", "mode"), "", ("REAL", "SIMULATED")),
@@ -207,6 +207,9 @@ class Tables:
         return tuple(
             FieldView(places[name][0], places[name][1], value, places[name][2], "1..9999") for name, _, value in pairs
         )
+
+    def wires(self, text: str) -> tuple[FieldView, ...]:
+        return ()
 
     def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
         if not typed or not typed.isalnum():

@@ -1,10 +1,15 @@
 """The phase editor: the grid apart from the screen, then the screen's cells, keys and verdict."""
 
+from pathlib import Path
+from types import SimpleNamespace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drillctl.machine import Library, shipped_tables
 from drillctl.panel.tables import PhaseRow
+from drillctl.station.workbench import Workbench
 from drillctl.ui.models.history import MOST_STATES, History
 from drillctl.ui.models.phase_grid import LEAST_COLUMNS, PhaseGrid
 from drillctl.ui.screens.phase_editor import PhaseEditor
@@ -238,3 +243,66 @@ def test_edits_that_were_given_up_are_gone(desk: Tables) -> None:
     editor = PhaseEditor(Console(), shell, desk, "one")
     press(editor, " ", "esc")
     assert shell.closed == 1 and not editor.changed and editor.text == TABLE
+
+
+class AtPcbDrill(Console):
+    """The console of a machine that is there."""
+
+    def view(self) -> SimpleNamespace:
+        return SimpleNamespace(**{**vars(super().view()), "machine": "pcb-drill"})
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Workbench:
+    return Workbench(Library((tmp_path, shipped_tables())), tmp_path)
+
+
+@pytest.fixture
+def table_1(bench: Workbench, shell: Shell) -> PhaseEditor:
+    return PhaseEditor(AtPcbDrill(), shell, bench, "two-phase-forced")
+
+
+def bits_of(bench: Workbench, *wires: str) -> list[str]:
+    found = {str(field.place[-1]): field.value for field in bench.wires(bench.read("machines", "pcb-drill"))}
+    return [found[wire] for wire in wires]
+
+
+def test_every_row_has_the_bit_of_the_motor_that_is_shown(table_1: PhaseEditor) -> None:
+    rows = text_of(table_1).split("\n")
+    assert next(row for row in rows if row.startswith("24b")).split()[:4] == ["24b", "24", "V", "6"]
+    assert "motor [X], Y, Z" in text_of(table_1)
+    press(table_1, "tab", "tab")
+    assert next(row for row in text_of(table_1).split("\n") if row.startswith("24b")).split()[3] == "22"
+    press(table_1, "tab")
+    assert "motor [X], Y, Z" in text_of(table_1)
+
+
+def test_a_free_bit_is_taken_and_saved_to_the_machine(table_1: PhaseEditor, bench: Workbench, shell: Shell) -> None:
+    shell.types = "7"
+    press(table_1, "down", "b")
+    assert bits_of(bench, "x.1b") == ["7"] and "Output bit (0..127):" in shell.asked
+    assert not table_1.changed  # the phase table is as it was
+
+
+@pytest.mark.parametrize("says_yes", [True, False])
+def test_a_bit_of_another_wire_is_exchanged_after_a_question(
+    table_1: PhaseEditor, bench: Workbench, shell: Shell, says_yes: bool
+) -> None:
+    shell.types, shell.says_yes = "9", says_yes
+    press(table_1, "b")
+    assert "Bit 9 switches y.1b. Exchange the two?" in shell.asked
+    assert bits_of(bench, "x.1a", "y.1b") == (["9", "0"] if says_yes else ["0", "9"])
+
+
+@pytest.mark.parametrize("typed", ["128", "-1", "one", ""])
+def test_a_bit_that_cannot_be_is_told(table_1: PhaseEditor, bench: Workbench, shell: Shell, typed: str) -> None:
+    shell.types = typed
+    press(table_1, "b")
+    assert shell.told[0][0] == "Not changed" and bits_of(bench, "x.1a") == ["0"]
+
+
+def test_a_table_that_no_motor_uses_has_no_bits(bench: Workbench, shell: Shell) -> None:
+    editor = PhaseEditor(AtPcbDrill(), shell, bench, "five-phase-ten-beat")
+    press(editor, "b", "tab")
+    assert shell.told == [("Not changed", ["No motor of the machine at hand uses this table."])]
+    assert "motor" not in text_of(editor)

@@ -40,6 +40,12 @@ FIELD_WORDS: Mapping[Place, FieldWords] = {
     ("range", 1): FieldWords(
         N_("highest position"), N_("steps"), N_("Of the work range, from machine zero; a position above is a fault.")
     ),
+    ("phase",): FieldWords(
+        N_("phase table"), "", N_("The table that drives this motor, edited under Tests; a table of the same wires.")
+    ),
+    ("ramp",): FieldWords(
+        N_("ramp"), "", N_("How this motor accelerates and brakes, edited under Tests; each motor may have its own.")
+    ),
     ("configuration", "longest_drilling_s"): FieldWords(
         N_("Longest drilling time"), "s", N_("A stroke that takes longer is a fault: the drill may be blunt.")
     ),

@@ -1,18 +1,24 @@
-"""The phase editor (Tests): the table as the paper prints it, a row a wire, a column a tick; Space turns a cell over.
+"""The phase editor (Tests): the table as the paper prints it (Table 1): a row a wire with its supply and the bit that
+switches it, a column a tick; Space turns a cell over.
 
 Rule: what is drawn is the grid of the text (models/phase_grid.py); every edit goes back into the text, whose comments
-stay. Opened from the list of tables.
+stay. Bits belong to a motor, so they stand in the machine's file, and are saved there (models/wire_bits.py). Opened
+from the list of tables.
 """
 
 from collections.abc import Callable
 
+from drillctl.panel.tables import FieldView
 from drillctl.ui.keys import Key
 from drillctl.ui.lines import Line, around
 from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid
+from drillctl.ui.models.wire_bits import WireBits
+from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
+from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
-NAME_COLUMNS, VOLTS_COLUMNS, CELL_COLUMNS = 12, 7, 3
+NAME_COLUMNS, VOLTS_COLUMNS, BIT_COLUMNS, CELL_COLUMNS = 12, 7, 5, 3
 FURTHER_ROWS = 3  # above and below the wires
 
 
@@ -30,9 +36,11 @@ class PhaseEditor(TableEditor):
         Key(("i", "insert"), "I", "insert", N_("the column once more, beside it"), N_("Insert")),
         Key(("x", "delete"), "X", "remove", N_("takes the column away"), N_("Remove")),
         Key(("m",), "M", "mirror", N_("rows for motion backwards with forcing mirrored, or none again"), N_("Mirror")),
+        Key(("b",), "B", "change_bit", N_("changes the bit that switches the wire, for the motor shown"), N_("Bit")),
+        Key(("tab",), "Tab", "next_motor", N_("the bits of the next motor that uses this table"), N_("Motor")),
         *TABLE_KEYS,
     )
-    _line = _column = 0  # the cursor, before the first look
+    _line = _column = _motor = 0  # the cursor and the motor whose bits are shown, before the first look
 
     def toggle(self) -> None:
         """The cell under the cursor."""
@@ -58,11 +66,37 @@ class PhaseEditor(TableEditor):
         """Stops at the ends."""
         self._go(self._line + by, self._column)
 
+    def next_motor(self) -> None:
+        """The motors of the machine at hand that use this table, one after the other."""
+        self._motor += 1
+        self._invalidate()
+
+    def change_bit(self) -> None:
+        """Asks for the bit, and exchanges it with a wire that has it; saved to the machine's file if that is sound."""
+        wire = self._wires.of(self._axis, self._grid.lines[self._line].name) if self._grid.lines else None
+        if wire is None:
+            self._shell.message(_("Not changed"), [_("No motor of the machine at hand uses this table.")])
+            return
+        asked: FieldView = wire
+
+        def accept(typed: str) -> None:
+            taken = self._wires.taken_by(typed, asked)
+            if taken is None:
+                self._wire(asked, typed)
+                return
+            question = _("Bit {bit} switches {wire}. Exchange the two?")
+            self._shell.ask(
+                question.format(bit=taken.value, wire=taken.place[-1]), lambda: self._wire(asked, typed, taken)
+            )
+
+        prompt = _("Output bit ({bounds}):").format(bounds=asked.bounds)
+        self._shell.ask_text(_("Bit of {wire}").format(wire=asked.place[-1]), prompt, asked.value, accept)
+
     def drawing(self, columns: int, rows: int) -> list[Line]:
         """Only the columns and rows around the cursor where there is no room for all."""
         if not self._grid.rows:
             return [[("danger", _("no phase table: its rows can't be read"))]]
-        room = max((columns - NAME_COLUMNS - VOLTS_COLUMNS) // CELL_COLUMNS, 1)
+        room = max((columns - NAME_COLUMNS - VOLTS_COLUMNS - BIT_COLUMNS) // CELL_COLUMNS, 1)
         shown = around(self._column, self._grid.columns, room)
         lines = [self._row(number, line, shown) for number, line in enumerate(self._grid.lines)]
         cursor = self._line
@@ -74,8 +108,24 @@ class PhaseEditor(TableEditor):
 
     def _look(self) -> None:
         self._grid = PhaseGrid(tuple(self._desk.phase_rows(self.text)))
+        machine = self._console.view().machine
+        self._wires = WireBits(self._desk, self._desk.read("machines", machine), self._name)
         self._go(self._line, self._column)
         super()._look()
+
+    @property
+    def _axis(self) -> str:
+        """The motor whose bits are shown; empty where none uses this table."""
+        motors = self._wires.motors
+        return motors[self._motor % len(motors)] if motors else ""
+
+    def _wire(self, wire: FieldView, typed: str, taken: FieldView | None = None) -> None:
+        text, problems = self._wires.with_bit(wire, typed, taken)
+        if problems:
+            self._shell.message(_("Not changed"), [told(problem) for problem in problems])
+            return
+        machine = self._console.view().machine
+        Shelf(self._console, self._shell, self._desk, "machines").save(machine, text, machine, self._look)
 
     def _change(self, operation: Callable[[PhaseGrid], PhaseGrid]) -> None:
         changed = operation(self._grid)
@@ -89,11 +139,17 @@ class PhaseEditor(TableEditor):
 
     def _numbers(self, shown: range) -> Line:
         numbers = "".join(f"{column + 1:>{CELL_COLUMNS - 1}} " for column in shown)
-        return [("dark", f"{_('wire'):{NAME_COLUMNS}}{'':{VOLTS_COLUMNS}}{numbers}")]
+        bit = _("bit") if self._axis else ""
+        return [("dark", f"{_('wire'):{NAME_COLUMNS}}{'':{VOLTS_COLUMNS}}{bit:>{BIT_COLUMNS - 2}}  {numbers}")]
 
     def _row(self, number: int, line: GridLine, shown: range) -> Line:
+        wire = None if line.backwards else self._wires.of(self._axis, line.name)
+        bit = wire.value if wire else ""
         name = f"{line.name[: NAME_COLUMNS - 1]:{NAME_COLUMNS}}{line.volts:>4g} V "
-        return [name, *(part for column in shown for part in self._cell(number, line.pattern, column))]
+        return [
+            f"{name}{bit:>{BIT_COLUMNS - 2}}  ",
+            *(part for column in shown for part in self._cell(number, line.pattern, column)),
+        ]
 
     def _cell(self, number: int, pattern: str, column: int) -> Line:
         mark = pattern[column] if column < len(pattern) else " "
@@ -103,5 +159,7 @@ class PhaseEditor(TableEditor):
 
     def _place(self) -> str:
         line = self._grid.lines[self._line]
-        told = _("wire {name}, column {column} of {columns}")
-        return told.format(name=line.name, column=self._column + 1, columns=self._grid.columns)
+        place = _("wire {name}, column {column} of {columns}")
+        where = place.format(name=line.name, column=self._column + 1, columns=self._grid.columns)
+        motors = ", ".join(f"[{name.upper()}]" if name == self._axis else name.upper() for name in self._wires.motors)
+        return f"{where}; " + _("bits of motor {motors}").format(motors=motors) if motors else where
