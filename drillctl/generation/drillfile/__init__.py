@@ -5,8 +5,9 @@ The map, in the order a file travels:
     reader      read(), decode(): the whole way in one page
     intake      bytes to text, bounded; asks sniff (what is this at all?) and eia (tape code)
     program     text to sentences: runs of coordinates, or single commands
+    afterend      what stands behind M30
     lexer         the grammar
-    commands      tables from word to action
+    commands      what each line does: names (keywords), G and M words (codes), T (toolwords), coordinates
     machine       modal state: where is it, which tool, drilling or routing
     rows          holes and slots; repeats and patterns
     tools         definitions and selection

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 
 import numpy as np
@@ -16,7 +15,9 @@ from .model import Floats, Integers
 from .tools import NO_TOOL
 
 FURTHEST_MM = 5_000.0
-NAMED_PER_CODE = 20
+THINNEST_MM, THICKEST_MM = 0.15, 6.5  # drills that houses have
+SAME_SIZE_MM, SAME_SIZE_SHARE = 0.03, 0.03  # how far a report may round a diameter
+SHORTEST_SLOT_MM = 1e-6
 DOUBTFUL_SHARE = 0.05  # of overlapping holes, from which on the format itself is doubted
 
 
@@ -45,20 +46,32 @@ def tool_warnings(machine: Machine, mm_per_unit: float) -> Iterator[Remark]:
     for entry, holes in zip(machine.tools.entries, count.tolist(), strict=True):
         if not holes and not entry.usable(mm_per_unit):
             yield Remark("bad-diameter-unused", entry.line, f"T{entry.number} C{entry.diameter}")
+        diameter_mm = entry.diameter_mm(mm_per_unit)
+        if holes and diameter_mm and entry.usable(mm_per_unit) and not THINNEST_MM <= diameter_mm <= THICKEST_MM:
+            yield Remark("diameter-unlikely", entry.line, f"T{entry.number}: {diameter_mm:g} mm")
         if holes and entry.diameter is None:
             yield Remark("missing-diameter", entry.line, f"T{entry.number}")
         size = machine.facts.sizes.get(entry.number)
+        if size and diameter_mm and _differs(diameter_mm, size.diameter * (size.mm or mm_per_unit)):
+            text = f"T{entry.number}: {diameter_mm:g} mm, else {size.diameter * (size.mm or mm_per_unit):g} mm"
+            yield Remark("size-mismatch", entry.line, text)
         if size and size.count not in (None, holes):
             text = f"T{entry.number}: {size.count} announced, {holes} drilled"
             yield Remark("count-mismatch", entry.line, text)
 
 
 def hole_warnings(overlapping: Integers, duplicate: Integers, hole_line: Integers) -> Iterator[Remark]:
-    """The first overlapping and doubled holes, by the line of the later one (indices of holes)."""
+    """Overlapping and doubled holes, by the line of the later one (indices of holes)."""
     for code, holes in (("overlapping-holes", overlapping), ("duplicate-hole", duplicate)):
-        text = f"{len(holes)} in all" if len(holes) > 1 else ""
-        for line in dict.fromkeys(hole_line[holes[:NAMED_PER_CODE]].tolist()):
-            yield Remark(code, line, text)
+        yield from (Remark(code, line) for line in hole_line[holes].tolist())
+
+
+def slots_without_length(machine: Machine, ends_mm: Floats) -> list[Remark]:
+    """Slots (G85) whose ends (n, 2, 2) are one place become holes, each with a warning."""
+    rows = machine.rows.array()
+    short = rows["slot"] & (np.abs(ends_mm[:, 0] - ends_mm[:, 1]) < SHORTEST_SLOT_MM).all(axis=1)
+    rows["slot"][short] = False
+    return [Remark("slot-without-length", line) for line in rows["line"][short].tolist()]
 
 
 def number_warnings(machine: Machine) -> Iterator[Remark]:
@@ -70,11 +83,20 @@ def number_warnings(machine: Machine) -> Iterator[Remark]:
 
 
 def first_ones(remarks: Iterable[Remark]) -> tuple[Remark, ...]:
-    """At most NAMED_PER_CODE remarks of each kind: a person reads the first ones, a screen holds no more."""
-    named: Counter[str] = Counter()
-    kept = []
+    """One remark of each kind: the one of the first line, with how many there are."""
+    kinds: dict[str, list[Remark]] = {}
     for remark in remarks:
-        named[remark.code] += 1
-        if named[remark.code] <= NAMED_PER_CODE:
-            kept.append(remark)
-    return tuple(kept)
+        kinds.setdefault(remark.code, []).append(remark)
+    return tuple(_counted(alike) for alike in kinds.values())
+
+
+def _counted(alike: list[Remark]) -> Remark:
+    first = min(alike, key=lambda remark: (remark.line is None, remark.line))
+    if len(alike) == 1:
+        return first
+    count = f"{len(alike)} in all"
+    return first._replace(text=f"{first.text}; {count}" if first.text else count)
+
+
+def _differs(one_mm: float, other_mm: float) -> bool:
+    return abs(one_mm - other_mm) > max(SAME_SIZE_MM, SAME_SIZE_SHARE * one_mm)

@@ -30,7 +30,9 @@ def is_eia(data: bytes) -> bool:
 
 
 def decode(data: bytes) -> bytes:
-    """The tape as ASCII, blank rows and rubouts left out."""
+    """The tape as ASCII, blank rows and rubouts left out. Refusal 'not-text' for a row that is none of the code's."""
+    if unknown := data.translate(None, _KNOWN):
+        raise Refusal("not-text", f"tape row {unknown[0]:#04x}")
     return data.translate(_DECODE, bytes([LEADER, RUBOUT]))
 
 

@@ -6,11 +6,14 @@ than any other. `reader` calls `condense` and then `to_text`.
 
 from __future__ import annotations
 
+import codecs
 import re
-from typing import BinaryIO
+from collections.abc import Iterator
+from typing import BinaryIO, NamedTuple
 
 from . import eia, sniff
 from .errors import Refusal, Remark
+from .lexer import TORN_NUMBER
 
 LINE_LIMIT = 4096
 FILE_LIMIT = 16_000_000  # eight times the largest number of holes in the widest format
@@ -26,21 +29,42 @@ UTF16_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
 UTF16_HEADS = {b"M\x00": "utf-16-le", b"%\x00": "utf-16-le", b"\x00M": "utf-16-be", b"\x00%": "utf-16-be"}
 
 
-def condense(stream: BinaryIO) -> tuple[bytes, bool]:
-    """The stream's bytes with every line cut at LINE_LIMIT + 1, and whether it was tape code.
+class Condensed(NamedTuple):
+    """Bytes of ASCII or Latin-1 with every line cut at LINE_LIMIT + 1, and the code they were written in."""
 
-    Tape code comes back as ASCII. Refuses binary heads and huge files.
-    """
+    data: bytes
+    tape_code: bool = False
+    utf_16: bool = False
+
+
+def condense(stream: BinaryIO) -> Condensed:
+    """The stream's bytes, tape code and UTF-16 decoded. Refuses binary heads and huge files."""
     kept = bytearray()
-    room, tape_code = LINE_LIMIT + 1, False
-    while chunk := stream.read(CHUNK_BYTES):
-        if not kept:
-            sniff.check_bytes(chunk)
-            tape_code = eia.is_eia(chunk)
-        room = _append_cut(kept, eia.decode(chunk) if tape_code else chunk, room)
+    room = LINE_LIMIT + 1
+    head = stream.read(CHUNK_BYTES)
+    sniff.check_bytes(head)
+    tape_code = eia.is_eia(head)
+    utf_16 = "" if tape_code else (UTF16_MARKS | UTF16_HEADS).get(head[:2], "")
+    chunks = _chunks(head, stream)
+    for chunk in map(eia.decode, chunks) if tape_code else _narrowed(chunks, utf_16) if utf_16 else chunks:
+        room = _append_cut(kept, chunk, room)
         if len(kept) > FILE_LIMIT:
             raise Refusal("file-too-large")
-    return bytes(kept), tape_code
+    return Condensed(bytes(kept), tape_code, bool(utf_16))
+
+
+def _chunks(head: bytes, stream: BinaryIO) -> Iterator[bytes]:
+    while head:
+        yield head
+        head = stream.read(CHUNK_BYTES)
+
+
+def _narrowed(chunks: Iterator[bytes], encoding: str) -> Iterator[bytes]:
+    """UTF-16 as Latin-1; what Latin-1 has no letter for becomes a question mark, which no command holds."""
+    decoder = codecs.getincrementaldecoder(encoding)(errors="replace")
+    for chunk in chunks:
+        yield decoder.decode(chunk).encode("latin-1", errors="replace")
+    yield decoder.decode(b"", final=True).encode("latin-1", errors="replace")
 
 
 def _append_cut(kept: bytearray, chunk: bytes, room: int) -> int:
@@ -66,18 +90,15 @@ def _maybe_long(chunk: bytes) -> bool:
     return any(b"\n" not in window and b"\r" not in window for window in windows)
 
 
-def to_text(data: bytes, *, tape_code: bool = False) -> tuple[str, list[Remark]]:
+def to_text(condensed: Condensed) -> tuple[str, list[Remark]]:
     """The file as text with plain line ends, no block comments and no spaces in coordinate lines.
 
     The remarks say what was odd about it.
     """
-    remarks = [Remark("eia-rs244-tape-code", 1)] if tape_code else []
-    if encoding := (UTF16_MARKS | UTF16_HEADS).get(data[:2]):
-        text = data.decode(encoding, errors="replace")
-        remarks.append(Remark("utf-16", 1))
-    else:
-        text = _plain_text(data)
-    text = text.replace("\r\n", "\n").replace("\n\r", "\n").replace("\r", "\n")
+    remarks = [Remark("eia-rs244-tape-code", 1)] if condensed.tape_code else []
+    remarks += [Remark("utf-16", 1)] if condensed.utf_16 else []
+    text = _plain_text(condensed.data)
+    text = text.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\n\r", "\n").replace("\r", "\n")
     if not text.strip():
         raise Refusal("empty-file")
     sniff.check_language(text[: sniff.HEAD_BYTES])
@@ -96,11 +117,22 @@ def _tidy(text: str, remarks: list[Remark]) -> str:
         remarks.append(Remark("inner-spaces", line))
     if DECIMAL_COMMA.search(first[0]):
         remarks.append(Remark("comma-decimal", line))
-    return UNTIDY_LINE.sub(lambda found: DECIMAL_COMMA.sub(".", "".join(found[0].split())), text)
+    return UNTIDY_LINE.sub(_tidy_line, text)
+
+
+def _tidy_line(found: re.Match[str]) -> str:
+    """The line without spaces; one that was cut, or that has two numbers with a space between, stays as it is."""
+    line = found[0]
+    if len(line) > LINE_LIMIT or TORN_NUMBER.search(line):
+        return line
+    return DECIMAL_COMMA.sub(".", "".join(line.split()))
 
 
 def _plain_text(data: bytes) -> str:
     """ASCII with Latin-1 comments, without tape leader and what DOS left behind its end mark."""
-    text = data.removeprefix(UTF8_MARK).strip(TAPE_LEADER).partition(DOS_END)[0].strip(TAPE_LEADER)
+    text, end, _ = data.removeprefix(UTF8_MARK).strip(TAPE_LEADER).partition(DOS_END)
+    text = text.strip(TAPE_LEADER)
+    if end and not text.endswith((b"\r", b"\n")):
+        text += b"\n"  # the mark ends the last line too
     sniff.check_controls(text)
     return text.decode("latin-1")

@@ -20,10 +20,13 @@ HOLES = re.compile(rf"{PARTS}\n")  # (x, y) of every line of a run without slots
 SLOTS = re.compile(rf"{PARTS}(?:G85{PARTS})?+\n")  # (x, y, x, y) of every line of a run with slots
 LETTERS_TO_SPACES = str.maketrans("XY", "  ")
 
-WORD = re.compile(rf"([A-Z])({NUMBER})?")
-KEYWORD = re.compile(r"[A-Z]{2,}|[A-Z](?=,)|M(?:45|47|97|98)(?!\d)|[%/](?=[%\d]*$)")
+# A diameter may name its unit (mm per unit); no other number may.
+UNITS_BEHIND = {"MM": 1.0, "INCH": 25.4, "IN": 25.4, '"': 25.4, "MILS": 0.0254, "MIL": 0.0254}
+WORD = re.compile(rf"(C)({NUMBER}(?:{'|'.join(UNITS_BEHIND)}))|([A-Z])({NUMBER})?")
+KEYWORD = re.compile(r"[A-Z]{2,}|[A-Z](?=,)|M(?:19|45|47|96|97|98|99)(?!\d)|%(?=%*$)|/$|Z(?=[-+]?[.\d]+$)")
 REMARK = re.compile(r";(.*)|\([^()]*\)")
 SPACE = re.compile(r"[ \t]+")
+TORN_NUMBER = re.compile(r"[.\d][ \t]+[.\d]")
 
 
 class Word(NamedTuple):
@@ -61,7 +64,9 @@ def split_comment(line: str) -> tuple[str, str]:
 
 
 def split_words(command: str) -> list[Word]:
-    """The words of a command line; spaces between and inside them mean nothing."""
+    """The words of a command line; spaces mean nothing, but two numbers with a space between are never one."""
+    if TORN_NUMBER.search(command):
+        raise Refusal("torn-number", command)
     packed = SPACE.sub("", command)
     words: list[Word] = []
     at = 0
@@ -69,7 +74,7 @@ def split_words(command: str) -> list[Word]:
         match = WORD.match(packed, at)
         if not match:
             raise Refusal(_blame(words, packed, at), command)
-        words.append(Word(match[1], match[2] or ""))
+        words.append(Word(match[1] or match[3], match[2] or match[4] or ""))
         at = match.end()
     return words
 
@@ -81,8 +86,8 @@ def _blame(words: list[Word], packed: str, at: int) -> str:
     return "coordinate-out-of-range" if packed[at].isdigit() else "bad-number"
 
 
-def take_axes(words: list[Word], letters: str = "XYAIJ") -> dict[str, str]:
-    """The coordinates that come next (A, I and J are radius and centre of a routed arc)."""
+def take_axes(words: list[Word], letters: str) -> dict[str, str]:
+    """The coordinates that come next, of the axes in letters."""
     axes: dict[str, str] = {}
     while words and words[0].letter in letters:
         word = words.pop(0)
@@ -98,7 +103,7 @@ def take_axes(words: list[Word], letters: str = "XYAIJ") -> dict[str, str]:
 
 def take_end(words: list[Word]) -> dict[str, str]:
     """The second point of a slot, which must have an axis."""
-    axes = take_axes(words)
+    axes = take_axes(words, "XY")
     if not axes:
         raise Refusal("bad-number", "G85 without an end")
     return axes

@@ -35,12 +35,17 @@ class Machine:
         self.headers = 0
         self.in_header = self.routing = self.cutting = self.incremental = False
         self.recognised = self.ended = self.stopped = False
+        self.format_one = self.delete_blocks = self.in_message = False
+        self.tool_in_rout = False  # a tool was chosen in rout mode: is the next bare coordinate line a hole?
+        self.displaced = False  # a stop or a copied pattern left the table elsewhere than the last coordinates say
+        self.ici: bool | None = None  # what the header says of incremental input
+        self.zero: dict[str, float] = {}  # the last G92 or G93
         self.routs = 0
 
     @property
     def drilling(self) -> bool:
         """Whether a plain coordinate line is a hole."""
-        return not (self.in_header or self.routing or self.ended)
+        return not (self.in_header or self.routing or self.ended or self.in_message)
 
     def remark(self, code: str, text: str = "") -> None:
         """A warning about the current line."""
@@ -54,6 +59,14 @@ class Machine:
             self.remark("second-header", "M48")
         self.headers += 1
         self.in_header, self.routing = True, False
+
+    def begin_next_program(self) -> None:
+        """After M30, where a person asks for what follows too: a machine as if switched on, its holes kept."""
+        self.ended = self.stopped = self.routing = self.cutting = self.incremental = self.displaced = False
+        self.format_one = self.delete_blocks = self.tool_in_rout = False
+        self.ici, self.zero = None, {}
+        self.at = np.zeros((2, 3))
+        self.tools.current = NO_TOOL
 
     def end_header(self) -> None:
         """% or M95."""
@@ -71,7 +84,20 @@ class Machine:
             self.facts.declare_units(Fact(units, Voice.HEADER, self.line, source))
         self.mm = mm
 
+    def select(self, number: int) -> None:
+        """T in the body."""
+        self.tools.select(number, self.line)
+        self.tool_in_rout = self.routing
+
     # -- motion -----------------------------------------------------------------------------------
+
+    def move_or_drill(self, axes: Mapping[str, str]) -> None:
+        """A line of coordinates alone: a hole, or in rout mode a way. Refusal where a tool change leaves it open."""
+        if self.tool_in_rout:
+            raise Refusal("rout-or-hole", "".join(axis + number for axis, number in axes.items()))
+        if self.routing and not self.cutting:
+            self.remark("rout-move")
+        self.move(axes)
 
     def move(self, axes: Mapping[str, str]) -> None:
         """A coordinate line: a hole in drill mode, a travel of the router otherwise."""
@@ -90,7 +116,7 @@ class Machine:
 
         '' is an axis not written. A row's two ends are two moves; a hole's second one moves nothing.
         """
-        self._leave_header()
+        self._prepare(columns)
         lines = len(columns[0])
         self.rows.check_room(lines)
         block = np.zeros(lines, ROW)
@@ -107,25 +133,44 @@ class Machine:
         self.at = block["at"][-1, 1].copy()
 
     def repeat(self, count: int, axes: Mapping[str, str]) -> None:
-        """R: the last hole again, count times, each the same distance further."""
+        """R: the last hole again, count times, each the same distance further.
+
+        Refusal where the table, the mode or the tool is no longer that of the last hole.
+        """
+        if self.routing or self.displaced or self.rows.last_tool() != self.tools.current:
+            raise Refusal("repeat-without-hole")
         self.at = self.rows.repeat(count, self._offset(axes), self.line)
 
     def repeat_pattern(self, count: int, axes: Mapping[str, str]) -> None:
-        """M02: the pattern again, count times."""
+        """M02: the pattern again, count times. Refusal in incremental mode, whose zero moves with the pattern."""
+        if self.incremental:
+            raise Refusal("unsupported-command", "M02 in incremental mode")
+        self.displaced = True
         self.rows.repeat_pattern(count, self._offset(axes), self.line)
 
     def cut(self, *, down: bool) -> None:
-        """M15 begins a cut, M16 and M17 end it."""
+        """M14 and M15 begin a cut, also where G00 is missing; M16 and M17 end it."""
+        if down:
+            self.routing, self.tool_in_rout = True, False
         if down and not self.cutting:
             self.routs += 1
             if self.routs == 1:
                 self.remark("routs-not-drilled")
         self.cutting = down
 
-    def _leave_header(self) -> None:
+    def _prepare(self, columns: Sequence[Sequence[str]]) -> None:
+        """What a hole changes beside itself: the header is over, Allegro's first tool is taken."""
         if self.in_header:
             self.remark("header-not-closed")
             self.in_header = False
+        if self.stopped:
+            self.remark("holes-after-stop")
+            self.stopped = False
+        if self.displaced and (self.incremental or not all(column[0] for column in columns[: len(AXES)])):
+            self.remark("place-from-before")
+        self.displaced = False
+        if self.tools.current == NO_TOOL:
+            self.tools.first_announced()
 
     def _offset(self, axes: Mapping[str, str]) -> Floats:
         """The written axes as triples, 0 where not written."""

@@ -6,32 +6,37 @@ several faults at once; the first one refuses the file.
 
 from __future__ import annotations
 
-from . import comments
+from . import afterend, comments
 from .commands import execute
 from .errors import PROBLEM_LIMIT, Refusal, Remark, shorten
 from .facts import Facts
 from .intake import LINE_LIMIT
+from .keywords import LINE_GOES_ON
 from .lexer import split_comment, split_run
 from .machine import Machine
 
 COMMAND_LIMIT = 40_000  # lines that are no plain holes; a drill file has dozens, a milled panel thousands
 
 
-def run(text: str, facts: Facts) -> tuple[Machine, list[Remark]]:
-    """The machine after the whole text, and the problems found on the way (at most PROBLEM_LIMIT)."""
+def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Machine, list[Remark]]:
+    """The machine after the whole text, and the problems found on the way (at most PROBLEM_LIMIT).
+
+    after_end: what becomes of holes behind M30, one of afterend.CHOICES.
+    """
     machine = Machine(facts)
+    tail = afterend.Tail(after_end)
     problems: list[Remark] = []
-    if not text.endswith("\n"):
-        text += "\n"
+    torn = not text.endswith("\n")
+    text += "\n" * torn
     at, machine.line, commands = 0, 1, 0
     while at < len(text) and len(problems) < PROBLEM_LIMIT:
         end, columns = split_run(text, at) if machine.drilling else (at, [])
         end = end if columns else text.index("\n", at) + 1
         try:
             if columns:
-                machine.recognised, machine.stopped = True, False
+                machine.recognised = True
                 machine.drill(columns)
-            else:
+            elif not (machine.ended and tail.takes(machine, text[at:end])):
                 commands += end - at > 1
                 _line(machine, text[at:end], commands)
         except Refusal as refusal:
@@ -40,13 +45,16 @@ def run(text: str, facts: Facts) -> tuple[Machine, list[Remark]]:
                 break
         machine.line += text.count("\n", at, end)
         at = end
-    _finish(machine, problems)
+    _finish(machine, tail, text[text.rfind("\n", 0, -1) + 1 :] if torn else "", problems)
     return machine, problems
 
 
 def _line(machine: Machine, line: str, commands: int) -> None:
     if commands > COMMAND_LIMIT:
         raise Refusal("file-too-large", f"more than {COMMAND_LIMIT} commands", fatal=True)
+    if machine.in_message:
+        machine.in_message = line.rstrip().endswith(LINE_GOES_ON)
+        return
     command, comment = split_comment(line)
     if len(line) > LINE_LIMIT:
         if command:
@@ -54,18 +62,8 @@ def _line(machine: Machine, line: str, commands: int) -> None:
         machine.remark("line-too-long")
     if comment:
         comments.hear(comment, machine.line, machine.facts)
-    if not command:
-        return
-    if machine.ended:
-        _after_end(machine, command)
-        return
-    machine.stopped = False
-    execute(machine, command)
-
-
-def _after_end(machine: Machine, command: str) -> None:
-    if command != "%" and not any(remark.code == "data-after-end" for remark in machine.remarks):
-        machine.remark("data-after-end", shorten(command))
+    if command:
+        execute(machine, command)
 
 
 def _problem(machine: Machine, refusal: Refusal, sentence: str) -> Remark:
@@ -76,12 +74,18 @@ def _problem(machine: Machine, refusal: Refusal, sentence: str) -> Remark:
     return Remark(refusal.code, machine.line, text)
 
 
-def _finish(machine: Machine, problems: list[Remark]) -> None:
-    """Close the program at its last line; a file of comments alone holds nothing."""
+def _finish(machine: Machine, tail: afterend.Tail, torn: str, problems: list[Remark]) -> None:
+    """Close the program at its last line; a file of comments alone holds nothing.
+
+    torn: the last line where it has no line end. If it is a command, and M30 is missing, a part of it may be missing.
+    """
     machine.line = max(1, machine.line - 1)
     try:
+        tail.finish(machine)
         machine.finish()
         if not (machine.recognised or problems):
             raise Refusal("empty-file")
+        if torn and split_comment(torn)[0] and not (machine.ended or machine.stopped):
+            raise Refusal("cut-short", torn)
     except Refusal as refusal:
         problems.append(Remark(refusal.code, machine.line, refusal.text))

@@ -14,6 +14,7 @@ from typing import BinaryIO
 import numpy as np
 
 from . import checks, sidefiles
+from .afterend import REFUSE
 from .errors import DrillFileError, Refusal, Remark
 from .facts import Facts
 from .intake import condense, to_text
@@ -24,36 +25,44 @@ from .recognise import Recognition, dialect, doubted, parse_option, recognise
 from .spacing import meetings
 
 
-def read(path: Path, *, fmt: str | None = None) -> DrillFile:
+def read(path: Path, *, fmt: str | None = None, after_end: str = REFUSE) -> DrillFile:
     """The drill file at path, with the reports beside it (sidefiles.py).
 
-    fmt: format settled by hand, 'inch,2:4,leading' or 'mm,decimal'. DrillFileError for anything that is
+    fmt: format settled by hand, 'inch,2:4,leading' or 'mm,decimal'; after_end: what becomes of holes behind M30
+    (afterend.CHOICES). DrillFileError for anything that is
     no drillable file; OSError when the file cannot be opened.
     """
     with path.open("rb") as stream:
-        return _decode(stream, path.name, sidefiles.beside(path), fmt)
+        return _decode(stream, path.name, sidefiles.beside(path), fmt, after_end)
 
 
-def decode(data: bytes, *, name: str, side_files: Mapping[str, bytes] = {}, fmt: str | None = None) -> DrillFile:
+def decode(
+    data: bytes,
+    *,
+    name: str,
+    side_files: Mapping[str, bytes] = {},
+    fmt: str | None = None,
+    after_end: str = REFUSE,
+) -> DrillFile:
     """As `read`, from bytes alone: name is used in messages, side_files are reports by name."""
-    return _decode(io.BytesIO(data), name, side_files, fmt)
+    return _decode(io.BytesIO(data), name, side_files, fmt, after_end)
 
 
-def _decode(stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: str | None) -> DrillFile:
+def _decode(stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: str | None, after_end: str) -> DrillFile:
     try:
         option = parse_option(fmt) if fmt else None
-        data, tape_code = condense(stream)
-        text, remarks = to_text(data, tape_code=tape_code)
+        condensed = condense(stream)
+        text, remarks = to_text(condensed)
     except Refusal as refusal:
         raise DrillFileError(name, (Remark(refusal.code, None, refusal.text),)) from None
     facts = Facts()
     for side_name, side_data in side_files.items():
         sidefiles.hear(side_name, side_data, facts)
-    machine, problems = run(text, facts)
+    machine, problems = run(text, facts, after_end)
     if problems:
         raise DrillFileError(name, tuple(problems))
     found = recognise(machine, option)
-    named = replace(found.choice, dialect=dialect(machine, found.choice, tape_code=tape_code))
+    named = replace(found.choice, dialect=dialect(machine, found.choice, tape_code=condensed.tape_code))
     return _measured(name, machine, replace(found, choice=named), remarks)
 
 
@@ -61,6 +70,7 @@ def _measured(name: str, machine: Machine, found: Recognition, remarks: list[Rem
     """The program's rows in millimetres, checked."""
     mm_per_unit = MM_PER_UNIT[found.choice.units]
     ends_mm = _ends_mm(machine, found)
+    remarks = [*remarks, *checks.slots_without_length(machine, ends_mm)]
     if problems := tuple(checks.faults(machine, mm_per_unit, ends_mm)):
         raise DrillFileError(name, tuple(sorted(problems, key=lambda problem: problem.line or 0)))
     tools = machine.tools.finished(mm_per_unit) or (Tool(1, None),) * machine.toolless()

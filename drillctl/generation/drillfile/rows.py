@@ -26,6 +26,8 @@ class Rows:
         self._blocks: list[RowArray] = []
         self._count = 0
         self._pattern_start: int | None = None
+        self._must_end = True
+        self._ended_copies = False
         self._pattern: RowArray | None = None
 
     def __len__(self) -> int:
@@ -48,27 +50,41 @@ class Rows:
             raise Refusal(code, f"more than {HOLE_LIMIT} holes", fatal=True)
 
     def repeat(self, count: int, offset: Floats, line: int) -> Floats:
-        """R: the last row again count times, each one offset (2, 3) further; returns where it ended."""
-        if not self._count:
-            raise Refusal("repeat-without-hole")
+        """R: the last row, which there must be, again count times, each one offset (2, 3) further; where it ended."""
         return self._copy(self._blocks[-1][-1:], count, offset, line)
 
-    def begin_pattern(self) -> None:
-        """M25: what follows is a pattern."""
-        if self._pattern_start is not None and self._pattern is None:
+    def last_tool(self) -> int:
+        """The tool of the last row. Refusal 'repeat-without-hole' for none."""
+        if not self._count:
+            raise Refusal("repeat-without-hole")
+        return int(self._blocks[-1][-1]["tool"])
+
+    @property
+    def in_pattern(self) -> bool:
+        """Whether step and repeat has begun and not ended."""
+        return self._pattern_start is not None and (self._must_end or self._pattern is not None)
+
+    def begin_pattern(self, *, must_end: bool = True) -> None:
+        """M25: what follows is a pattern. A % in the body may begin one, or be nothing: must_end says which."""
+        if self.in_pattern and self._pattern is None:
             raise Refusal("bad-pattern", "M25 inside M25")
-        self._pattern_start, self._pattern = self._count, None
+        self._pattern_start, self._pattern, self._must_end = self._count, None, must_end
 
     def end_pattern(self) -> None:
-        """M01: the pattern is complete. Without M25, or a second time, it is only a stop for the operator."""
-        if self._pattern_start is not None and self._pattern is None:
+        """M01: all since M25 is the pattern, copies of an inner one too. Without M25 it is a stop for the operator."""
+        if self._pattern_start is not None:
             self._pattern = self.array()[self._pattern_start :].copy()
+            self._ended_copies = False
+
+    def end_copies(self) -> None:
+        """M02 without a distance: no more copies until M01 ends a larger pattern."""
+        self._ended_copies = True
 
     def repeat_pattern(self, count: int, offset: Floats, line: int) -> None:
         """M02: the pattern again, offset (2, 3) further than it was last drilled; count times."""
         if self._pattern_start is None:
             raise Refusal("pattern-without-start")
-        if self._pattern is None:
+        if self._pattern is None or self._ended_copies:
             raise Refusal("bad-pattern", "M02 before M01")
         if len(self._pattern):
             self._copy(self._pattern, count, offset, line)
@@ -86,6 +102,6 @@ class Rows:
 
     def close_pattern(self) -> None:
         """M08 or the end of the program."""
-        if self._pattern_start is not None and self._pattern is None:
+        if self.in_pattern and self._pattern is None:
             raise Refusal("bad-pattern", "M25 without M01")
         self._pattern_start = self._pattern = None

@@ -47,7 +47,8 @@ def board(holes: list, slots: list, fmt: str) -> DrillFile:
 
 coordinate = st.integers(-19_000, 19_000)  # stays within 5 m in the coarsest format
 points = st.lists(st.tuples(coordinate, coordinate), max_size=12)
-lines = st.lists(st.tuples(coordinate, coordinate, coordinate, coordinate), max_size=4)
+slot = st.tuples(coordinate, coordinate, coordinate, coordinate).filter(lambda ends: ends[:2] != ends[2:])
+lines = st.lists(slot, max_size=4)
 
 
 @settings(max_examples=200, deadline=None)
