@@ -26,6 +26,10 @@ class PacedClock:
         self.deadline_ns = self.begun_ns + self.period_ns
         self.late = self.late_ns = self.worst_ns = 0
 
+    def set_rate(self, tick_hz: int) -> None:
+        """The period from the next tick on."""
+        self.period_ns = 1_000_000_000 // tick_hz
+
     def wait(self) -> int:
         """Sleeps to the next deadline; returns how many whole periods the tick begins too late, mostly 0."""
         left_ns = self.deadline_ns - self._now_ns()

@@ -20,6 +20,7 @@ class Controller:
     elapsed   ticks of the current command, hold not counted
     running   sequence of the command that was current in this tick, 0 = none
     served    the requests served in this tick, as bits; unseen: the same of a wake that was no tick
+    tick_hz   ticks a second, for what is limited in seconds; set_rate changes it
     gap       whole periods by which the next tick begins too late, set by whoever paces; late: the same, applied
     """
 
@@ -40,7 +41,7 @@ class Controller:
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
         self.homes_by_sensor = any(step.do == "seek" for step in machine.homing)
-        self.longest_drilling = machine.longest_drilling_ticks
+        self.set_rate(machine.tick_hz)
 
         self.command = Command()
         self.busy = self.job = False
@@ -60,6 +61,11 @@ class Controller:
         self.position_known = False
 
         self.done = self.hole_begun = self.holes_done = self.tool = 0
+
+    def set_rate(self, tick_hz: int) -> None:
+        """Ticks a second; what is limited in seconds keeps its seconds."""
+        self.tick_hz = tick_hz
+        self.longest_drilling = self.machine.drilling_ticks_at(tick_hz)
 
 
 def _limits(machine: Machine, axis: int) -> tuple[int, int, int]:

@@ -19,7 +19,7 @@ def apply_gap(m: Controller) -> None:
         if (axis.counting or axis.led) and gap_ticks > axis.interval[0]:
             caught = caught or abs(axis.state) > SURVIVES_STATE
             axis.start_again()
-    gap_ms = gap_ticks * 1000 // m.machine.tick_hz
+    gap_ms = gap_ticks * 1000 // m.tick_hz
     if gap_ms > FAULT_MS and (m.busy or m.moving):
         m.position_known = m.position_known and not caught
         raise_fault(m, Fault.LATE_TICK)

@@ -11,8 +11,8 @@ TWO_CARDS = (1 << 64) - 1
 def report(m: Controller, status: np.void) -> None:
     """Overwrites a record of dtype kmd.STATUS with what the controller knows."""
     command = m.command
-    for name in ("tick", "starved", "epoch", "done", "hole_begun", "holes_done", "tool", "condition", "fault",
-                 "fault_kept", "position_known", "job", "moving"):  # fmt: skip
+    for name in ("tick", "tick_hz", "starved", "epoch", "done", "hole_begun", "holes_done", "tool", "condition",
+                 "fault", "fault_kept", "position_known", "job", "moving"):  # fmt: skip
         status[name] = getattr(m, name)
     status["sensors"], status["image"] = m.sensors & TWO_CARDS, m.image & TWO_CARDS
     status["sequence"] = command.sequence if m.busy else 0

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from drillctl.execution.controller import Controller
 from drillctl.execution.homing import begin_homing, carry_homing
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
-from drillctl.kmd.queue import RequestBit, bit_and_value
+from drillctl.kmd.queue import RequestBit, bit_and_value, pace_of
 from drillctl.ports import SAFE_IMAGE, with_bits
 
 SURVIVES_STATE = 1  # a rotor stops dead from states 0 and 1: the automaton itself stops from them
@@ -136,7 +136,7 @@ def _acknowledge(m: Controller) -> None:
 
 def _set_output(m: Controller) -> None:
     """At rest and outside a job, else nothing: a coil's wire moves its rotor, and the position is lost."""
-    if m.condition != Condition.READY or m.busy or m.job or m.moving:
+    if not _rests(m):
         return
     place, on = bit_and_value(m.requests.hand)
     bit = 1 << place
@@ -145,6 +145,20 @@ def _set_output(m: Controller) -> None:
         if axis.wires & bit:
             axis.set_wire(bit, on)
             m.position_known = False
+
+
+def _set_pace(m: Controller) -> None:
+    """Another tick rate from the next tick on, at rest and outside a job; the position stays. At any other time it is
+    no request at all: the trace has only those that took effect, so that a reader knows how long each tick was.
+    """
+    if _rests(m):
+        m.set_rate(pace_of(m.requests.hand))
+    else:
+        m.served &= ~RequestBit.PACE.value
+
+
+def _rests(m: Controller) -> bool:
+    return m.condition == Condition.READY and not (m.busy or m.job or m.moving)
 
 
 def _after_pause(m: Controller) -> None:
@@ -163,4 +177,5 @@ _SERVED: Mapping[int, Callable[[Controller], None]] = {
     Request.RESUME: _resume,
     Request.ACK: _acknowledge,
     Request.OUTPUT: _set_output,
+    Request.PACE: _set_pace,
 }

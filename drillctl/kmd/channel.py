@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.kmd.commands import RECORD, Command
-from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, RequestBit, Requests, hand_of
+from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, Requests, hand_of, pace_of, request_of
 from drillctl.kmd.status import STATUS
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
@@ -25,7 +25,7 @@ CHANNEL = np.dtype(
         ("desk_beat_ns", "<i8"),  # monotonic; written by desk
         ("written", "<u8"),  # records put; desk
         ("asked", "<u4", (len(Request),)),  # how often each request was asked; desk
-        ("hands", "<u2", (MOST_HANDS,)),  # outputs to be set by hand, a ring; desk
+        ("hands", "<i4", (MOST_HANDS,)),  # outputs and rates to be set by hand, a ring; desk
         ("hands_asked", "<u4"),  # how many were put there; desk
         ("hands_taken", "<u4"),  # how many were taken; ticker
         ("paused", "<u4"),  # 1: only ticks that are granted; desk
@@ -35,6 +35,7 @@ CHANNEL = np.dtype(
         ("ticker_pid", "<i8"),  # desk
         ("ticker_beat_ns", "<i8"),  # ticker
         ("taken", "<u8"),  # records taken; ticker
+        ("tick_ns", "<i8"),  # how long a tick lasts, so long its beat may fail to come; ticker, before the forks desk
         ("ended", "<u4"),  # 1 when the ticker is leaving, its outputs safe; ticker
         ("guard_beat_ns", "<i8"),  # guard
         ("guarded", "<u4"),  # 1 when the guard has to make the outputs safe; guard
@@ -143,7 +144,7 @@ class SharedRequests:
     """The mailbox of a channel: desk counts up what it asks, the ticker sees what has risen.
 
     own   what the ticker asks of itself, beside the desk: a mailbox of the process that takes
-    hand  what the last OUTPUT taken was about
+    hand  what the last OUTPUT or PACE taken was about
     """
 
     def __init__(self, channel: Channel):
@@ -174,10 +175,17 @@ class SharedRequests:
 
     def set_output(self, bit: int, value: int) -> bool:
         """Asks for OUTPUT, in line; called by desk alone. False, and nothing asked, where too many wait."""
+        return self._line_up(hand_of(bit, value))
+
+    def set_rate(self, tick_hz: int) -> bool:
+        """Asks for PACE, in the same line; called by desk alone. False, and nothing asked, where too many wait."""
+        return self._line_up(pace_of(tick_hz))
+
+    def _line_up(self, hand: int) -> bool:
         if self._hands_waiting == MOST_HANDS:
             return False
         asked = self._channel["hands_asked"]
-        self._hands[asked % MOST_HANDS] = hand_of(bit, value)
+        self._hands[asked % MOST_HANDS] = hand
         self._channel["hands_asked"] = asked + 1
         return True
 
@@ -191,7 +199,7 @@ class SharedRequests:
         taken = self._channel["hands_taken"]
         self.hand = int(self._hands[taken % MOST_HANDS])
         self._channel["hands_taken"] = taken + 1
-        return RequestBit.OUTPUT.value
+        return request_of(self.hand)
 
 
 class SharedGate:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from drillctl.kmd.commands import RECORD, Command
 
 CAPACITY = 256
-MOST_HANDS = 16  # outputs set by hand that may wait: one is served a tick
+MOST_HANDS = 16  # outputs and rates set by hand that may wait: one is served a tick
 
 
 class CommandQueue(Protocol):
@@ -36,7 +36,7 @@ class CommandQueue(Protocol):
 class Mailbox(Protocol):
     """Requests on their way past the queue, in one process or between two.
 
-    hand  what the last OUTPUT taken was about (``hand_of``)
+    hand  what the last OUTPUT or PACE taken was about (``hand_of``, ``pace_of``)
     """
 
     hand: int
@@ -51,8 +51,11 @@ class Mailbox(Protocol):
     def set_output(self, bit: int, value: int) -> bool:
         """Asks for OUTPUT; these wait in line. False, and nothing asked, where too many do."""
 
+    def set_rate(self, tick_hz: int) -> bool:
+        """Asks for PACE, in the same line. False, and nothing asked, where too many wait."""
+
     def take(self) -> int:
-        """The requests asked since the last call, as bits; of those for an output the oldest, told in ``hand``."""
+        """The requests asked since the last call, as bits; of OUTPUT and PACE the oldest alone, told in ``hand``."""
 
 
 class Queue:
@@ -110,6 +113,7 @@ class Request(IntEnum):
     OUTPUT = 6  # one output set by hand; which one and how: ``hand_of``
     PAUSE = 7  # a real machine's clock stood still (kmd/gate.py) and goes on; asked by the ticker itself
     LOAD = 8  # edited tables were taken before this tick; asked by the ticker itself
+    PACE = 9  # another tick rate, at rest; which one: ``pace_of``
 
 
 class RequestBit(IntFlag):
@@ -123,6 +127,7 @@ class RequestBit(IntFlag):
     OUTPUT = 1 << Request.OUTPUT
     PAUSE = 1 << Request.PAUSE
     LOAD = 1 << Request.LOAD
+    PACE = 1 << Request.PACE
 
 
 def hand_of(bit: int, value: int) -> int:
@@ -133,6 +138,16 @@ def hand_of(bit: int, value: int) -> int:
 def bit_and_value(hand: int) -> tuple[int, int]:
     """``hand_of`` undone."""
     return divmod(hand - 1, 2)
+
+
+def pace_of(tick_hz: int) -> int:
+    """A tick rate asked for as one number, below 0 to be no output; its trace signal is ``pace``. Undone by itself."""
+    return -tick_hz
+
+
+def request_of(hand: int) -> int:
+    """The request that such a number belongs to, as a bit."""
+    return RequestBit.PACE.value if hand < 0 else RequestBit.OUTPUT.value
 
 
 class Requests:
@@ -155,15 +170,22 @@ class Requests:
 
     def set_output(self, bit: int, value: int) -> bool:
         """Asks for OUTPUT, in line. False, and nothing asked, where too many wait."""
-        if len(self._hands) == MOST_HANDS:
-            return False
-        self._hands.append(hand_of(bit, value))
-        return True
+        return self._line_up(hand_of(bit, value))
+
+    def set_rate(self, tick_hz: int) -> bool:
+        """Asks for PACE, in the same line. False, and nothing asked, where too many wait."""
+        return self._line_up(pace_of(tick_hz))
 
     def take(self) -> int:
-        """The requests asked since the last call, as bits; of those for an output the oldest, told in ``hand``."""
+        """The requests asked since the last call, as bits; of OUTPUT and PACE the oldest alone, told in ``hand``."""
         pending, self.pending = self.pending, 0
         if self._hands:
             self.hand = self._hands.popleft()
-            pending |= RequestBit.OUTPUT.value
+            pending |= request_of(self.hand)
         return pending
+
+    def _line_up(self, hand: int) -> bool:
+        if len(self._hands) == MOST_HANDS:
+            return False
+        self._hands.append(hand)
+        return True

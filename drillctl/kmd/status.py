@@ -23,6 +23,7 @@ class Condition(IntEnum):
 STATUS = np.dtype(
     [
         ("tick", "<i8"),  # ticks run
+        ("tick_hz", "<u4"),  # the rate in force; 0 before the first record
         ("late", "<u4"),  # ticks that began more than a period late
         ("late_worst_ns", "<i8"),
         ("starved", "<u4"),  # wakes without a command while a job ran: they are not ticks

@@ -66,6 +66,8 @@ def watch(file: Path, library: Library, axis_name: str | None = None) -> Watched
     if not same_tables(recorded, machine, file):
         reason = f"recorded with other tables of {machine.name}; record it again, or give them (--tables)"
         raise LabError(f"{file}: {reason}")
+    if recorded.has("pace"):
+        raise LabError(f"{file}: the tick rate was changed on the way (PACE); a picture has one scale of time")
     again = with_columns(recorded, machine, file)
     columns = [_unwrapped(dense(again, f"{axis.name}.column"), axis.phase.columns) for axis in machine.axes]
     index = axis_index(machine, axis_name) if axis_name else _farthest(columns)

@@ -16,7 +16,7 @@ from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
 
 # Names that a trace gives to its own signals and scopes: an axis of such a name could not be told from them.
-TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "sensors", "plant"})
+TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
 
 
 def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:

@@ -152,7 +152,11 @@ class Machine:
     @property
     def longest_drilling_ticks(self) -> int:
         """The configured drilling time in ticks."""
-        return round(self.configuration.longest_drilling_s * self.tick_hz)
+        return self.drilling_ticks_at(self.tick_hz)
+
+    def drilling_ticks_at(self, tick_hz: int) -> int:
+        """The same at another interrupt frequency."""
+        return round(self.configuration.longest_drilling_s * tick_hz)
 
     def at_rate(self, tick_hz: int) -> "Machine":
         """The same machine at another interrupt frequency."""

@@ -150,6 +150,11 @@ class Console(Protocol):
     def run_queue(self, text: str) -> Problems:
         """Runs KMD commands."""
 
+    def set_tick_hz(self, hz: int) -> Problems:
+        """So many ticks a second, at rest; the position stays. ``view`` has the rate in force. Refused where the port
+        or this computer can't carry it, with the rate that they can.
+        """
+
     def initialise(self) -> Problems:
         """Head up, then X=0, Y=0 by the limit sensors."""
 

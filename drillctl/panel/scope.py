@@ -16,7 +16,7 @@ from drillctl.panel.console import Problems
 Ints = NDArray[np.int64]
 Shape = Literal["wire", "count", "words"]
 Find = Literal["change", "step", "command", "sensor", "request", "late", "fault"]
-Lack = Literal["forgotten", "behind", "running", "underivable", "too long", "other tables"]
+Lack = Literal["forgotten", "behind", "running", "underivable", "too long", "other tables", "other rate"]
 FORWARDS, BACKWARDS = 1, -1
 
 

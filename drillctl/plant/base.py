@@ -43,6 +43,9 @@ class Plant:
         """An output image stands at the card, for a tick. Called once a tick, changed or not."""
         raise AssertionError("a plant is ideal or dynamic")
 
+    def set_rate(self, tick_hz: int) -> None:
+        """A tick lasts 1 / tick_hz seconds from now on: news for a plant that has time."""
+
     def position_steps(self, axis: int) -> float:
         """Where a carriage is, in steps from machine zero as the machine's file means it."""
         return self.carriages[axis].place(self.rotors[axis].columns)

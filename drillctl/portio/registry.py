@@ -144,6 +144,15 @@ def select(spec: str) -> tuple[Port, str]:
     return PORTS[name], address
 
 
+def check_rate(spec: str, wiring: Wiring) -> None:
+    """Raises PortRefused for a tick rate that a port can't carry with all axes moving, or an unknown name."""
+    most_hz = rate_of(spec, wiring)
+    if most_hz is not None and wiring.tick_hz > most_hz:
+        axes = len(wiring.axis_outputs)
+        reason = f"{wiring.tick_hz} interrupts a second are too many for it with {axes} axes moving"
+        raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")
+
+
 def open_port(spec: str, wiring: Wiring, card: Driver | None = None) -> Driver:
     """Opens ``NAME[:ADDRESS]`` with its outputs safe; ``card`` is the simulated one, for a port that is not real.
 
@@ -151,9 +160,5 @@ def open_port(spec: str, wiring: Wiring, card: Driver | None = None) -> Driver:
     meanwhile. Nothing has moved then.
     """
     port, address = select(spec)
-    axes = wiring.axis_outputs
-    most_hz = rate_of(spec, wiring)
-    if most_hz is not None and wiring.tick_hz > most_hz:
-        reason = f"{wiring.tick_hz} interrupts a second are too many for it with {len(axes)} axes moving"
-        raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")
+    check_rate(spec, wiring)
     return port.open(address, wiring, card)

@@ -72,10 +72,11 @@ class Boards:
         return ()
 
     def based(self, machine: Machine, base: Base) -> Problems:
-        """The same board from another working base."""
-        if self.plan is None or self.plan.recipe.base == base:
+        """The same board from another working base, or at another tick rate. Nothing where it is planned so."""
+        if self.plan is None or (self.plan.recipe.base, self.plan.recipe.tick_hz) == (base, machine.tick_hz):
             return ()
-        return self._planned(self.plan.file, msgspec.structs.replace(self.plan.recipe, base=base), machine)
+        recipe = msgspec.structs.replace(self.plan.recipe, base=base, tick_hz=machine.tick_hz)
+        return self._planned(self.plan.file, recipe, machine)
 
     def forget(self) -> None:
         """No board lies on the desk."""

@@ -10,13 +10,25 @@ from pathlib import Path
 
 from drillctl.machine import Library, Machine, TableError
 from drillctl.machine.bundle import bundle, unbundle
+from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.panel.console import Problems
 from drillctl.panel.ports import PortView
 from drillctl.ports import PortError
 from drillctl.station.scope import Recording
 from drillctl.wiring.link import Link
 from drillctl.wiring.loading import same_but_tables
-from drillctl.wiring.machinery import FREE, REAL, Running, card_port, on_port, pace_of, plant_of, simulated, start
+from drillctl.wiring.machinery import (
+    FREE,
+    REAL,
+    Running,
+    card_port,
+    check_rate,
+    on_port,
+    pace_of,
+    plant_of,
+    simulated,
+    start,
+)  # fmt: skip
 
 
 class InUse:
@@ -61,6 +73,24 @@ class InUse:
         """Where it started, the position unknown."""
         return self._change(self.machine, simulated(self._asked))
 
+    def set_tick_hz(self, hz: int) -> Problems:
+        """Asks for another tick rate (PACE); what counts is the tick that serves it."""
+        if not SLOWEST_TICK_HZ <= hz <= FASTEST_TICK_HZ:
+            return (f"the tick rate can be {SLOWEST_TICK_HZ} to {FASTEST_TICK_HZ} Hz, not {hz}",)
+        try:
+            check_rate(self.machine.at_rate(hz), self.running)
+        except PortError as error:
+            return (str(error),)
+        return () if self.link.set_rate(hz) else ("too many requests at once; try again",)
+
+    def follow_rate(self) -> bool:
+        """True where the ticker has come to another rate since the last call."""
+        hz = int(self.link.status()["tick_hz"])
+        if hz in (0, self.machine.tick_hz):
+            return False
+        self.machine = self.recording.machine = self.machine.at_rate(hz)
+        return True
+
     @property
     def runs_free(self) -> bool:
         """As fast as it is turned, by no clock."""
@@ -81,7 +111,9 @@ class InUse:
         return port.configured if port.mode == REAL.upper() and not (port.real or port.overridden) else ""
 
     def notices(self) -> Problems:
-        """What became of ``--tick-hz``."""
+        """What became of ``--tick-hz`` and of the rate of the machine's file."""
+        if self.machine.tick_hz != self._first_hz:
+            return (f"the tick rate was set to {self.machine.tick_hz} Hz; it was {self._first_hz}",)
         if self._tick_hz is None:
             return ()
         if self.machine.name == self._rated:
@@ -95,8 +127,10 @@ class InUse:
 
     def _only_edited(self, machine: Machine) -> bool:
         """The machine in use with other tables: it takes them while it runs. The very same is started anew."""
-        edited = machine.digest != self.machine.digest and same_but_tables(machine, self.machine)
-        return edited and not self.link.lost()
+        same_rate = machine.tick_hz == self._first_hz  # as the file has it; the one in force stays
+        edited = machine.digest != self.machine.digest
+        tables_alone = same_rate and same_but_tables(machine.at_rate(self.machine.tick_hz), self.machine)
+        return edited and tables_alone and not self.link.lost()
 
     def _load(self, text: str) -> Problems:
         """The port stays open, the carriages stay where they are."""
@@ -119,4 +153,5 @@ class InUse:
         ring = Recording.ring_for(machine)
         link = start(machine, replace(running, kept=True), Path(self._folder.name) / "status", ring)
         self.machine, self.running, self.link = machine, running, link
+        self._first_hz = machine.tick_hz  # before any PACE
         self.recording = Recording(machine, link.plant_lanes, ring, lambda: int(link.status()["tick"]))

@@ -77,6 +77,8 @@ class Operating:
             self.link.touches()
         elif self._desk.advance():
             self._over(self._desk)
+        if self._used.follow_rate():
+            self._paced()
         condition = self.link.status()["condition"]
         if condition == Condition.RETURNING:  # by the homing table, which ends at machine zero
             self._base.move(0, 0)
@@ -101,6 +103,10 @@ class Operating:
     def initialise(self) -> Problems:
         """Machine zero becomes the working base."""
         return self.run_queue("KMD_INICJALIZACJA\n")
+
+    def set_tick_hz(self, hz: int) -> Problems:
+        """A request, served in a tick of its own."""
+        return self.busy() or self._used.set_tick_hz(hz)
 
     def jog(self, axis: str, steps: int) -> Problems:
         """Not while anything else runs, nor while a jog is held; nor farther than the axis is long, known or not."""
@@ -190,6 +196,9 @@ class Operating:
             self._base.take(desk.status["base"].tolist())
         self._gate.close()
         self.link.gate.open()
+
+    def _paced(self) -> None:
+        """The machine has come to another tick rate."""
 
     def _post(self, request: Request, makes_sense: bool, otherwise: str) -> Problems:
         if not makes_sense:

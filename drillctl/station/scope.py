@@ -15,7 +15,7 @@ from drillctl.generation.job import names_of
 from drillctl.kmd import to_text
 from drillctl.machine import AxisTable, Machine
 from drillctl.panel.scope import AxisMoment, Changes, Find, Ints, Moment, Notice, ScopeSignal, Strip
-from drillctl.station.scope_layout import KMD, LANDMARKS, lanes_of, lanes_with
+from drillctl.station.scope_layout import KMD, LANDMARKS, RUN, lanes_of, lanes_with
 from drillctl.trace import Signal
 from drillctl.trace.lanes import Lanes
 from drillctl.trace.ring import CHANGE, RingRecorder
@@ -53,8 +53,11 @@ class RunScope:
         """Nothing is new where nothing goes on."""
 
     def notices(self) -> tuple[Notice, ...]:
-        """Nothing is missing but what was forgotten."""
-        return (Notice("forgotten", self.first_tick),) if self.first_tick else ()
+        """What was forgotten; and where ticks became longer or shorter."""
+        forgotten = [Notice("forgotten", self.first_tick)] if self.first_tick else []
+        pace = self._index.get((RUN, "pace"))
+        changed = None if pace is None else self.lanes.columns[pace].find(self.first_tick - 1, 1, onset=True)
+        return (*forgotten, *([] if changed is None else [Notice("other rate", changed)]))
 
     def signals(self) -> tuple[ScopeSignal, ...]:
         """The lanes of the machine."""

@@ -132,6 +132,10 @@ class Station(Operating):
         self._base.move(*plan.recipe.base)
         return self._begin(plan.left, self._boards.journal, plan.foreseen, plan.done_before)
 
+    def _paced(self) -> None:
+        """What a board takes is told by the rate in force."""
+        self._boards.based(self.machine, self._base.xy)
+
     def _over(self, desk: Desk) -> None:
         """Its journal ends with it; a board is planned anew where its base has moved."""
         super()._over(desk)

@@ -25,8 +25,8 @@ class Signal:
 
     `kind` is a row of `values.KINDS`; `names` the words behind a `name` or `command`. A stimulus is what came
     from outside (commands, inputs, requests, late gaps), a response what the machine made of it. A `derived`
-    signal can be had again by replay and stands in a text file only on request. Raises ValueError when it
-    could not be recorded.
+    signal can be had again by replay and stands in a text file only on request. An `optional` one is left out
+    of a trace in which it is 0 throughout. Raises ValueError when it could not be recorded.
     """
 
     name: str
@@ -35,6 +35,7 @@ class Signal:
     derived: bool = False
     width_bits: int = WIDEST_BITS
     names: tuple[str, ...] = ()
+    optional: bool = False
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -89,8 +90,9 @@ class Trace:
         its first one. Raises ValueError for a tick outside 0..end-1, or a value that has no meaning for its
         signal: mistakes of the program that recorded, not of a file.
         """
-        tick, index, value = _canonical(_with_tick_zero(len(signals), end, ticks, signal, values))
-        trace = cls(tuple(header), tuple(signals), tick, index.astype(np.int32), value, end, tuple(trailer))
+        rows = _canonical(_with_tick_zero(len(signals), end, ticks, signal, values))
+        told, (tick, index, value) = _without_silent(signals, rows)
+        trace = cls(tuple(header), told, tick, index.astype(np.int32), value, end, tuple(trailer))
         _check(trace)
         return trace
 
@@ -223,6 +225,15 @@ def _canonical(rows: Values) -> Values:
     rows = rows[:, np.append(_differs(rows[tick_signal]), True)[: rows.shape[1]]]
     rows = rows[:, np.append(True, _differs(rows[signal_value]))[: rows.shape[1]]]
     return rows[:, np.lexsort(rows[signal_tick])]  # by tick, then signal
+
+
+def _without_silent(signals: Sequence[Signal], rows: Values) -> tuple[tuple[Signal, ...], Values]:
+    """The signals that a trace has, and rows (3, n) by their numbers: no optional signal that is 0 throughout."""
+    silent = [n for n, signal in enumerate(signals) if signal.optional and not rows[2, rows[1] == n].any()]
+    told = tuple(signal for n, signal in enumerate(signals) if n not in silent)
+    rows = rows[:, ~np.isin(rows[1], silent)]
+    rows[1] -= np.searchsorted(silent, rows[1])
+    return told, rows
 
 
 def _differs(rows: Values) -> NDArray[np.bool_]:

@@ -4,12 +4,15 @@ Rule: the same trace and layout give the same bytes, without date or path; a val
 flush. This room knows no machine, so the caller hands in the layout: which variable, in which scope, shows
 what of which signal. pyvcd does the writing. Called by `drillctl trace` and replay.
 
+A value of the signal `pace` is the tick rate that holds from the tick after (docs/SPEC.md, 1.20).
+
 PulseView with libsigrok 0.5.2 (Debian 12) stops reading at the first integer change; it shows a layout of
 wires alone in full. GTKWave shows all.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -70,7 +73,7 @@ def write_vcd(trace: Trace, target: Target, layout: VcdLayout) -> None:
     """
     from vcd import VCDWriter
 
-    comment, clock = _comment(trace), _Clock(_tick_hz(trace))
+    comment, clock = _comment(trace), _Clock(_rates(trace))
     ticks, variable, values = _merged([_changes(trace, var) for var in layout])
     times = clock.times(np.append(ticks, trace.end)).tolist()
     with opened(target, "w") as file:
@@ -83,34 +86,60 @@ def write_vcd(trace: Trace, target: Target, layout: VcdLayout) -> None:
         writer.close(times[-1])
 
 
-class _Clock:
-    """Ticks to times: in the largest unit that divides a tick's length, else in us, rounded."""
+Rate = tuple[int, int]  # the first tick that follows at it, and ticks a second
 
-    def __init__(self, tick_hz: int) -> None:
-        exact = (row for row in TIMESCALES if US_PER_SECOND % (tick_hz * row[0]) == 0)
+
+class _Clock:
+    """Ticks to times: in the largest unit that divides the length of every tick, else in us, rounded."""
+
+    def __init__(self, rates: Sequence[Rate]) -> None:
+        exact = (row for row in TIMESCALES if all(US_PER_SECOND % (hz * row[0]) == 0 for _, hz in rates))
         unit_us, self.timescale = next(exact, TIMESCALES[-1])
-        self._ticks_per_time = tick_hz * unit_us  # x 10^-6
+        self._stretches: list[tuple[int, Fraction, Fraction]] = []  # first tick, its time, ticks in a unit of time
+        time, since, ticks_per_unit = Fraction(0), 0, Fraction(1)
+        for tick, hz in rates:
+            time += (tick - since) / ticks_per_unit
+            since, ticks_per_unit = tick, Fraction(hz * unit_us, US_PER_SECOND)
+            self._stretches.append((tick, time, ticks_per_unit))
 
     def times(self, ticks: Values) -> Values:
-        """Nearest whole times, halves to even as Python's round(); in integers, hence exact."""
-        times, rests = np.divmod(ticks * US_PER_SECOND, self._ticks_per_time)
-        half = 2 * rests - self._ticks_per_time
-        rounded: Values = times + ((half > 0) | ((half == 0) & (times % 2 == 1)))
-        return rounded
+        """Nearest whole times of rising ticks (n,), halves to even as Python's round(); in integers, hence exact."""
+        firsts = np.array([first for first, _, _ in self._stretches])
+        parts = zip(self._stretches, np.split(ticks, np.searchsorted(ticks, firsts[1:])), strict=True)
+        return np.concatenate([_nearest(begun, per_unit, part - first) for (first, begun, per_unit), part in parts])
 
 
-def _tick_hz(trace: Trace) -> int:
-    word = trace.header_value("tick_hz")
+def _nearest(begun: Fraction, per_unit: Fraction, ticks: Values) -> Values:
+    """The whole times nearest to ``begun`` and so many ticks. Python's integers where 64 bits would not hold them."""
+    unit = begun.denominator * per_unit.numerator
+    wide = object if begun else np.int64  # the first stretch, mostly the only one, begins at 0
+    numerators = ticks.astype(wide) * (per_unit.denominator * begun.denominator) + begun.numerator * per_unit.numerator
+    times = numerators // unit
+    half = 2 * (numerators - times * unit) - unit
+    rounded = times + ((half > 0) | ((half == 0) & (times % 2 == 1)))
+    return rounded.astype(np.int64)
+
+
+def _rates(trace: Trace) -> list[Rate]:
+    """The rates of a run: that of its header, and each that was asked for, from the tick after."""
+    found = [(0, _rate(trace.header_value("tick_hz"), "the trace's header has tick_hz"))]
+    ticks, asked = trace.changes_of("pace") if trace.has("pace") else ((), ())
+    for tick, hz in zip(ticks, asked, strict=True):
+        if hz:
+            found.append((int(tick) + 1, _rate(str(hz), "the trace has a pace of")))
+    return found
+
+
+def _rate(word: str, whose: str) -> int:
     if not (word.isascii() and word.isdecimal() and len(word) < 8 and 1 <= int(word) <= US_PER_SECOND):
-        raise ValueError(
-            f"the trace's header has tick_hz {word!r}: a whole number in 1..{US_PER_SECOND} is needed"
-        )
+        raise ValueError(f"{whose} {word!r}: a whole number in 1..{US_PER_SECOND} is needed")
     return int(word)
 
 
 def _comment(trace: Trace) -> str:
     """One line of words. Blanks and `$`, which could end the comment, become `_`."""
-    pairs = (f"{key}={trace.header_value(key)}" for key in ("machine", "tick_hz", "digest"))
+    pairs = [f"{key}={trace.header_value(key)}" for key in ("machine", "tick_hz", "digest")]
+    pairs += [f"tick_hz={hz}@{tick}" for tick, hz in _rates(trace)[1:]]
     return " ".join(["drillctl", *(pair.translate({ord(" "): "_", ord("$"): "_"}) for pair in pairs)])
 
 

@@ -55,8 +55,16 @@ class FastTicker(Ticker):
     def load(self, machine: Machine) -> None:
         """What was foreseen was by the old tables."""
         super().load(machine)
+        self._foresee_anew()
+
+    def follow_rate(self) -> None:
+        """What was foreseen was by the old limits of time."""
+        super().follow_rate()
+        self._foresee_anew()
+
+    def _foresee_anew(self) -> None:
         assert isinstance(self.plant, IdealPlant)
-        self.engine = Engine(self.controller, ForeseenPlant(machine, self.plant), self.engine.reel)
+        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant), self.engine.reel)
 
     @classmethod
     def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,

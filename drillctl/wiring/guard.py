@@ -22,7 +22,7 @@ IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.
 def run_guard(channel: Channel, port: Driver, silence_ns: int = SILENCE_NS) -> None:
     """Watches until the ticker has ended, one way or the other. The body of the guard's process.
 
-    silence_ns  how long the ticker's heartbeat may stand still: a slow tick beats seldom
+    silence_ns  how long the ticker's heartbeat may stand still, beside the length of a tick: a slow one beats seldom
     """
     for number in IGNORED:
         signal.signal(number, signal.SIG_IGN)
@@ -60,7 +60,7 @@ def _gone(ticker: int, wait_ms: int) -> bool:
 
 
 def _silent(channel: Channel, silence_ns: int) -> bool:
-    return time.monotonic_ns() - channel["ticker_beat_ns"] > silence_ns
+    return time.monotonic_ns() - channel["ticker_beat_ns"] > silence_ns + channel["tick_ns"]
 
 
 def _end(ticker: int) -> None:

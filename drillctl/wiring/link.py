@@ -60,6 +60,11 @@ class Link(Protocol):
     def set_output(self, bit: int, value: int) -> bool:
         """The request OUTPUT. False, and nothing asked, where too many of them wait."""
 
+    def set_rate(self, tick_hz: int) -> bool:
+        """The request PACE. False, and nothing asked, where too many wait. Whether the port and this computer carry the
+        rate is looked at before (machinery.check_rate); the status record has the one in force.
+        """
+
     def load(self, text: str) -> str:
         """Edited tables as a bundle (machine/bundle.py), at rest; the reason where they are refused. Takes a moment."""
 
@@ -134,6 +139,10 @@ class LocalLink:
     def set_output(self, bit: int, value: int) -> bool:
         """Into the ticker's mailbox."""
         return self.ticker.requests.set_output(bit, value)
+
+    def set_rate(self, tick_hz: int) -> bool:
+        """Into the ticker's mailbox."""
+        return self.ticker.requests.set_rate(tick_hz)
 
     def load(self, text: str) -> str:
         """Between two ticks."""

@@ -11,6 +11,7 @@ from drillctl.kmd import Queue
 from drillctl.lab.capacity import most_ticks_hz
 from drillctl.machine import Machine
 from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice, PlantRefused
+from drillctl.portio.registry import check_rate as check_port_rate
 from drillctl.portio.registry import open_port, port_of_card, select
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver, PortRefused, Wiring
@@ -96,9 +97,7 @@ def start(machine: Machine, running: Running, status_file: Path, keeper: RingRec
     keeper       takes every signal of the run, derived ones too, in place of a trace; whoever made it empties it
     """
     pace = pace_of(running)
-    if pace == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
-        reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
-        raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
+    check_rate(machine, running)
     plant = plant_of(machine, running)
     driver = open_port(running.port, wiring_of(machine), SimulatedCard(plant) if plant else None)
     if _goes_fast(running, pace, driver, plant, keeper):
@@ -117,6 +116,14 @@ def start(machine: Machine, running: Running, status_file: Path, keeper: RingRec
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         raise PortRefused(running.port, f"no process of its own for the ticks: {where}{error.strerror}") from error
+
+
+def check_rate(machine: Machine, running: Running) -> None:
+    """Raises PortRefused for a machine at a tick rate that its port, or this computer, does not carry."""
+    check_port_rate(running.port, wiring_of(machine))
+    if pace_of(running) == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
+        reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
+        raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
 
 
 def _goes_fast(running: Running, pace: str, driver: Driver, plant: Plant | None, keeper: RingRecorder | None) -> bool:

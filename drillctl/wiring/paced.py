@@ -61,10 +61,10 @@ class PacedLink:
         self._port = port
         self._unguarded = False
         self._refused: list[str] | None = None
-        self._silence_ns = SILENCE_NS + 1_000_000_000 // machine.tick_hz
+        self._channel["tick_ns"] = 1_000_000_000 // machine.tick_hz
         now_ns = self._beat()
         self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
-        self._guard = Child(lambda: run_guard(self._channel, port, self._silence_ns))
+        self._guard = Child(lambda: run_guard(self._channel, port))
         self._touched, touch_end = os.pipe()
         self._notices, notice_end = os.pipe()
         for end in (self._touched, self._notices):
@@ -86,6 +86,10 @@ class PacedLink:
         """In line, overtaking the queue."""
         return self._requests.set_output(bit, value)
 
+    def set_rate(self, tick_hz: int) -> bool:
+        """In line, overtaking the queue."""
+        return self._requests.set_rate(tick_hz)
+
     def load(self, text: str) -> str:
         """Down to the ticker's process, which answers."""
         if not self._slot.offer(text):
@@ -106,7 +110,7 @@ class PacedLink:
             self._unguarded = True
             self._guard.end(patience_s=0)
             self.post(Request.STOP)
-        if self._unguarded and now_ns - self._channel["ticker_beat_ns"] > self._silence_ns:
+        if self._unguarded and now_ns - self._channel["ticker_beat_ns"] > SILENCE_NS + self._channel["tick_ns"]:
             self._ticker.end(patience_s=0)  # in the guard's place; close makes the outputs safe
 
     def status(self) -> np.void:

@@ -79,6 +79,7 @@ class PacedTicker:
                     self.ticker.late(clock.late, clock.worst_ns)
                     self._go_on()
                     self.ticker.advance(1)
+                    self._follow_rate(clock)
                 else:
                     self._stand(clock.begun_ns)
             except OSError as error:
@@ -102,6 +103,13 @@ class PacedTicker:
         takes = self.ticker.controller.condition != Condition.LATCHED
         asked = self.requests.waiting or self.gate.left > 0
         return not self.ticker.over() or asked or (takes and len(self.queue) > 0)
+
+    def _follow_rate(self, clock: PacedClock) -> None:
+        """After a PACE. Whoever watches the beat knows of a longer period before it is waited for."""
+        period_ns = clock.period_ns
+        clock.set_rate(self.ticker.machine.tick_hz)
+        if clock.period_ns != period_ns:
+            self.channel["tick_ns"] = clock.period_ns
 
     def _load(self) -> None:
         """Edited tables; the next tick, which has nothing else to do, tells the trace of them."""

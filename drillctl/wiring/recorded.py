@@ -25,6 +25,7 @@ from drillctl.wiring.sampler import HAND_WORDS, REQUEST_WORDS
 from drillctl.wiring.ticker import Ticker
 
 MOST_TICKS = 100_000_000
+BY_HAND = (Request.OUTPUT, Request.PACE)  # have a value, in a signal of their own
 
 
 def trace_header(job: Job, plant: Header) -> Iterator[tuple[str, str]]:
@@ -110,6 +111,7 @@ class Player:
         self._requests = _Stimulus(*_worded(recorded, "request", REQUEST_WORDS, file), recorded.end)
         self._hands = _Stimulus(*_worded(recorded, "hand", HAND_WORDS, file), recorded.end)
         self._gaps = _Stimulus(*_changes(recorded, "late"), recorded.end)
+        self._rates = _Stimulus(*_rates(recorded, file), recorded.end)
 
     def up_to(self, end: int) -> Iterator[int]:
         """Runs on, up to tick ``end`` or to where nothing goes on; after each turn the ticks that were run so far."""
@@ -120,7 +122,7 @@ class Player:
         now = self._ticker.controller.tick
         self._feeder.feed()
         self._ticker.controller.gap = self._gaps.at(now)
-        _ask(self._ticker, self._requests.at(now) << 1, self._hands.at(now))
+        _ask(self._ticker, self._requests.at(now) << 1, self._hands.at(now), self._rates.at(now))
         return self._ticker.turn(before=min(end, self._requests.next_tick, self._gaps.next_tick))
 
 
@@ -144,13 +146,15 @@ class _Stimulus:
         return self._value
 
 
-def _ask(ticker: Ticker, asked: int, hand: int) -> None:
-    """What was asked in a tick: requests as bits of the mailbox, and the output that was set by hand."""
+def _ask(ticker: Ticker, asked: int, hand: int, tick_hz: int) -> None:
+    """What was asked in a tick: requests as bits of the mailbox, and the output or the rate that was set by hand."""
     for request in Request:
-        if request != Request.OUTPUT and asked >> request & 1:
+        if request not in BY_HAND and asked >> request & 1:
             ticker.requests.post(request)
     if hand and asked & RequestBit.OUTPUT:
         ticker.requests.set_output(*bit_and_value(hand))
+    if tick_hz and asked & RequestBit.PACE:
+        ticker.requests.set_rate(tick_hz)
 
 
 def _tables_edited(recorded: Trace) -> int | None:
@@ -177,6 +181,15 @@ def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list
         ticks.append(tick)
         images.append(sum(value << CARD_BITS * card for card, value in enumerate(words)))
     return ticks, images
+
+
+def _rates(trace: Trace, file: Path) -> tuple[list[int], list[int]]:
+    """Ticks and values of the tick rates asked for (PACE). Raises TraceError for what is none."""
+    ticks, rates = _changes(trace, "pace")
+    for tick, tick_hz in zip(ticks, rates, strict=True):
+        if tick_hz and not SLOWEST_TICK_HZ <= tick_hz <= FASTEST_TICK_HZ:
+            raise TraceError(str(file), None, f"pace {tick_hz} at tick {tick} is no tick rate")
+    return ticks, rates
 
 
 def _worded(trace: Trace, name: str, words: Sequence[str], file: Path) -> tuple[list[int], list[int]]:

@@ -14,6 +14,7 @@ from drillctl.execution import Controller
 from drillctl.execution.fastforward import Course
 from drillctl.kmd import Fault, Op, Request, RequestBit
 from drillctl.kmd.commands import BY_OP
+from drillctl.kmd.queue import pace_of
 from drillctl.machine import Machine
 from drillctl.machine.shape import MOST_CARDS
 from drillctl.plant import Plant
@@ -23,7 +24,7 @@ from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
 EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
-QUIET = 4  # signals in which a course has nothing: request, hand, late, fault
+QUIET = 5  # signals in which a course has nothing: request, hand, late, fault, pace
 _REQUESTS = [request.name for request in Request if request]
 REQUEST_WORDS = tuple(
     "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
@@ -71,8 +72,9 @@ class Sampler:
         put(index + 2, tick, m.requests.hand if m.served & RequestBit.OUTPUT else 0)
         put(index + 3, tick, m.late)
         put(index + 4, tick, m.fault)
+        put(index + 5, tick, pace_of(m.requests.hand) if m.served & RequestBit.PACE else 0)
         if self._derived:
-            self._sample_axes(index + 5, tick)
+            self._sample_axes(index + 1 + QUIET, tick)
 
     def sample_course(self, course: Course, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
         """After a course that began at tick ``first``; into a Recorder, no rotors. Without its ``images``
@@ -129,6 +131,7 @@ def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list
         Signal("hand", "name", True, names=HAND_WORDS),
         Signal("late", "count", True),
         Signal("fault", "name", False, names=_FAULT_WORDS),
+        Signal("pace", "count", True, optional=True),
     ]
     if derived:
         for name in machine.axis_names:

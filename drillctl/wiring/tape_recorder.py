@@ -47,9 +47,9 @@ class TapeRecorder(Recorder):
     def segments(self, end: int, header: Iterable[tuple[str, str]]) -> Segments:
         """The run of ``end`` ticks."""
         self._wind(end)
-        rest = without_outputs(self.finish(end, header))
+        trace = self.finish(end, header)
         reel = self._reel.images.copy()
-        return Segments(rest, self.signals, reel, tuple(map(Tape.joined, self._tapes)))
+        return Segments(without_outputs(trace), trace.signals, reel, tuple(map(Tape.joined, self._tapes)))
 
     def _wind(self, end: int) -> None:
         """What was ticked up to ``end``, as one strip on the first tape."""

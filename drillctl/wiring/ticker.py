@@ -58,6 +58,8 @@ class Ticker:
         for _ in range(ticks):
             before = m.tick
             tick(m)
+            if m.served and m.tick_hz != self.machine.tick_hz:
+                self.follow_rate()
             if sampler is not None and m.tick != before:
                 sampler.sample()
             if plant is not None and plant.touches != self._touches:
@@ -99,6 +101,12 @@ class Ticker:
         self.machine, self.controller = machine, loaded(machine, self.controller)
         if self.sampler is not None:
             self.sampler.follow(self.controller)
+
+    def follow_rate(self) -> None:
+        """The controller has another tick rate (PACE): so has everything that counts its ticks as time."""
+        self.machine = self.controller.machine = self.machine.at_rate(self.controller.tick_hz)
+        if self.plant is not None:
+            self.plant.set_rate(self.machine.tick_hz)
 
     def over(self) -> bool:
         """The job has ended, and everything rests: at KMD_KONIEC, by a stop, or latched by a fault."""

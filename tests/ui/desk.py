@@ -115,6 +115,9 @@ class FakeConsole:
     def run_queue(self, text: str) -> Problems:
         return self._keep("run_queue", text)
 
+    def set_tick_hz(self, hz: int) -> Problems:
+        return self._keep("set_tick_hz", hz)
+
     def initialise(self) -> Problems:
         return self._keep("initialise")
 

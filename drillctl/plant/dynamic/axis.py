@@ -29,6 +29,12 @@ class DynamicAxis:
         self._forward = self._backward = law.stop
         self._supply: Supply | None = None
 
+    def take(self, law: Coefficients) -> None:
+        """From now on by this law; what it carries besides the table's friction is told anew (``load``)."""
+        self.law = law
+        self._forward = self._backward = law.stop
+        self.resting = False
+
     def load(self, forward_nm: float, backward_nm: float) -> None:
         """What must be overcome besides the table's friction, by direction, from now on."""
         forward = self.law.stop + forward_nm * self.law.gain

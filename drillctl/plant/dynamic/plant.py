@@ -48,6 +48,12 @@ class DynamicPlant(Plant):
                 self._carry(index)
                 self._resting = False
 
+    def set_rate(self, tick_hz: int) -> None:
+        """Its motors go on from where they are, in ticks of another length."""
+        for motor in self.motors:
+            motor.set_rate(tick_hz)
+        self._resting = False
+
     def behind_steps(self, axis: int, travelled: int) -> float:
         """Lag, friction, play and lost steps together."""
         belt = self.belts[axis]

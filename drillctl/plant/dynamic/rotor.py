@@ -25,6 +25,10 @@ class DynamicRotor(Rotor):
         self._supplies: dict[int, Supply] = {}
         self.axis = DynamicAxis(coefficients(self._dynamics, tick_hz), self.zero / FULL_TURN)
 
+    def set_rate(self, tick_hz: int) -> None:
+        """Ticks of 1 / tick_hz seconds from now on."""
+        self.axis.take(coefficients(self._dynamics, tick_hz))
+
     def pull(self, pattern: int) -> bool:
         """One tick of this image; False while the rotor rests, to the bit, in what it had before."""
         supply = self._supplies.get(pattern)
