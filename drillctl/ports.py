@@ -43,7 +43,7 @@ class PortRefused(PortError):
 
 
 class PortLost(PortError):
-    """While it was in use: the port is gone. What its outputs are now is unknown."""
+    """While it was in use: the port is gone, or its board was reset. What its outputs are now is unknown."""
 
 
 class PortSlow(PortLost):
@@ -100,6 +100,22 @@ class Driver(Protocol):
 
     def close(self) -> None:
         """Gives the port back; the outputs are safe afterwards, where the port still answers."""
+
+
+@runtime_checkable
+class Answering(Protocol):
+    """A driver whose board is asked now and then whether it is still as it was made ready. What was done by images that
+    it has not vouched for may not have been done: the board may have been reset, and nothing says so yet.
+    """
+
+    @property
+    def put(self) -> int:
+        """How many images were put out so far."""
+
+    @property
+    def vouched(self) -> int:
+        """How many of these, from the first on, the board has answered for. Catches up within a second while ``latch``
+        is called; where it can't, ``latch`` raises PortLost."""
 
 
 @runtime_checkable

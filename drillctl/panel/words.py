@@ -75,8 +75,8 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "grant real-time scheduling or free the computer (drillctl latency), acknowledge; initialise where lost",
     ),
     Fault.PORT_LOST: FaultWords(
-        "the port is gone; what its outputs are now can't be known, nor made safe by software",
-        "cut the motors' supply, check cable and card, then start anew and initialise",
+        "the port is gone, or its board was reset; what its outputs are now can't be known, nor made safe by software",
+        "cut the motors' supply, check cable, card and the card's own supply, then start anew and initialise",
     ),
     Fault.HEARTBEAT_LOST: FaultWords(
         "the program above the queue fell silent while the machine was moving; the outputs were switched off",

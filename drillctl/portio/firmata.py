@@ -1,8 +1,10 @@
 """An Arduino with unmodified StandardFirmata as the card: a Mega for 32 outputs and 16 inputs, an Uno for small drills.
 
 Rule: of an output image only the ports that changed are sent, three bytes each; so one motor to a port costs least,
-and its phases change together. A rate that the line can't carry is refused before it is opened.
-Opened by registry.py; firmata_line.py has the wire, firmata_protocol.py the bytes, firmata_pins.py the pins.
+and its phases change together. A rate that the line can't carry is refused before it is opened. A board that was
+reset is a lost port.
+Opened by registry.py; firmata_line.py has the wire, firmata_protocol.py the bytes, firmata_pins.py the pins,
+firmata_watch.py the questions by which a reset is noticed.
 """
 
 from collections.abc import Iterable
@@ -11,6 +13,7 @@ from contextlib import suppress
 from drillctl.portio.firmata_line import LISTEN_S, FirmataLine
 from drillctl.portio.firmata_pins import Board, Pins
 from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport, Firmware
+from drillctl.portio.firmata_watch import Watch
 from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring
 
 BAUD = 57_600  # StandardFirmata's own; a sketch with another is told as DEVICE@BAUD
@@ -20,10 +23,15 @@ USABLE_PERCENT = 95
 
 
 class FirmataCard:
-    """A driver (ports.Driver) over a line whose board has its pins ready."""
+    """A driver (ports.Driver, ports.Answering) over a line whose board has its pins ready.
 
-    def __init__(self, line: FirmataLine, pins: Pins, firmware: Firmware):
-        self._line, self._pins, self._firmware = line, pins, firmware
+    put  images put out so far
+    """
+
+    def __init__(self, line: FirmataLine, pins: Pins, firmware: Firmware, watch: Watch):
+        self._line, self._pins, self._firmware, self._watch = line, pins, firmware, watch
+        self.put = 0
+        self._latched = False  # since the last image: whoever asks must listen too
         self._outputs = SAFE_IMAGE
         self._inputs = 0
         self._safe = b"".join(pins.messages(SAFE_IMAGE))
@@ -34,23 +42,39 @@ class FirmataCard:
         return (f"{self._firmware.name} {version} answers", *self._pins.facts())
 
     def latch(self) -> int:
-        """The levels as far as reports have come; each change takes 0.5 ms on the wire. Raises PortLost."""
+        """The levels as far as reports have come; each change takes 0.5 ms on the wire. Raises PortLost, also for a
+        board that was reset."""
         for message in self._line.received():
+            self._watch.hear(message)
             if isinstance(message, DigitalReport):
                 self._inputs = self._pins.latched(self._inputs, message)
+        self._watch.check()
+        if self._latched and (question := self._watch.question(self.put, 0)):  # at rest nothing is put out
+            self._line.send(question)
+        self._latched = True
         return self._inputs
 
     def flush(self, image: int) -> None:
-        """Sends the ports that differ from what was sent last. Raises PortLost."""
-        changed = image ^ self._outputs
-        if changed:
-            self._line.send(b"".join(self._pins.messages(image, changed)))
-            self._outputs = image
+        """Sends the ports that differ from what was sent last; at its beat, a question after them. Raises PortLost."""
+        data = b"".join(self._pins.messages(image, image ^ self._outputs))
+        self.put += 1
+        if self._latched:
+            data += self._watch.question(self.put, len(data))
+        self._latched = False
+        if data:
+            self._line.send(data)
+        self._outputs = image
 
     def safe(self) -> None:
         """Sends every output port, whatever was sent before. Raises PortLost."""
+        self._watch.forget()
         self._line.send_first(self._safe)
         self._outputs = SAFE_IMAGE
+
+    @property
+    def vouched(self) -> int:
+        """How many of the images put out came before the board's last right answer."""
+        return self._watch.vouched
 
     def close(self) -> None:
         """Makes the outputs safe, if the board still answers, and gives the line back."""
@@ -76,7 +100,8 @@ def open_firmata(board: Board, address: str, wiring: Wiring, listen_s: float = L
     except BaseException:
         line.close()
         raise
-    return FirmataCard(line, pins, firmware)
+    watch = Watch(name, pins.witnesses(), BITS_A_BYTE / baud, 1 / wiring.tick_hz)
+    return FirmataCard(line, pins, firmware, watch)
 
 
 def max_tick_hz(board: Board, address: str, wiring: Wiring, moving_axes: Iterable[int]) -> int | None:

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import serial
 
-from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, Decoder, Firmware, Message
+from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, Decoder, Firmware, Message, Version
 from drillctl.ports import LONGEST_WAIT_S, PortLost, PortRefused, PortSlow
 
 OLDEST_FIRMWARE = (2, 3)
@@ -53,6 +53,7 @@ class FirmataLine:
         if firmware.version < OLDEST_FIRMWARE:
             found, oldest = ("{}.{}".format(*version) for version in (firmware.version, OLDEST_FIRMWARE))
             raise PortRefused(self.name, f"firmware {firmware.name} {found} is too old; upload {oldest} or newer")
+        self._earlier.clear()  # reports and answers that an earlier run has asked for
         return firmware
 
     def send(self, data: bytes) -> None:
@@ -90,6 +91,10 @@ class FirmataLine:
         if message is None:
             raise PortRefused(self.name, "the board answers no more; press its reset button and start again")
         return message
+
+    def forget_greetings(self) -> None:
+        """Called after an answer: what greeted before it was asked to. Whatever greets from now on was reset."""
+        self._earlier = [message for message in self._earlier if not isinstance(message, Firmware | Version)]
 
     def close(self) -> None:
         """Gives the line back."""

@@ -56,6 +56,7 @@ class Pins:
         self._inputs = [self._pin(board.inputs, bit) for bit in bits_of(wiring.inputs)]
         if both := set(self._outputs) & set(self._inputs):
             raise PortRefused(name, f"the machine's wiring has D{min(both)} both as output and as input")
+        self._spare = [] if self._inputs else self._unused_input(board)
         used = {pin // PORT_PINS for pin in self._outputs}
         self._written = [(PORT_PINS * n, port) for n, port in enumerate(board.outputs) if port in used]
         self._pull_ups = [0] * PORTS
@@ -70,6 +71,13 @@ class Pins:
         if pin in SERIAL_PINS:
             raise PortRefused(self._name, f"the machine uses bit {bit}, and D{pin} is the serial line's own")
         return pin
+
+    def _unused_input(self, board: Board) -> list[int]:
+        """A pin that the machine leaves free, to be made an input without pull-up, as the AVR itself has it at first:
+        what tells a reset where there is no sensor. Empty where all are in use."""
+        first = PORT_PINS * board.inputs[0]
+        free = set(range(first, first + PORT_PINS)) - {*self._outputs, *SERIAL_PINS}
+        return sorted(free)[:1]
 
     def facts(self) -> tuple[str, str]:
         """The pins that a machine uses, in words."""
@@ -108,12 +116,23 @@ class Pins:
         line.send(b"".join(set_pin_mode(pin, PinMode.OUTPUT) for pin in self._outputs))
         line.send(b"".join(self.messages(SAFE_IMAGE)))
         line.send(b"".join(map(report_port, ports)))
-        for pin in (*self._outputs, *self._inputs, *self._inputs[:1]):
+        line.send(b"".join(set_pin_mode(pin, PinMode.INPUT) for pin in self._spare))
+        for pin in (*self._outputs, *self._inputs, *self._inputs[:1], *self._spare):
             self._check(pin, line.answer(query_pin(pin), PinState))
+            line.forget_greetings()
+
+    def witnesses(self) -> dict[int, PinState | None]:
+        """Pins that a reset makes outputs, with what they answer until then. Where every pin is an output already, one
+        of them, with None: that it answers is all that can be said of it."""
+        inputs = (*self._inputs, *self._spare)
+        return {pin: self._wanted(pin) for pin in inputs} or dict.fromkeys(self._outputs[:1])
+
+    def _wanted(self, pin: int) -> PinState:
+        mode = PinMode.OUTPUT if pin in self._outputs else PinMode.INPUT
+        return PinState(pin, mode, state=int(pin in self._inputs))
 
     def _check(self, pin: int, answer: PinState) -> None:
-        is_input = pin in self._inputs
-        mode, state = (PinMode.INPUT, 1) if is_input else (PinMode.OUTPUT, 0)
-        if answer != PinState(pin, mode, state):
-            kind = "an input with pull-up" if is_input else "a low output"
+        if answer != self._wanted(pin):
+            pull_up = "with pull-up" if pin in self._inputs else "without pull-up"
+            kind = "a low output" if pin in self._outputs else f"an input {pull_up}"
             raise PortRefused(self._name, f"D{pin} did not become {kind}; is it StandardFirmata, unmodified?")

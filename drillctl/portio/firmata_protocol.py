@@ -2,7 +2,7 @@
 
 Rule: there is no checksum and no acknowledgement, so the decoder never raises: what it can't understand it skips, and
 the next whole message is understood again. Source: protocol.md of the firmata/protocol project, version 2.5.
-Used by firmata_line.py, firmata_pins.py and firmata.py.
+Used by the other files of Firmata beside it.
 """
 
 from collections.abc import Callable
@@ -12,6 +12,7 @@ from enum import IntEnum
 DIGITAL_MESSAGE = 0x90  # | port, low seven bits, high bit: eight pins at once, either way
 REPORT_DIGITAL = 0xD0  # | port, 0 or 1
 SET_PIN_MODE = 0xF4
+REPORT_VERSION = 0xF9  # major, minor
 START_SYSEX, END_SYSEX = 0xF0, 0xF7
 PIN_STATE_QUERY, PIN_STATE_RESPONSE = 0x6D, 0x6E
 REPORT_FIRMWARE = 0x79
@@ -47,6 +48,14 @@ class Firmware:
 
 
 @dataclass(frozen=True, slots=True)
+class Version:
+    """Of the protocol: sent unasked by a board that starts, before its firmware."""
+
+    major: int
+    minor: int
+
+
+@dataclass(frozen=True, slots=True)
 class PinState:
     """A pin's mode, and what was last written to it: for an input, 1 where its pull-up is on."""
 
@@ -55,7 +64,7 @@ class PinState:
     state: int
 
 
-Message = DigitalReport | Firmware | PinState
+Message = DigitalReport | Firmware | PinState | Version
 
 
 def write_port(port: int, value: int) -> bytes:
@@ -100,8 +109,8 @@ class Decoder:
         self._begun.append(byte)
         if byte == END_SYSEX:
             return self._ended(_sysex)
-        if self._begun[0] & 0xF0 == DIGITAL_MESSAGE and len(self._begun) == MESSAGE_BYTES:
-            return self._ended(_digital)
+        if len(self._begun) == MESSAGE_BYTES and (read := _short_message(self._begun[0])):
+            return self._ended(read)
         if len(self._begun) > LONGEST_SYSEX_BYTES or self._begun[0] < 0x80:
             self._begun.clear()
         return None
@@ -110,6 +119,17 @@ class Decoder:
         message = read(self._begun)
         self._begun.clear()
         return message
+
+
+def _short_message(command: int) -> Callable[[bytearray], Message] | None:
+    """How a message of three bytes is read, by its first one; None for one that is longer or unknown."""
+    if command & 0xF0 == DIGITAL_MESSAGE:
+        return _digital
+    return _version if command == REPORT_VERSION else None
+
+
+def _version(begun: bytearray) -> Version:
+    return Version(begun[1], begun[2])
 
 
 def _digital(begun: bytearray) -> DigitalReport:

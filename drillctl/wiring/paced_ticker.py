@@ -24,6 +24,7 @@ from drillctl.trace.ring import RingRecorder
 from drillctl.wiring.loading import TableSlot, take_tables
 from drillctl.wiring.realtime import become_punctual
 from drillctl.wiring.ticker import Ticker
+from drillctl.wiring.vouched import VouchedStatus
 
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
@@ -47,6 +48,7 @@ class PacedTicker:
             machine, port, plant, ring is not None, derived,
             queue=self.queue, requests=self.requests, gate=self.gate, keeper=ring,
         )  # fmt: skip
+        self.vouched = VouchedStatus(port)
         self.looked_ns = 0
         self.spared = False  # a real machine's clock stands still, and its forcing was taken off
         self.desk = os.getpid()
@@ -126,7 +128,11 @@ class PacedTicker:
 
     def _publish(self) -> None:
         self.channel["ticker_beat_ns"] = time.monotonic_ns()
-        self.channel.publish(self.ticker.report())
+        if (status := self.vouched.newest(self.ticker.report())) is not None:
+            self.channel.publish(status)
+        self._tell_touches()
+
+    def _tell_touches(self) -> None:
         for tool, tag, places in self.ticker.touched:
             padded = (*places, *[0.0] * (MOST_AXES - len(places)))
             os.write(self.touch_end, TOUCH.pack(tool, tag, len(places), *padded))
@@ -148,4 +154,5 @@ class PacedTicker:
     def _end_by(self, fault: Fault) -> None:
         """A fault from beside the tick, which then has no further turn; the outputs go off in ``run``."""
         raise_fault(self.ticker.controller, fault)
-        self._publish()
+        self.channel.publish(self.vouched.last(self.ticker.report()))
+        self._tell_touches()

@@ -12,6 +12,7 @@ from drillctl.portio.firmata_protocol import (
     Message,
     PinMode,
     PinState,
+    Version,
     query_pin,
     report_port,
     set_pin_mode,
@@ -34,11 +35,14 @@ def as_sent(message: Message) -> bytes:
             return b"\xf0\x79" + bytes(version) + text_bytes(name) + b"\xf7"
         case PinState(pin, mode, state):
             return bytes((0xF0, 0x6E, pin, mode, state % 128, state // 128, 0xF7))
+        case Version(major, minor):
+            return bytes((0xF9, major, minor))
 
 
 messages = st.one_of(
     st.builds(DigitalReport, st.integers(0, 15), st.integers(0, 255)),
     st.builds(Firmware, st.tuples(SEVEN_BITS, SEVEN_BITS), st.text(st.characters(max_codepoint=255), max_size=20)),
+    st.builds(Version, SEVEN_BITS, SEVEN_BITS),
     st.builds(PinState, SEVEN_BITS, SEVEN_BITS, st.integers(0, 2**14 - 1)),
 )
 
@@ -96,7 +100,7 @@ def test_an_endless_message_is_dropped_and_takes_no_memory() -> None:
 
 
 @pytest.mark.parametrize(
-    "unknown", ["e0 01 02", "f9 02 05", "f0 71 48 00 f7", "f0 f7", "f0 6e 01 f7", "f7 f7", "01 02 03"]
+    "unknown", ["e0 01 02", "f9 02", "f0 71 48 00 f7", "f0 f7", "f0 6e 01 f7", "f7 f7", "01 02 03"]
 )
 def test_messages_of_no_interest_are_skipped(unknown: str) -> None:
     assert Decoder().feed(bytes.fromhex(unknown)) == []
