@@ -1,7 +1,8 @@
 """GPIO lines of a Linux board (a Raspberry Pi has 26) through libgpiod 2, as the bits of a card.
 
 Rule: which line is which bit stands in a small file, the line map; one request holds all lines, so that each latch
-and each flush is one call to the kernel. Needs the extra ``gpio``. Opened by registry.py.
+and each flush is one call to the kernel. A latch reads the outputs back too: a chip that was reset (an expander on
+I2C, which has a supply of its own) has let go of them. Needs the extra ``gpio``. Opened by registry.py.
 
     chip = "/dev/gpiochip0"
     outputs = { 0 = 17, 1 = 27 }     # output bit = line
@@ -16,7 +17,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol
 
-from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring, bits_of
+from drillctl.ports import SAFE_IMAGE, PortLost, PortRefused, Wiring, bits_of
 
 MOST_LINES = 64  # of one request
 LARGEST_MAP_BYTES = 64 * 1024
@@ -55,20 +56,30 @@ class GpioLines:
         self._request = request
         self._outputs, self._levels = lines.outputs, levels
         self._input_bits = [1 << bit for bit in lines.inputs]
-        self._input_lines = list(lines.inputs.values())
+        self._lines = [*lines.inputs.values(), *lines.outputs.values()]
+        self._put = dict.fromkeys(lines.outputs.values(), levels[0])
+        self._followed: set[int] = set()  # outputs that have read high: some chips read all outputs as low
         self.safe()
 
     def latch(self) -> int:
-        """All inputs. Raises OSError."""
-        if not self._input_lines:
-            return 0
-        levels = self._request.get_values(self._input_lines)
-        high = self._levels[1]
-        return sum(bit for bit, level in zip(self._input_bits, levels, strict=True) if level == high)
+        """All inputs. Raises OSError, and PortLost where an output does not hold what was put out last."""
+        levels = self._request.get_values(self._lines)
+        count = len(self._input_bits)
+        self._read_back(levels[count:])
+        return sum(bit for bit, level in zip(self._input_bits, levels[:count], strict=True) if level == self._levels[1])
+
+    def _read_back(self, levels: list[Any]) -> None:
+        for (line, put), level in zip(self._put.items(), levels, strict=True):
+            if level == put == self._levels[1]:
+                self._followed.add(line)
+            elif level != put and line in self._followed:
+                reason = f"line {line} does not hold what was put out: its chip was reset, or it is shorted"
+                raise PortLost("gpio", f"{reason}; check supply and wiring, then initialise again")
 
     def flush(self, image: int) -> None:
         """All outputs, in one call. Raises OSError."""
-        self._request.set_values({line: self._levels[image >> bit & 1] for bit, line in self._outputs.items()})
+        self._put = {line: self._levels[image >> bit & 1] for bit, line in self._outputs.items()}
+        self._request.set_values(self._put)
 
     def safe(self) -> None:
         """All outputs low. Raises OSError."""

@@ -10,7 +10,7 @@ import pytest
 
 from drillctl.portio import gpiod_lines
 from drillctl.portio.gpiod_lines import GpioLines, LineMap, open_gpio, read_line_map
-from drillctl.ports import PortRefused, Wiring
+from drillctl.ports import PortLost, PortRefused, Wiring
 from tests.portio.test_conformance import FakeRequest
 
 WIRING = Wiring(500, 0, (0b11,), 0b100, 0b10)
@@ -52,6 +52,32 @@ def test_a_bad_line_map_is_refused(tmp_path: Path, old: str, new: str, reason: s
 def test_no_line_map(file: str) -> None:
     with pytest.raises(PortRefused, match=r"Name a line map|can't be read"):
         read_line_map(file, WIRING)
+
+
+def test_an_output_that_lets_go_is_a_lost_port() -> None:
+    """As of a chip that was reset, whose lines are inputs again; a level that is pulled up reads wrong as well."""
+    for image, level in ((0b110, "low"), (0b010, "high")):
+        request = FakeRequest()
+        card = GpioLines(request, LineMap("chip", {1: 2, 2: 3}, {0: 1}), ("low", "high"))
+        for put in (0b100, 0, image):
+            card.flush(put)
+            card.latch()
+        request.levels[3] = level
+        with pytest.raises(PortLost, match="line 3 does not hold"):
+            card.latch()
+
+
+def test_a_chip_that_reads_its_outputs_as_low_is_no_lost_port() -> None:
+    """The kernel lets a chip's driver do so."""
+
+    class Blind(FakeRequest):
+        def get_values(self, lines: list[int]) -> list[str]:
+            return ["high" if line == 1 else "low" for line in lines]
+
+    card = GpioLines(Blind(), LineMap("chip", {1: 2, 2: 3}, {0: 1}), ("low", "high"))
+    for image in (0b110, 0, 0b010):
+        card.flush(image)
+        assert card.latch() == 1
 
 
 def test_each_flush_is_one_call() -> None:
