@@ -5,7 +5,7 @@
     mapped.py            the same with its image in a file that outlives a crash
     playback.py          a card whose inputs are a recording's
     recording.py         around any other: keeps what went through
-    firmata.py           an Arduino on a serial line: firmata_pins, firmata_line, firmata_protocol below it
+    firmata.py           an Arduino on a serial line: firmata_pins, _line, _protocol and _watch below it
     pcl720.py            the paper's own card, through /dev/port
     gpiod_lines.py       the lines of a Raspberry Pi and its like
 
