@@ -5,6 +5,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.inputs import real_path
+
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
     from drillctl.generation.job import Job
@@ -40,7 +42,7 @@ def recipe(arguments: argparse.Namespace) -> "Recipe":
 
     machine = arguments.machine
     return Recipe(
-        machine=str(Path(machine).resolve()) if machine.endswith(".toml") else machine,
+        machine=str(real_path(machine)) if machine.endswith(".toml") else machine,
         tables=_absolute(arguments.tables),
         tick_hz=arguments.tick_hz,
         origin=arguments.origin,
@@ -59,7 +61,7 @@ def recipe(arguments: argparse.Namespace) -> "Recipe":
 
 
 def _absolute(path: Path | None) -> str | None:
-    return None if path is None else str(path.resolve())
+    return None if path is None else str(real_path(path))
 
 
 def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":

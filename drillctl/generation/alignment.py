@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from drillctl.generation.measured import MAX_BYTES, AlignmentError, Millimetres, parse
 from drillctl.generation.placing import Affine
+from drillctl.inputs import read_bytes
 
 COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
 SHORT_SPAN_MM = 10.0  # 0.1 mm of error over this length is half a degree of turn
@@ -74,8 +75,7 @@ class Alignment:
 def load(path: Path, *, mirrored: bool = False) -> Alignment:
     """Read an alignment file and fit it. Raises AlignmentError, with FILE:LINE:COLUMN where it can."""
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
+        data = read_bytes(path, MAX_BYTES, "a list of holes")
     except OSError as error:
         raise AlignmentError(f"{path}: cannot be read: {error.strerror}") from error
     measured = parse(data, name=str(path))

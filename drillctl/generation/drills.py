@@ -13,7 +13,6 @@ from a TOML file (``--drills``):
 Called by worklist.py.
 """
 
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,9 +21,10 @@ from typing import Annotated
 import msgspec
 
 from drillctl.generation.errors import JobError
+from drillctl.machine import TableError
+from drillctl.machine.source import Source
 
 DEFAULT_TOLERANCE_MM = 0.05
-LARGEST_TABLE_BYTES = 256 * 1024
 Diameter = Annotated[float, msgspec.Meta(gt=0, le=50)]
 Tolerance = Annotated[float, msgspec.Meta(ge=0, le=5)]
 Hits = Annotated[int, msgspec.Meta(ge=0)]
@@ -73,13 +73,9 @@ class DrillTable:
 def read_drills(file: Path) -> DrillTable:
     """Reads a drill table. Raises JobError naming file, place and reason."""
     try:
-        if file.stat().st_size > LARGEST_TABLE_BYTES:
-            raise JobError([f"{file}: larger than {LARGEST_TABLE_BYTES // 1024} KiB: not a drill table"])
-        raw = msgspec.convert(tomllib.loads(file.read_text("utf-8")), _File)
-    except OSError as error:
-        raise JobError([f"{file}: can't be read: {error.strerror}"]) from error
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
-        raise JobError([f"{file}: {error}"]) from error
+        raw = Source.read(file).records(_File)
+    except TableError as error:
+        raise JobError([str(error)]) from error
     return DrillTable(tuple(raw.drill), raw.tolerance_mm)
 
 

@@ -16,6 +16,7 @@ from drillctl.generation.placing import Affine
 from drillctl.generation.program import board_program
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import Group, WorkList, build
+from drillctl.inputs import read_bytes
 from drillctl.kmd import KmdError, Names, parse_program, to_text
 from drillctl.machine import Machine
 
@@ -149,9 +150,8 @@ def names_of(machine: Machine) -> Names:
 
 def _queue_job(path: Path, machine: Machine) -> Job:
     try:
-        if path.stat().st_size > LARGEST_QUEUE_BYTES:
-            raise JobError([f"{path}: larger than {LARGEST_QUEUE_BYTES >> 20} MiB: not a queue"])
-        program = parse_program(path.read_text("utf-8"), names_of(machine), str(path))
+        text = read_bytes(path, LARGEST_QUEUE_BYTES, "a queue").decode()
+        program = parse_program(text, names_of(machine), str(path))
     except OSError as error:
         raise JobError([f"{path}: can't be read: {error.strerror}"]) from error
     except UnicodeDecodeError as error:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from drillctl.generation.job import Job
+from drillctl.inputs import json_of, opened, read_bytes, real_path
 
 FORMAT = 1
 MAGIC = b'{"drillctl-journal": '  # how the first line begins
@@ -164,12 +165,13 @@ def read_journal(file: Path) -> Account:
 def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
     """The first line for a job that was made from a file. Raises JournalError where that can't be read."""
     try:
-        file_digest = hashlib.sha256(file.read_bytes()).hexdigest()
+        with opened(file) as stream:
+            file_digest = hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError as error:
         raise JournalError(f"{file}: can't be read: {error.strerror}") from error
     program_digest = hashlib.sha256(job.program.tobytes()).hexdigest()
     machine = job.machine
-    where = str(file.resolve())
+    where = str(real_path(file))
     return Head(where, file_digest, program_digest, machine.name, machine.digest, job.holes_total, options)
 
 
@@ -215,12 +217,7 @@ def _sync_folder(folder: Path) -> None:
 
 def _bytes(file: Path) -> bytes:
     try:
-        if not file.is_file():
-            file.open("rb").close()  # a missing file or a folder raises
-            raise JournalError(f"{file}: a device or a pipe: not a journal")
-        if file.stat().st_size > LARGEST_JOURNAL_BYTES:
-            raise JournalError(f"{file}: larger than {LARGEST_JOURNAL_BYTES >> 20} MiB: not a journal")
-        return file.read_bytes()
+        return read_bytes(file, LARGEST_JOURNAL_BYTES, "a journal")
     except OSError as error:
         raise JournalError(f"{file}: can't be read: {error.strerror}") from error
 
@@ -230,7 +227,7 @@ def _lines(file: Path) -> tuple[list[dict[str, Any]], bool]:
     found = []
     for number, line in enumerate(whole.split(b"\n") if whole else [], start=1):
         try:
-            parsed = json.loads(line)
+            parsed = json_of(line)
         except ValueError:
             parsed = None
         if not isinstance(parsed, dict):

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from drillctl.generation.journal import Account, JournalError, read_journal
+from drillctl.inputs import opened
 
 MOST_LOOKED_AT = 20
 LAST_LINE_BYTES = 64
@@ -49,9 +50,9 @@ def _newest(folder: Path) -> list[Path]:
 
 def _ended_well(file: Path) -> bool:
     """Told by its last line alone, so that finished journals cost nothing."""
-    with file.open("rb") as stream:
-        stream.seek(max(0, file.stat().st_size - LAST_LINE_BYTES))
-        return stream.read().endswith(FINISHED)
+    with opened(file) as stream:
+        stream.seek(max(0, os.fstat(stream.fileno()).st_size - LAST_LINE_BYTES))
+        return stream.read(LAST_LINE_BYTES).endswith(FINISHED)
 
 
 def _read(file: Path) -> Account:
@@ -62,7 +63,7 @@ def _read(file: Path) -> Account:
 @contextmanager
 def _alone(file: Path) -> Iterator[None]:
     """As long as nobody writes it; lets go of it afterwards. Raises JournalError, OSError."""
-    with file.open("rb") as stream:
+    with opened(file) as stream:
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:

@@ -10,11 +10,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import BinaryIO
 
+from drillctl.inputs import check_kind
 from drillctl.lab.answers import head
 from drillctl.lab.errors import LabError
 from drillctl.lab.question import Question
 
 MAGIC = "# drillctl-sweep 1"
+LONGEST_ROW_BYTES = 4096
 
 
 class Results:
@@ -22,7 +24,7 @@ class Results:
 
     def __init__(self, path: Path, question: Question):
         self.path = path
-        self._file: BinaryIO = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b")
+        self._file: BinaryIO = _opened(path)
         try:
             _lock(self._file, path)
             self.rows = self._begun(question)
@@ -44,8 +46,12 @@ class Results:
 
     def _begun(self, question: Question) -> int:
         """How many rows there are, with the file ready for the next; a new one gets its first lines."""
-        *whole, torn = self._file.read().split(b"\n")
-        wanted = [f"{MAGIC} {question.digest}".encode(), head(question).encode()]
+        limit = (question.machines + len(_first_lines(question))) * LONGEST_ROW_BYTES
+        data = self._file.read(limit + 1)
+        if len(data) > limit:
+            raise LabError(f"{self.path}: larger than any answer to this question; give the new one another file")
+        *whole, torn = data.split(b"\n")
+        wanted = _first_lines(question)
         begun = wanted[0].startswith(torn) if not whole else whole[:2] == wanted[: len(whole)]
         if not begun:
             raise LabError(f"{self.path}: {_what_else(whole)}; give the new one another file")
@@ -55,6 +61,22 @@ class Results:
         self._file.write(b"".join(line + b"\n" for line in wanted[len(whole) :]))
         self._file.flush()
         return max(len(whole) - len(wanted), 0)
+
+
+def _first_lines(question: Question) -> list[bytes]:
+    """How the file begins."""
+    return [f"{MAGIC} {question.digest}".encode(), head(question).encode()]
+
+
+def _opened(path: Path) -> BinaryIO:
+    """For reading and writing, made where there is none. Raises OSError, too for what is no file."""
+    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK, 0o666)
+    try:
+        check_kind(os.fstat(handle), path)
+        return os.fdopen(handle, "r+b")
+    except OSError:
+        os.close(handle)
+        raise
 
 
 def _what_else(whole: list[bytes]) -> str:

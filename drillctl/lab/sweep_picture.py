@@ -11,10 +11,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.inputs import read_bytes
 from drillctl.lab.answers import FIXED_TAIL
-from drillctl.lab.question import Question
+from drillctl.lab.question import MOST_MACHINES, Question
+from drillctl.lab.results import LONGEST_ROW_BYTES
 from drillctl.panel.picture import Chart, Curve, Picture, Style
 
+LARGEST_RESULTS_BYTES = MOST_MACHINES * LONGEST_ROW_BYTES
 MOST_LINES = 8
 TICK_HZ = 2  # the first factor that is a number; the last, the draw, is none to look at
 LOST = FIXED_TAIL.index("lost") - len(FIXED_TAIL)
@@ -23,8 +26,7 @@ Factor = tuple[str, tuple[float, ...] | tuple[str, ...]]
 
 def losing(path: Path) -> NDArray[np.bool_]:
     """(machines,): which of them lost steps in any move, from a whole results file."""
-    with path.open(encoding="utf-8") as file:
-        rows = file.read().splitlines()[2:]
+    rows = read_bytes(path, LARGEST_RESULTS_BYTES, "a results file").decode().splitlines()[2:]
     return np.array([row.split(",")[LOST] != "0" for row in rows])
 
 

@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
+from drillctl.inputs import json_of
 from drillctl.machine.config import parse_machine
 from drillctl.machine.model import Machine
 from drillctl.machine.parts import Parts
@@ -21,7 +22,7 @@ def bundle(machine: Machine) -> str:
 
 def unbundle(text: str) -> Machine:
     """The machine of a bundle. Raises TableError, naming the file that is wrong."""
-    told = json.loads(text)
+    told = json_of(text)
     sources = [Source(Path(file), content) for file, content in told["files"]]
     return parse_machine(sources[0], told["shipped"], _BundledParts(sources))
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from drillctl.inputs import read_bytes, real_path
 from drillctl.machine.config import parse_machine
 from drillctl.machine.dynamics import parse_dynamics
 from drillctl.machine.errors import TableError
@@ -16,7 +17,7 @@ from drillctl.machine.motor import parse_motor
 from drillctl.machine.parts import Parts, find_table
 from drillctl.machine.phase import parse_phase
 from drillctl.machine.ramp import parse_ramp
-from drillctl.machine.source import Source
+from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -47,7 +48,7 @@ class Library:
         In a checkout ``./tables`` is the shipped folder itself; it then has the last word only, not the first.
         """
         shipped, project = shipped_tables(), Path("tables")
-        own = [] if project.resolve() == shipped else [project]
+        own = [] if real_path(project) == shipped else [project]
         return cls((*([extra] if extra else []), *own, user_tables(), shipped))
 
     def machine_names(self) -> list[str]:
@@ -90,7 +91,7 @@ class Library:
         return Library((_tables_beside(source.file), *self.folders))._parse(source)
 
     def _parse(self, source: Source) -> Machine:
-        shipped = shipped_tables() in source.file.resolve().parents
+        shipped = shipped_tables() in real_path(source.file).parents
         machine = parse_machine(source, shipped, Parts(self.folders, source.file))
         return machine if shipped else replace(machine, shipped=_same_as_shipped(machine.files))
 
@@ -135,12 +136,16 @@ def _same_as_shipped(files: tuple[str, ...]) -> bool:
 
 
 def _same_bytes(file: Path, other: Path) -> bool:
-    return file.is_file() and other.is_file() and file.read_bytes() == other.read_bytes()
+    return other.is_file() and _bytes(file) == _bytes(other)
+
+
+def _bytes(file: Path) -> bytes:
+    return read_bytes(file, LARGEST_TABLE_BYTES, "a table")
 
 
 def _tables_beside(machine_file: Path) -> Path:
     """The folder whose phase/, ramp/ and motor/ belong to a machine that is given by its file."""
-    folder = machine_file.resolve().parent
+    folder = real_path(machine_file).parent
     return folder.parent if folder.name == "machines" else folder
 
 

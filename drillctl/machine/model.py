@@ -166,7 +166,7 @@ class Machine:
         """What a trace in ``folder`` calls this machine: a shipped one by name, else its file from there."""
         if self.shipped:
             return self.name
-        return Path(os.path.relpath(Path(self.file).resolve(), folder.resolve())).as_posix()
+        return Path(os.path.relpath(os.path.realpath(self.file), os.path.realpath(folder))).as_posix()
 
     @property
     def digest(self) -> str:

@@ -9,7 +9,6 @@ I2C, which has a supply of its own) has let go of them. Needs the extra ``gpio``
     inputs = { 0 = 5 }               # input bit = line; with pull-up, so a switch closes to ground
 """
 
-import tomllib
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol
 
+from drillctl.inputs import read_bytes, toml_of
 from drillctl.ports import SAFE_IMAGE, PortLost, PortRefused, Wiring, bits_of
 
 MOST_LINES = 64  # of one request
@@ -141,8 +141,7 @@ def _read(file: str) -> dict[str, Any]:
     if not file:
         raise PortRefused("gpio", "which bit is which line? Name a line map: gpio:FILE")
     try:
-        with open(file, "rb") as stream:
-            return tomllib.loads(stream.read(LARGEST_MAP_BYTES).decode())
+        return toml_of(read_bytes(file, LARGEST_MAP_BYTES, "a line map").decode())
     except OSError as error:
         raise PortRefused("gpio", f"{file}: can't be read: {error.strerror}") from error
     except ValueError as error:

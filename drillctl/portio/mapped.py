@@ -13,6 +13,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from drillctl.inputs import read_start
 from drillctl.ports import CARD_BITS, SAFE_IMAGE, Driver, PortRefused, Wiring, word
 
 MAGIC = int.from_bytes(b"DRIL", "little")
@@ -83,8 +84,7 @@ def open_mapped(address: str, wiring: Wiring, card: Driver) -> MappedCard:
 
 def read_map(file: Path) -> CardMap:
     """A look at a mapped card, of a run or after it. Raises PortRefused for any other file, OSError for none."""
-    with file.open("rb") as stream:
-        data = stream.read(LARGEST_FILE_BYTES + 1)
+    data = read_start(file, LARGEST_FILE_BYTES + 1)
     words = memoryview(data[: len(data) // WORD_BYTES * WORD_BYTES]).cast("I")
     if not _is_map(words):
         raise PortRefused("mapped", f"{file} is there, and no image of a mapped card")

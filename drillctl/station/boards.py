@@ -20,12 +20,12 @@ from drillctl.generation.journals import give_up, unfinished
 from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.recipe import MeasuredRow, Recipe
+from drillctl.inputs import real_path
 from drillctl.machine import Library, Machine
 from drillctl.panel.console import BoardView, Problems
 from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
 from drillctl.station.recent import RecentJobs
 from drillctl.station.views import board_view
-from drillctl.station.wholefile import keeps_waiting
 from drillctl.station.workingbase import Base
 from drillctl.wiring.desk import Desk
 from drillctl.wiring.estimate import foresee
@@ -63,8 +63,6 @@ class Boards:
 
     def load(self, file: Path, asked: Asked, machine: Machine, base: Base) -> Problems:
         """A drill file, as asked."""
-        if problems := keeps_waiting(file) or (keeps_waiting(Path(asked.drills)) if asked.drills else ()):
-            return problems
         recipe = recipe_of(asked, machine, base)
         if problems := self._planned(file, recipe, machine):
             return problems
@@ -175,9 +173,9 @@ def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
 
 def _reference(machine: Machine) -> str:
     """By its name where that leads to it, else by its file."""
-    file = Path(machine.file).resolve()
+    file = real_path(machine.file)
     named = Library.standard().find("machines", machine.name)
-    return machine.name if named is not None and named.resolve() == file else str(file)
+    return machine.name if named is not None and real_path(named) == file else str(file)
 
 
 def align(measured: tuple[Measured, ...], face_down: bool) -> tuple[Alignment | None, Problems]:
@@ -201,6 +199,8 @@ def _row(hole: Measured) -> MeasuredRow:
 
 
 def _problems(error: Exception) -> Problems:
+    if isinstance(error, OSError):
+        return (f"{error.filename}: can't be read: {error.strerror}",)
     return tuple(str(error).splitlines())
 
 

@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from drillctl.generation.job import names_of
+from drillctl.inputs import read_bytes
 from drillctl.kmd import COMMANDS, KmdError, Names, Op, parse_program
 from drillctl.kmd.commands import BY_OP, Form
 from drillctl.machine import Machine
 from drillctl.panel.console import Problems
 from drillctl.panel.queues import CommandHelp
 from drillctl.panel.tables import Finding
-from drillctl.station.wholefile import keeps_waiting
 from drillctl.wiring.outputs import write_text
 
 MOVES = (Form.XY, Form.MOVES)  # their arguments are steps, by axis
@@ -45,18 +45,13 @@ class QueueBench:
 
     def open_queue(self, file: str) -> tuple[str, Problems]:
         """UTF-8."""
-        if problems := keeps_waiting(Path(file)):
-            return "", problems
         try:
-            with Path(file).open("rb") as stream:
-                data = stream.read(LARGEST_QUEUE_BYTES + 1)
-            if len(data) > LARGEST_QUEUE_BYTES:
-                return "", (f"{file}: larger than {LARGEST_QUEUE_BYTES // 1024} KiB: run it without editing it",)
+            data = read_bytes(file, LARGEST_QUEUE_BYTES, "a queue to be edited; run it as it is")
             return data.decode("utf-8-sig"), ()
         except UnicodeDecodeError:
             return "", (f"{file}: not UTF-8 text, so not a queue",)
-        except (OSError, ValueError) as error:  # ValueError: a null character in the name
-            return "", (f"{file}: can't be read: {getattr(error, 'strerror', error)}",)
+        except OSError as error:
+            return "", (f"{file}: can't be read: {error.strerror}",)
 
     def save_queue(self, file: str, text: str) -> Problems:
         """Sound or not: a queue may be kept unfinished."""

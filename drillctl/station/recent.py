@@ -10,6 +10,7 @@ from pathlib import Path
 
 import msgspec
 
+from drillctl.inputs import read_bytes, real_path
 from drillctl.panel.jobs import Asked, RecentJob
 from drillctl.wiring.outputs import write_text
 
@@ -30,15 +31,14 @@ class RecentJobs:
     def read(self) -> list[RecentJob]:
         """Never raises for what the file holds."""
         try:
-            with self.file.open("rb") as stream:
-                data = stream.read(LARGEST_LIST_BYTES)
+            data = read_bytes(self.file, LARGEST_LIST_BYTES, "a list of jobs")
             return msgspec.json.decode(data, type=_File).recent[:MOST_RECENT]
         except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return []
 
     def add(self, file: Path, asked: Asked) -> None:
         """To the front. A file whose name is not Unicode can't be listed."""
-        newest = RecentJob(str(file.resolve()), asked)
+        newest = RecentJob(str(real_path(file)), asked)
         others = [job for job in self.read() if job.file != newest.file]
         with suppress(UnicodeEncodeError):
             write_text(self.file, msgspec.json.encode(_File([newest, *others][:MOST_RECENT])).decode())

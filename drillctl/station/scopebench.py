@@ -8,7 +8,6 @@ from drillctl.station.operating import BUSY
 from drillctl.station.scope import Recording
 from drillctl.station.station import Station
 from drillctl.station.tracefile import TraceFile
-from drillctl.station.wholefile import keeps_waiting
 from drillctl.trace import TraceError
 
 
@@ -26,8 +25,6 @@ class ScopeBench:
         """Refused while the machine is at work: reading a long file takes longer than a ticker waits for its desk."""
         if self._station.at_work:
             return None, (BUSY,)
-        if problems := keeps_waiting(Path(file)):
-            return None, problems
         try:
             return TraceFile(Path(file), self._library), ()
         except (TraceError, TableError) as error:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.generation.job import Job, names_of
+from drillctl.inputs import real_path
 from drillctl.kmd import Condition, to_text
 from drillctl.machine import AxisTable, Library, Machine, TableError
 from drillctl.panel import fault_report
@@ -111,7 +112,7 @@ def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None) -> Boa
     tool = np.concatenate([np.full(group.stop - group.start, i) for i, group in enumerate(work.groups)])
     return BoardView(
         name=file.name,
-        file=str(file.resolve()),
+        file=str(real_path(file)),
         xy_mm=work.steps / scale,
         file_xy_mm=work.hits.xy_mm,
         tool=tool.astype(np.int64),

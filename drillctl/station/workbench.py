@@ -90,7 +90,7 @@ class Workbench:
     def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
         """From an empty file for a table that does not come with the program."""
         shipped = self._shipped(kind, name)
-        before = shipped.read_text("utf-8") if shipped.is_file() else ""
+        before = Source.read(shipped).text if shipped.is_file() else ""
         names = (f"shipped {name}", f"this {name}")
         return tuple(difflib.unified_diff(before.splitlines(), text.splitlines(), *names, lineterm=""))
 

@@ -10,12 +10,12 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO, StringIO
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.inputs import read_bytes, read_start
 from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Trace
 from drillctl.trace.segments import OUTPUT, Segments
@@ -25,6 +25,7 @@ from drillctl.trace.values import Values
 
 MAGIC = b"drillctl-segments 1\n"
 LEVEL = 6
+LARGEST_FILE_BYTES = 1 << 28
 LARGEST_BYTES = 1 << 31  # unpacked; what claims more is no file of ours
 COUNT = struct.Struct("<Q")
 SUMS = struct.Struct("<QIBBB")  # ticks, CRC-32 of the images, bits of an image, tapes, 1: commands without numbers
@@ -35,8 +36,7 @@ Pairs = tuple[tuple[str, str], ...]
 
 def is_segments(path: str | os.PathLike[str]) -> bool:
     """Whether the file begins as segments. Raises OSError as `open`."""
-    with open(path, "rb") as file:
-        return file.read(len(MAGIC)) == MAGIC
+    return read_start(path, len(MAGIC)) == MAGIC
 
 
 def segment_bytes(segments: Segments) -> bytes:
@@ -56,7 +56,7 @@ def segment_bytes(segments: Segments) -> bytes:
 
 def read_segments(path: str | os.PathLike[str]) -> Segments:
     """The segments in a file. Raises TraceError for a file that is not whole, OSError as `open`."""
-    data = Path(path).read_bytes()
+    data = read_bytes(path, LARGEST_FILE_BYTES, "a trace")
     if not data.startswith(MAGIC):
         raise TraceError(str(path), None, f"not segments: the first line must be {MAGIC.decode().strip()!r}")
     try:

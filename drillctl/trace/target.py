@@ -7,7 +7,10 @@ allows, so the reader can name the line it stands in. Called by text, reader and
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TextIO, cast
+from io import TextIOWrapper
+from typing import TextIO
+
+from drillctl import inputs
 
 Target = str | os.PathLike[str] | TextIO
 
@@ -16,7 +19,8 @@ Target = str | os.PathLike[str] | TextIO
 def opened(target: Target, mode: str) -> Iterator[TextIO]:
     """The text file behind `target`, closed afterwards if it was opened here. Raises OSError as `open`."""
     if isinstance(target, str | os.PathLike):
-        with open(target, mode, encoding="utf-8", errors="surrogateescape", newline="\n") as file:
-            yield cast(TextIO, file)
+        plain = inputs.opened(target) if mode == "r" else open(target, mode + "b")  # noqa: SIM115 - by the next line
+        with TextIOWrapper(plain, "utf-8", "surrogateescape", "\n") as file:
+            yield file
     else:
         yield target

@@ -21,6 +21,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from drillctl.inputs import read_start
 from drillctl.trace.record import Signal, Trace
 from drillctl.trace.target import Target, opened
 from drillctl.trace.values import is_plain, named_signal_kind, quoted
@@ -39,8 +40,7 @@ def is_trace(path: str | os.PathLike[str]) -> bool:
     Raises OSError as `open`. Reads the first bytes only.
     """
     start = f"{MAGIC} ".encode()
-    with open(path, "rb") as file:
-        return file.read(len(start)) == start
+    return read_start(path, len(start)) == start
 
 
 def write_text(trace: Trace, target: Target, *, derived: bool = False) -> None:

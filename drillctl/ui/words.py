@@ -12,6 +12,9 @@ import unicodedata
 from collections.abc import Mapping
 from pathlib import Path
 
+from drillctl.inputs import read_bytes
+
+LARGEST_CATALOGUE_BYTES = 1 << 22
 LOCALE = Path(__file__).resolve().parent.parent / "locale"
 LANGUAGES = ("en", "pl")
 ENTRY = re.compile(r'^msgid ((?:".*"\s*)+)^msgstr ((?:".*"\s*)+)', re.MULTILINE)
@@ -40,7 +43,7 @@ def catalogue(text: str) -> dict[str, str]:
 
 def use(language: str, plain: bool = False) -> None:
     """From now on ``_`` speaks this language, one of LANGUAGES; ``plain``: without accents, for a poor terminal."""
-    words = {} if language == "en" else catalogue(_file(language).read_text("utf-8"))
+    words = {} if language == "en" else catalogue(_text(language))
     if plain:
         words = {source: _without_accents(word) for source, word in words.items()}
     _spoken.words = words
@@ -49,6 +52,10 @@ def use(language: str, plain: bool = False) -> None:
 def spoken_words() -> Mapping[str, str]:
     """The catalogue in use: words by English source; none for English itself."""
     return _spoken.words
+
+
+def _text(language: str) -> str:
+    return read_bytes(_file(language), LARGEST_CATALOGUE_BYTES, "a catalogue").decode()
 
 
 def _file(language: str) -> Path:

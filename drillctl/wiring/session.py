@@ -11,6 +11,7 @@ from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.journal import Account, Head, Journal, check_same, head_of
 from drillctl.generation.recipe import Recipe
+from drillctl.inputs import real_path
 from drillctl.lab import forecast
 from drillctl.machine import Machine
 from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
@@ -79,7 +80,7 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> Rest:
 
 def default_journal(file: Path) -> Path:
     """Where a job's journal is kept when nobody says where: one for each file, wherever that lies."""
-    place = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:8]
+    place = hashlib.sha256(str(real_path(file)).encode()).hexdigest()[:8]
     return journals() / f"{file.stem}-{place}.journal"
 
 

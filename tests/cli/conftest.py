@@ -55,8 +55,9 @@ def drillctl(folder: Path) -> Callable[..., Done]:
 def started(folder: Path) -> Callable[..., "subprocess.Popen[str]"]:
     """Starts the program there; its output goes into pipes."""
 
-    def start(*arguments: str) -> "subprocess.Popen[str]":
+    def start(*arguments: str, stdin: int | None = None) -> "subprocess.Popen[str]":
         pipe = subprocess.PIPE
-        return subprocess.Popen([*COMMAND, *arguments], cwd=folder, stdout=pipe, stderr=pipe, text=True)
+        call = [*COMMAND, *arguments]
+        return subprocess.Popen(call, cwd=folder, stdin=stdin, stdout=pipe, stderr=pipe, text=True)
 
     return start

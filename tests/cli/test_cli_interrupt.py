@@ -50,20 +50,20 @@ def test_in_the_middle_of_a_queue(number: int, code: int, started: Started, fold
 
 @SIGNALS
 def test_before_anything_runs(number: int, code: int, started: Started, folder: Path) -> None:
-    """The job is a pipe that nobody writes to: the program waits for it."""
-    os.mkfifo(folder / "job.drl")
-    process = started("run", "job.drl", "--trace", "l.trace")
-    silent_end: list[int] = []
+    """The job is standard input, to which nobody writes: the program waits for it."""
+    process = started("run", "/dev/stdin", "--trace", "l.trace", stdin=subprocess.PIPE)
+    own = Path(f"/proc/{process.pid}/fd")
 
     def is_read() -> bool:
-        with suppress(OSError):  # as long as nobody reads it
-            silent_end.append(os.open(folder / "job.drl", os.O_WRONLY | os.O_NONBLOCK))
-        return bool(silent_end)
+        """Opened once more by its name."""
+        with suppress(OSError):  # a descriptor that was closed meanwhile
+            opened = [os.readlink(entry) for entry in own.iterdir()]
+            return opened.count(os.readlink(own / "0")) > 1
+        return False
 
     wait_for(is_read)
     process.send_signal(number)
     out, err = process.communicate(timeout=30)
-    os.close(*silent_end)
     assert (process.returncode, out, err) == (code, "", "")
     assert not list(folder.glob(".*")) and not (folder / "l.trace").exists()
 

@@ -277,7 +277,7 @@ def test_a_queue_is_no_board(station: Station) -> None:
 def test_a_pipe_is_refused_at_once(station: Station, tmp_path: Path) -> None:
     """Opening one waits for whoever writes into it, and the screen with it."""
     os.mkfifo(tmp_path / "pipe.drl")
-    refused = (f"{tmp_path / 'pipe.drl'}: a pipe or a device, not a file",)
+    refused = (f"{tmp_path / 'pipe.drl'}: can't be read: a pipe or a device, not a file",)
     assert station.load(str(tmp_path / "pipe.drl"), Asked()) == refused
     assert QueueBench(lambda: station.machine).open_queue(str(tmp_path / "pipe.drl")) == ("", refused)
     assert station.load(str(BLINKER), Asked(drills=str(tmp_path / "pipe.drl"))) == refused

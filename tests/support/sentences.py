@@ -32,13 +32,13 @@ def texts(node: ast.AST) -> Iterator[str]:
 
 def trees(*rooms: str) -> Iterator[ast.Module]:
     for room in rooms:
-        for file in sorted((PACKAGE / room).rglob("*.py")):
+        for file in sorted((PACKAGE / room).rglob("*.py")) or [PACKAGE / f"{room}.py"]:
             yield ast.parse(file.read_text("utf-8"))
 
 
 def all_forms() -> set[str]:
     """Every string below the screen that might be told; what msgspec says of a table is put plainly by machine."""
-    rooms = trees("generation", "station", "wiring", "machine", "kmd")
+    rooms = trees("generation", "station", "wiring", "machine", "kmd", "inputs")
     return {without_place(text) for tree in rooms for text in texts(tree)} | OF_MSGSPEC
 
 
@@ -53,7 +53,7 @@ def refusals() -> set[str]:
 
 def editors_findings() -> set[str]:
     """What the editors of queues, tables and the configuration find wrong with a text, or dangerous."""
-    trees_read = [ast.parse((PACKAGE / "kmd/text.py").read_text("utf-8")), *trees("machine")]
+    trees_read = [ast.parse((PACKAGE / "kmd/text.py").read_text("utf-8")), *trees("machine", "inputs")]
     nodes = [node for tree in trees_read for node in ast.walk(tree)]
     called = [node for node in nodes if isinstance(node, ast.Call) and _name(node.func) in {"TableError", "error"}]
     forms = {form for node in nodes if isinstance(node, ast.JoinedStr) for form in texts(node)}

@@ -13,6 +13,8 @@ from typing import BinaryIO
 
 import numpy as np
 
+from drillctl.inputs import opened
+
 from . import checks, sidefiles
 from .afterend import REFUSE
 from .errors import DrillFileError, Refusal, Remark
@@ -32,7 +34,7 @@ def read(path: Path, *, fmt: str | None = None, after_end: str = REFUSE) -> Dril
     (afterend.CHOICES). DrillFileError for anything that is
     no drillable file; OSError when the file cannot be opened.
     """
-    with path.open("rb") as stream:
+    with opened(path) as stream:
         return _decode(stream, path.name, sidefiles.beside(path), fmt, after_end)
 
 

@@ -7,7 +7,10 @@ ncdrill.log, EAGLE's .dri, Protel's .DRR and .TOL, Ultiboard's .rep and bare tab
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
+
+from drillctl.inputs import read_bytes
 
 from .comments import declare, find, patterns
 from .facts import Facts, Voice
@@ -45,8 +48,12 @@ def beside(path: Path) -> dict[str, bytes]:
     """The reports beside a drill file, by name; none of more than BYTE_LIMIT bytes."""
     found = {}
     for near in sorted(path.parent.iterdir()):
-        if _belongs(near, path) and near.is_file() and near.stat().st_size <= BYTE_LIMIT:
-            found[near.name] = near.read_bytes()
+        if _belongs(near, path) and near.is_file():
+            try:
+                found[near.name] = read_bytes(near, BYTE_LIMIT, "a report")
+            except OSError as error:
+                if error.errno != errno.EFBIG:
+                    raise
     return found
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import urwid
 
+from drillctl.inputs import read_start, real_path
 from drillctl.ui.pick import Pick
 from drillctl.ui.words import _
 
@@ -32,7 +33,7 @@ class Browser(urwid.ListBox[int]):
 
     def go_to(self, folder: Path) -> None:
         """Shows another folder."""
-        self.folder = folder.resolve()
+        self.folder = real_path(folder)
         found = list(self._found())
         self._paths = [path for path, _name in found]
         self._rows[:] = [urwid.AttrMap(self._row(*entry), "body", "focus") for entry in found]
@@ -89,8 +90,7 @@ def preview(path: Path) -> list[str]:
     if not path.is_file():
         return []
     try:
-        with path.open("rb") as stream:
-            text = stream.read(PREVIEW_BYTES).decode("latin-1")
+        text = read_start(path, PREVIEW_BYTES).decode("latin-1")
     except OSError as error:
         return [f"({error.strerror})"]
     return ["".join(c if c.isprintable() else "." for c in line) for line in text.splitlines()]

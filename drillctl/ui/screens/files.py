@@ -4,6 +4,7 @@ Rule: every change of placing, order or format reads the file anew; a refused on
 shown of a board comes from its BoardView alone. Opened by the frame and by the Drilling screen.
 """
 
+import os
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Any
 
 import urwid
 
+from drillctl.inputs import real_path
 from drillctl.panel.console import Console, Problems
 from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob
 from drillctl.ui.dialogs import pair_mm
@@ -156,7 +158,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         )
 
         def read(texts: Sequence[str]) -> dict[str, Any]:
-            drills = str(Path(texts[3].strip()).expanduser().resolve()) if texts[3].strip() else None
+            drills = str(real_path(os.path.expanduser(texts[3].strip()))) if texts[3].strip() else None
             depths = {"peck_mm": length_mm(texts[0]), "spot_mm": length_mm(texts[1])}
             return {**depths, "skip_tools": tool_numbers(texts[2]), "drills": drills}
 
@@ -165,7 +167,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def align(self) -> None:
         """By holes measured on the board that is loaded."""
         board = self._console.board()
-        if board is None or not self._loaded.name or Path(board.file) != self._loaded.resolve():
+        if board is None or not self._loaded.name or Path(board.file) != real_path(self._loaded):
             self._shell.message(_("Measured holes"), [_("no board is loaded: open a drill file first")])
         elif self._asked.panel:
             self._shell.message(_("Measured holes"), [_("Measure a single board first, then repeat it in a panel.")])

@@ -1,0 +1,141 @@
+"""Door: every file that the program reads is opened here, and what is TOML or JSON in it is parsed here.
+
+Rule: opening never waits, only regular files are opened (and standard input, whatever it is), and a read stops at its
+limit by counting what it gets: the size that a file system tells is not asked. What is refused is an OSError, as any
+other file that can't be read; its ``strerror`` says why. Called by every reader; imports no other room.
+"""
+
+import errno
+import io
+import json
+import os
+import re
+import stat
+import tomllib
+from pathlib import Path
+from typing import Any
+
+Named = str | os.PathLike[str]
+STANDARD_INPUT = 0  # its descriptor
+KIB = 1024
+CHUNK_BYTES = 1 << 20
+MOST_KEY_PARTS = 32  # of a dotted TOML key: the parser takes the square of their number in time
+_PART = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*(?:{_PART}[ \t]*\.[ \t]*){{{MOST_KEY_PARTS}}}", re.M)
+
+
+def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
+    """The file, open for reading; whoever asks closes it. With a ``limit`` in bytes, reading beyond it is an error.
+
+    Raises OSError: EINVAL for a pipe, a device, a socket or a name that can't be; EFBIG when the limit is passed;
+    EISDIR for a folder; any other as ``open`` does.
+    """
+    try:
+        check_kind(os.stat(file), file)  # a device may not even be touched; what is opened is looked at again
+        handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+    except ValueError as error:  # a null character, or half of a surrogate pair
+        raise OSError(errno.EINVAL, "no name that a file can have", os.fspath(file)) from error
+    try:
+        check_kind(os.fstat(handle), file)
+        os.set_blocking(handle, True)
+    except OSError:
+        os.close(handle)
+        raise
+    plain = os.fdopen(handle, "rb", buffering=0)
+    return io.BufferedReader(plain if limit is None else _Limited(plain, limit, os.fspath(file)))
+
+
+def read_bytes(file: Named, limit: int, what: str) -> bytes:
+    """All of a file. Raises OSError as ``opened``; a file of more than ``limit`` bytes is refused as not being ``what``
+    ("a table"), and no more than that is read.
+    """
+    data = bytearray()
+    with opened(file) as stream:
+        while len(data) <= limit and (chunk := stream.read(min(CHUNK_BYTES, limit + 1 - len(data)))):
+            data += chunk
+    if len(data) > limit:
+        raise OSError(errno.EFBIG, f"larger than {size_words(limit)}: not {what}", os.fspath(file))
+    return bytes(data)
+
+
+def read_start(file: Named, count: int) -> bytes:
+    """The first ``count`` bytes of a file, or what there is of them. Raises OSError as ``opened``."""
+    with opened(file) as stream:
+        return stream.read(count)
+
+
+def toml_of(text: str) -> dict[str, Any]:
+    """A TOML text as plain tables, lists and values. Raises ValueError, which for a fault of syntax is
+    ``tomllib.TOMLDecodeError``.
+    """
+    if found := _LONG_KEY.search(text):
+        line = text.count("\n", 0, found.start()) + 1
+        raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts in line {line}")
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise ValueError("nested too deeply") from error
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError as error:  # int() takes no more than a few thousand digits
+        raise ValueError("a number of thousands of digits") from error
+
+
+def json_of(text: str | bytes) -> Any:
+    """A JSON text as plain values. Raises ValueError, too for one that is nested too deeply."""
+    try:
+        return json.loads(text)
+    except RecursionError as error:
+        raise ValueError("nested too deeply") from error
+
+
+def check_kind(found: os.stat_result, file: Named) -> None:
+    """Raises OSError for what is neither a regular file nor standard input."""
+    if stat.S_ISDIR(found.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), os.fspath(file))
+    if not stat.S_ISREG(found.st_mode) and not _is_standard_input(found):
+        raise OSError(errno.EINVAL, "a pipe or a device, not a file", os.fspath(file))
+
+
+def real_path(path: Named) -> Path:
+    """Without links and dots. A loop of links stays as it is, so that whoever opens it is told of it."""
+    return Path(os.path.realpath(path))
+
+
+def size_words(size_bytes: int) -> str:
+    """As a person says it: 64 KiB, 256 MiB."""
+    large = size_bytes >= KIB * KIB
+    return f"{size_bytes // (KIB * KIB)} MiB" if large else f"{max(size_bytes // KIB, 1)} KiB"
+
+
+class _Limited(io.RawIOBase):
+    """A stream that ends with an error where more than ``limit`` bytes come."""
+
+    def __init__(self, plain: io.RawIOBase | io.FileIO, limit: int, name: str):
+        self._plain, self._left, self._limit, self.name = plain, limit, limit, name
+
+    def readable(self) -> bool:
+        """It is."""
+        return True
+
+    def readinto(self, buffer: Any, /) -> int:
+        """As any raw stream; raises OSError when the limit is passed."""
+        count = self._plain.readinto(buffer) or 0
+        self._left -= count
+        if self._left < 0:
+            raise OSError(errno.EFBIG, f"larger than {size_words(self._limit)}", self.name)
+        return count
+
+    def close(self) -> None:
+        """The file beneath it too."""
+        self._plain.close()
+        super().close()
+
+
+def _is_standard_input(found: os.stat_result) -> bool:
+    """Whether it is what standard input stands for, by whatever name it was opened."""
+    try:
+        mine = os.fstat(STANDARD_INPUT)
+    except OSError:  # closed
+        return False
+    return (found.st_dev, found.st_ino) == (mine.st_dev, mine.st_ino)
