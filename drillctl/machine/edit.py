@@ -12,7 +12,8 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Integer
 
 from drillctl.machine.errors import TableError
-from drillctl.machine.source import Place, Value
+from drillctl.machine.positions import Place
+from drillctl.machine.source import Value
 
 UNSAVED = "table"  # what errors call a text that has no file yet
 

@@ -15,8 +15,9 @@ from typing import Any
 import msgspec
 from msgspec.inspect import FloatType, IntType, LiteralType, StructType, TupleType, Type, type_info
 
+from drillctl.machine.positions import Place
 from drillctl.machine.shape import LAST_BIT, MachineFile
-from drillctl.machine.source import Place, Source, Value
+from drillctl.machine.source import Source, Value
 
 # In the paper's order; those of an axis stand once for each.
 CARD_PLACES: tuple[Place, ...] = (

@@ -6,7 +6,7 @@ Called by phase.py, ramp.py, motor.py and config.py.
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,14 +15,12 @@ import msgspec
 
 from drillctl.inputs import read_bytes, toml_of
 from drillctl.machine.errors import TableError
+from drillctl.machine.positions import key_lines
 
 LARGEST_TABLE_BYTES = 256 * 1024
-Place = tuple[str | int, ...]  # of a value in a file, such as ("axis", 0, "range", 1)
 Value = str | int | float
 RecordT = TypeVar("RecordT", bound=msgspec.Struct)
 
-_HEADER = re.compile(r"\s*\[\[?\s*([^\]]+?)\s*\]")
-_KEY = re.compile(r"\s*(?:\"([^\"]+)\"|'([^']+)'|([A-Za-z0-9_-]+))\s*=")
 _AT = re.compile(r"(.*?) - at `\$\.?(.*)`$", re.S)
 _TOML_LINE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)$", re.S)
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`", re.S)
@@ -88,19 +86,13 @@ class Source:
         return TableError(self.file, reason, self.line_of(*place))
 
     def line_of(self, *place: str | int) -> int | None:
-        """The line, from 1, where a place stands; where its key is not written, the nearest enclosing one."""
-        index = next((part for part in place if isinstance(part, int)), 0)
-        names = [part for part in place if isinstance(part, str)]
-        seen, best = -1, None
-        for number, header, key in _entries(self.text):
-            seen += key is None and header == names[0]
-            inside = (header == names[0] and seen == index) or header in {f"{names[0]}.{name}" for name in names[1:]}
-            within = names[1:] if inside else names[:1] if not header else []
-            if key in within or (inside and key is None):
-                best = number
-            if key in within and key == names[-1]:
-                return number
-        return best
+        """The line, from 1, where a place of this sound TOML text stands.
+
+        Where its key is not written: that of the nearest table around it, None where there is none.
+        """
+        lines = key_lines(self.text)
+        known = (place[:length] for length in range(len(place), 0, -1))
+        return next((lines[found] for found in known if found in lines), None)
 
     def _shape_error(self, message: str) -> TableError:
         found = _AT.match(message)
@@ -110,17 +102,6 @@ class Source:
         line = self.line_of(*place, *([unknown[1]] if unknown else [])) if place or unknown else None
         where = f"{path}: " if path else ""
         return TableError(self.file, f"{where}{_plainly(reason)}", line)
-
-
-def _entries(text: str) -> Iterator[tuple[int, str, str | None]]:
-    """Headers and keys of a TOML text: (line from 1, the header it stands under, key or None for the header)."""
-    header = ""
-    for number, line in enumerate(text.split("\n"), start=1):
-        if found := _HEADER.match(line):
-            header = found[1]
-            yield number, header, None
-        elif found := _KEY.match(line):
-            yield number, header, found[1] or found[2] or found[3]
 
 
 def _plainly(reason: str) -> str:

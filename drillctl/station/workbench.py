@@ -12,9 +12,10 @@ from drillctl.machine import Library, Machine, TableError, intervals, shipped_ta
 from drillctl.machine.edit import UNSAVED, set_pattern, set_reverse, set_state_row, set_value
 from drillctl.machine.edit_ramp import with_states, without_states
 from drillctl.machine.phase import NAME, parse_phase, phase_rows
+from drillctl.machine.positions import Place
 from drillctl.machine.ramp import MOST_STATES, parse_ramp, proposals, ramp_rows
 from drillctl.machine.settings import Setting, settings, wire_settings
-from drillctl.machine.source import Place, Source
+from drillctl.machine.source import Source
 from drillctl.machine.travel import stopping
 from drillctl.panel.console import Problems
 from drillctl.panel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
