@@ -75,6 +75,7 @@ MENUS = (
     Item(N_("&Configuration"), items=(
         Item(N_("&Parameters"), "configuration"),
         Item(N_("&Machine..."), "", "choose_machine"),
+        Item(N_("Interrupt &frequency..."), "drilling", "type_tick_hz"),
         Item(N_("P&ort"), "port"),
         Item(N_("&Colours"), items=(
             Item(N_("&Colour"), "", "set_theme", "colour"),

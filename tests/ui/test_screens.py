@@ -100,6 +100,15 @@ def test_step_sizes_in_millimetres_are_the_axis_s_steps_and_each_unit_keeps_its_
     assert JOG_SIZES[MM] == (0.1, 1, 10)
 
 
+def test_the_interrupt_frequency_is_typed_under_configuration() -> None:
+    program = Program(FakeConsole())
+    program.press("f9", *["right"] * 3, "f", *"580", "enter")
+    assert program.console.asked == [("set_tick_hz", 580)]
+    assert "580 ticks a second; the position is kept" in program.text()
+    program.press("f9", *["right"] * 3, "f", *"fast", "enter")
+    assert "not 'fast'" in program.text() and len(program.console.asked) == 1
+
+
 def test_going_to_a_hole_and_to_a_typed_place() -> None:
     program = Program(FakeConsole(loaded=BOARD))
     program.press("h", "3", "enter")  # instead of the 1 that was proposed

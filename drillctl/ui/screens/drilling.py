@@ -165,6 +165,20 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         """X and Y in mm from the working base."""
         self._shell.ask_text(_("Go to X and Y"), _("X and Y in mm from the base:"), "0 0", self._go_to_typed)
 
+    def type_tick_hz(self) -> None:
+        """Asks for the interrupt frequency, which takes effect at rest and keeps the position."""
+        now = str(self._console.view().tick_hz)
+        self._shell.ask_text(
+            _("Interrupt frequency"), _("Ticks a second, until the machine is chosen anew:"), now, self._set_tick_hz
+        )
+
+    def _set_tick_hz(self, text: str) -> None:
+        if not text.strip().isdecimal():
+            self._say("warning", _("a whole number of ticks a second is wanted, not {text!r}").format(text=text))
+            return
+        hz = int(text)
+        self._answer(self._console.set_tick_hz(hz), _("{hz} ticks a second; the position is kept").format(hz=hz))
+
     def _go_to_numbered(self, text: str) -> None:
         board = self._console.board()
         if board is None or not text.strip().isdecimal() or not 1 <= int(text) <= len(board.xy_mm):
