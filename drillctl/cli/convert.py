@@ -68,7 +68,7 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     from drillctl.generation.job import file_warnings, refusal
 
     try:
-        drill_file = read(arguments.file, fmt=arguments.format)
+        drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     try:

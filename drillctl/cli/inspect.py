@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.cli import jobs
+
 if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile
 
@@ -15,7 +17,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("inspect", help="say what a drill file holds", description=__doc__)
     verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program")
-    verb.add_argument("--format", metavar="F", help="settle the format, e.g. inch,2:4,leading")
+    jobs.add_reading(verb)
     verb.add_argument("--json", action="store_true", help="print one JSON object, also for a refused file")
     verb.set_defaults(call=call)
 
@@ -27,7 +29,7 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.ui.drilling import inspect_lines
 
     try:
-        drill_file = read(arguments.file, fmt=arguments.format)
+        drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
     except DrillFileError as error:
         if arguments.json:
             print(json.dumps(error.as_dict()))

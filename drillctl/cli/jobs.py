@@ -33,7 +33,17 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     drilling.add_argument("--drills", type=Path, metavar="FILE", help="the drills at hand, with tolerances and lives")
     drilling.add_argument("--peck", type=float, metavar="MM", help="in steps of so much, drawn out between them")
     drilling.add_argument("--spot", type=float, metavar="MM", help="first mark every hole of a tool so deep")
-    drilling.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
+    add_reading(drilling)
+
+
+def add_reading(verb: "argparse._ActionsContainer") -> None:
+    """The options that say how a drill file is read."""
+    verb.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
+    choices = ("refuse", "ignore", "drill")
+    verb.add_argument(
+        "--after-end", choices=choices, default="refuse",
+        help="holes behind the end of the program (M30): refuse the file (default), leave them out, or drill them too",
+    )  # fmt: skip
 
 
 def recipe(arguments: argparse.Namespace) -> "Recipe":
@@ -57,6 +67,7 @@ def recipe(arguments: argparse.Namespace) -> "Recipe":
         peck=arguments.peck,
         spot=arguments.spot,
         format=arguments.format,
+        after_end=arguments.after_end,
     )
 
 
@@ -71,7 +82,7 @@ def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
     wishes = made.wishes(machine)
     if aligned := made.alignment():
         _show_alignment(aligned)
-    return load_job(file, machine, wishes, made.format)
+    return load_job(file, machine, wishes, *made.reading())
 
 
 def _show_alignment(alignment: "Alignment") -> None:

@@ -96,14 +96,17 @@ class Job:
         return group, self.work.boards[self.work.hits.board[row]]
 
 
-def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None) -> Job:
-    """A drill file or (``.kmd``) a queue as a job. Raises JobError with one line a problem."""
+def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None, after_end: str = "refuse") -> Job:
+    """A drill file or (``.kmd``) a queue as a job. Raises JobError with one line a problem.
+
+    fmt, after_end: how the drill file is read (drillfile.read).
+    """
     if path.suffix.lower() == ".kmd":
         return _queue_job(path, machine)
     from drillctl.generation.drillfile import DrillFileError, read
 
     try:
-        drill_file = replace(read(path, fmt=fmt), name=str(path))
+        drill_file = replace(read(path, fmt=fmt, after_end=after_end), name=str(path))
     except DrillFileError as error:
         raise refusal(path, error) from error
     work = build(drill_file, wishes, machine)

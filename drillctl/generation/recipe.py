@@ -6,7 +6,7 @@ the command line. Made by the verbs and the station.
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -46,6 +46,7 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     peck: float | None = None
     spot: float | None = None
     format: str | None = None
+    after_end: Literal["refuse", "ignore", "drill"] = "refuse"
     base: tuple[int, int] = (0, 0)
 
     @classmethod
@@ -60,6 +61,10 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def options(self) -> dict[str, Any]:
         """As it stands in a journal."""
         return msgspec.to_builtins(self)
+
+    def reading(self) -> tuple[str | None, str]:
+        """How the drill file is read: its format, and what becomes of holes behind M30."""
+        return self.format, self.after_end
 
     def alignment(self) -> Alignment | None:
         """What the measured holes say; a mirror asked for beside them means that the board lies face down.

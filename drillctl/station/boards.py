@@ -96,7 +96,7 @@ class Boards:
                 return (f"the job was begun on machine {account.head.machine}; choose that one first",)
             rest = rest_of(journal, account, machine)
             told, ticks = foresee(rest.left)
-            view = board_view(Path(account.head.job), rest.whole, told, rest.recipe.format)
+            view = board_view(Path(account.head.job), rest.whole, told, *rest.recipe.reading())
         except REFUSALS as error:
             return _problems(error)
         self.plan = Plan(Path(account.head.job), rest.recipe, view, rest.left, ticks, journal, account)
@@ -137,11 +137,11 @@ class Boards:
 
     def _planned(self, file: Path, recipe: Recipe, machine: Machine) -> Problems:
         try:
-            job = load_job(file, machine, recipe.wishes(machine), recipe.format)
+            job = load_job(file, machine, recipe.wishes(machine), *recipe.reading())
             if job.work is None:
                 return (f"{file}: a queue of commands; it is run from the queue editor",)
             told, ticks = foresee(job)
-            view = board_view(file, job, told, recipe.format)
+            view = board_view(file, job, told, *recipe.reading())
             head = head_of(file, job, recipe.options())
         except REFUSALS as error:
             return _problems(error)

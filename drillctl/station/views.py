@@ -100,11 +100,11 @@ def _command_text(machine: Machine, status: np.void, program: NDArray[np.void] |
     return to_text(program[row], names_of(machine))
 
 
-def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None) -> BoardView:
+def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None, after_end: str) -> BoardView:
     """A planned board; a queue has none. The file is read once more for what it says of its format."""
     from drillctl.generation.drillfile import read
 
-    drill_file = read(file, fmt=fmt)
+    drill_file = read(file, fmt=fmt, after_end=after_end)
     work = job.work
     assert work is not None
     x, y = (job.machine.axis_names.index(name) for name in ("x", "y"))

@@ -71,7 +71,7 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> Rest:
     recipe = Recipe.of_options(account.head.options, journal)
     file = Path(account.head.job)
     wishes = recipe.wishes(machine)
-    job = load_job(file, machine, wishes, recipe.format)
+    job = load_job(file, machine, wishes, *recipe.reading())
     check_same(journal, account.head, head_of(file, job, account.head.options))
     if len(account.done) == job.holes_total:
         raise JobError([f"{journal}: all {job.holes_total} holes of {file.name} are drilled; nothing is left"])

@@ -19,7 +19,7 @@ from tests.support.journalled import BOARD
 FULL = Recipe(
     machine="pcb-drill", tables="/tables", tick_hz=500, origin="file", mirror="x", rotate=90.0, offset=(1.0, 2.0),
     align=((0.0, 0.0, 1.0, 1.0), (5.0, 0.0, 6.0, 1.0)), panel=(2, 1, 30.0, 0.0), order="nearest", skip_tools=(2,),
-    drills="/drills.toml", peck=0.5, spot=0.2, format="mm,decimal", base=(120, 240),
+    drills="/drills.toml", peck=0.5, spot=0.2, format="mm,decimal", after_end="drill", base=(120, 240),
 )  # fmt: skip
 
 
@@ -30,14 +30,23 @@ def machine() -> Machine:
 
 def job_of(recipe: Recipe, folder: Path, machine: Machine) -> Job:
     (folder / "job.drl").write_text(BOARD)
-    return load_job(folder / "job.drl", machine, recipe.wishes(machine), recipe.format)
+    return load_job(folder / "job.drl", machine, recipe.wishes(machine), *recipe.reading())
 
 
 def test_a_recipe_comes_back_from_json() -> None:
     assert Recipe.of_options(json.loads(json.dumps(FULL.options())), Path("j")) == FULL
 
 
-@pytest.mark.parametrize("told", [{}, {"machine": 3}, {"machine": "m", "twist": 1}, {"machine": "m", "panel": [1, 2]}])
+@pytest.mark.parametrize(
+    "told",
+    [
+        {},
+        {"machine": 3},
+        {"machine": "m", "twist": 1},
+        {"machine": "m", "panel": [1, 2]},
+        {"machine": "m", "after_end": "sell"},
+    ],
+)
 def test_what_is_no_recipe_is_refused(told: dict[str, object]) -> None:
     with pytest.raises(JobError, match=r"j:1: .*another version of this program"):
         Recipe.of_options(told, Path("j"))

@@ -16,7 +16,7 @@ from .machine import Machine
 REFUSE, IGNORE, DRILL = CHOICES = ("refuse", "ignore", "drill")
 STRAY_LINES = 1
 DRILLS = re.compile(r"[XYR]|G8\d|M0?2|M9[789]")  # words that make holes, wherever they stand in a line
-PROGRAM = re.compile(r"T\d|M48|M0?0|M30|M25")
+PROGRAM = re.compile(r"[TR]\d|M48|M0?[02]|M30|M25")
 SILENT = frozenset({"", "%"})
 
 
@@ -49,6 +49,6 @@ class Tail:
         last, (machine.line, command) = machine.line, self._first
         program = self._drilling_lines and (self._is_program or self._drilling_lines > STRAY_LINES)
         if program and self._choice == REFUSE:
-            raise Refusal("holes-after-end", f"{shorten(command)}; {self._drilling_lines} lines in all")
+            raise Refusal("holes-after-end", f"{shorten(command)}; lines that drill: {self._drilling_lines}")
         machine.remark("data-after-end", shorten(command))
         machine.line = last

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from .errors import Remark
+from .facts import Voice
 from .machine import Machine
 from .model import Floats, Integers
 from .tools import NO_TOOL
@@ -43,6 +44,13 @@ def tool_warnings(machine: Machine, mm_per_unit: float) -> Iterator[Remark]:
     count = np.bincount(machine.rows.array()["tool"] + 1, minlength=len(machine.tools.entries) + 1)[1:]
     if machine.toolless():
         yield Remark("missing-tools")
+    units = machine.facts.units
+    if (
+        units
+        and units.voice == Voice.SIDE_FILE
+        and any(entry.diameter and not entry.mm for entry in machine.tools.entries)
+    ):
+        yield Remark("units-from-report", None, f"{units.value}: {units.source}")
     for entry, holes in zip(machine.tools.entries, count.tolist(), strict=True):
         if not holes and not entry.usable(mm_per_unit):
             yield Remark("bad-diameter-unused", entry.line, f"T{entry.number} C{entry.diameter}")

@@ -87,6 +87,7 @@ WARNINGS = {
     "size-mismatch": "a tool's diameter differs from what a comment or a report beside the file says; the file counts",
     "slot-without-length": "a slot of no length is drilled as a hole",
     "tool-size-changes": "a tool is defined again with another diameter; from there on it counts",
+    "units-from-report": "only a report beside the file says in which units its diameters are",
     "units-change-in-body": "the units change inside the program",
     "utf-16": "the file is UTF-16 text and was decoded",
     "zero-set-ignored": "the zero point set by G92 or G93 is not applied",

@@ -57,8 +57,12 @@ class Facts:
     remarks: list[Remark] = field(default_factory=list)
 
     def declare_units(self, fact: Fact[str]) -> None:
-        """'inch' or 'mm'."""
-        self.units = self._stronger(self.units, fact)
+        """'inch' or 'mm'. A report beside the file in other units is of another export: its digits don't count."""
+        before = self.units
+        self.units = self._stronger(before, fact)
+        if before and before.voice is Voice.SIDE_FILE and before.value != self.units.value:
+            self.digits = None if self.digits and self.digits.voice is Voice.SIDE_FILE else self.digits
+            self.zeros = None if self.zeros and self.zeros.voice is Voice.SIDE_FILE else self.zeros
 
     def declare_digits(self, fact: Fact[tuple[int, int]]) -> None:
         """Places before and after the implied point."""
@@ -82,6 +86,5 @@ class Facts:
     def _stronger(self, old: Fact[Value] | None, new: Fact[Value]) -> Fact[Value]:
         if old is None or old.value == new.value:
             return old or new
-        if Voice.HEADER in (old.voice, new.voice):  # comments and reports may be of another export
-            self.remarks.append(Remark("contradictory-format", new.line, f"{old.source} / {new.source}"))
+        self.remarks.append(Remark("contradictory-format", new.line, f"{old.source} / {new.source}"))
         return new if new.voice <= old.voice else old

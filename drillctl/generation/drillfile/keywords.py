@@ -19,7 +19,6 @@ Keyword = Callable[[Machine, str], None]
 # LZ and TZ name the zeros that are kept (CNC-7 manual), the opposite of Gerber.
 SUPPRESSED = {"LZ": "trailing", "TZ": "leading"}
 DIGITS_MASK = re.compile(r"(0+)\.(0+)|(\d)[.:](\d)")
-LINE_GOES_ON = "\\"
 SWITCHES = {"ON": True, "OFF": False}
 
 
@@ -82,11 +81,6 @@ def _ignore(machine: Machine, command: str) -> None:
     """Settings of machines (tool wear, spindle, tape format) that move no hole."""
 
 
-def _message(machine: Machine, command: str) -> None:
-    """M45, M47: text for the operator; M45 goes on in the next line while a line ends with a backslash."""
-    machine.in_message = command.startswith("M45") and command.endswith(LINE_GOES_ON)
-
-
 MACHINE_SETTINGS = (
     "AFS", "ATC", "CCW", "CP", "DETECT", "DN", "DTMDIST", "EXDA", "FSB", "HPCK", "NCSL", "OM", "OSTOP", "OTCLMP",
     "PCKPARAM", "PF", "PPR", "PVS", "R", "RSB", "RTR", "SBK", "SG", "SIXM", "TCST", "UP", "Z", "ZA", "ZC", "ZS", "/",
@@ -99,6 +93,5 @@ KEYWORDS: dict[str, Keyword] = {
     "FMAT": _format,
     "VER": _axis_version,
     "%": _percent,
-    **dict.fromkeys(("M45", "M47"), _message),
-    **dict.fromkeys(MACHINE_SETTINGS, _ignore),
+    **dict.fromkeys((*MACHINE_SETTINGS, "M47"), _ignore),
 }

@@ -6,15 +6,17 @@ several faults at once; the first one refuses the file.
 
 from __future__ import annotations
 
+import re
+
 from . import afterend, comments
 from .commands import execute
 from .errors import PROBLEM_LIMIT, Refusal, Remark, shorten
 from .facts import Facts
 from .intake import LINE_LIMIT
-from .keywords import LINE_GOES_ON
 from .lexer import split_comment, split_run
 from .machine import Machine
 
+LONG_MESSAGE = re.compile(r"\s*M45(?!\d)", re.I)  # for the operator; it goes on while a line ends with a backslash
 COMMAND_LIMIT = 40_000  # lines that are no plain holes; a drill file has dozens, a milled panel thousands
 
 
@@ -52,8 +54,8 @@ def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Mach
 def _line(machine: Machine, line: str, commands: int) -> None:
     if commands > COMMAND_LIMIT:
         raise Refusal("file-too-large", f"more than {COMMAND_LIMIT} commands", fatal=True)
-    if machine.in_message:
-        machine.in_message = line.rstrip().endswith(LINE_GOES_ON)
+    if machine.in_message or LONG_MESSAGE.match(line):
+        machine.in_message = line.rstrip().endswith("\\")
         return
     command, comment = split_comment(line)
     if len(line) > LINE_LIMIT:

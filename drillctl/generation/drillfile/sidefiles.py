@@ -13,12 +13,14 @@ from pathlib import Path
 from drillctl.inputs import read_bytes
 
 from .comments import declare, find, patterns
+from .errors import Remark
 from .facts import Facts, Voice
 
 NAMES = frozenset({"nc_param.txt", "ncdrill.log"})  # one for the whole folder
 SUFFIXES = frozenset({".dri", ".drr", ".tol", ".rep", ".rpt"})  # with the drill file's own stem
 BYTE_LIMIT = 1_000_000
 LINE_LIMIT = 2_000
+TOO_LONG = b" " * (BYTE_LIMIT + 1)  # stands for a report that was not read; it is told
 
 # Group names as in comments.py; `tens`, `whole_mask` and `fraction_mask` are counted, not read.
 PATTERNS = patterns(
@@ -45,7 +47,7 @@ COUNTED = {"tens": "decimal", "whole_mask": "integer", "fraction_mask": "decimal
 
 
 def beside(path: Path) -> dict[str, bytes]:
-    """The reports beside a drill file, by name; none of more than BYTE_LIMIT bytes."""
+    """The reports beside a drill file, by name; of a longer one TOO_LONG."""
     found = {}
     for near in sorted(path.parent.iterdir()):
         if _belongs(near, path) and near.is_file():
@@ -54,6 +56,7 @@ def beside(path: Path) -> dict[str, bytes]:
             except OSError as error:
                 if error.errno != errno.EFBIG:
                     raise
+                found[near.name] = TOO_LONG
     return found
 
 
@@ -67,7 +70,10 @@ def _belongs(near: Path, path: Path) -> bool:
 def hear(name: str, data: bytes, facts: Facts) -> None:
     """Note what one report declares; text that is no such report declares nothing."""
     format_groups: dict[str, str] = {}
-    for line in data[:BYTE_LIMIT].decode("latin-1").splitlines()[:LINE_LIMIT]:
+    lines = data[:BYTE_LIMIT].decode("latin-1").splitlines()
+    if len(data) > BYTE_LIMIT or len(lines) > LINE_LIMIT:
+        facts.remarks.append(Remark("side-file-cut", None, name))
+    for line in lines[:LINE_LIMIT]:
         groups = find(line, PATTERNS)
         if "size" in groups:
             declare(groups, name, None, Voice.SIDE_FILE, facts)

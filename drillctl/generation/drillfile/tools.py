@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 
 from .errors import Refusal
-from .facts import Facts
+from .facts import Facts, Voice
 from .model import Tool
 
 NO_TOOL = -1
@@ -121,7 +121,7 @@ class Toolbox:
 
     def first_announced(self) -> None:
         """Before the first hole: Allegro leaves out every T where its comments list the tools in order of use."""
-        if self._facts.sizes and not (self._selected_any or self._declared_any):
+        if self._listed() and not (self._announced or self._selected_any or self._declared_any):
             self._announced = 1
             self._take_announced()
 
@@ -131,8 +131,12 @@ class Toolbox:
             self._announced += 1
             self._take_announced()
 
+    def _listed(self) -> list[int]:
+        """The tools that the comments list."""
+        return sorted(number for number, size in self._facts.sizes.items() if size.voice == Voice.COMMENT)
+
     def _take_announced(self) -> None:
-        numbers = sorted(self._facts.sizes)
+        numbers = self._listed()
         if self._announced > len(numbers):
             self.current = NO_TOOL
             return

@@ -25,7 +25,7 @@ def awaited(case: dict) -> object:
     return pytest.param(case, marks=marks)
 
 
-@pytest.mark.parametrize("case", map(awaited, CASES), ids=lambda case: case["file"])
+@pytest.mark.parametrize("case", [awaited(case) for case in CASES], ids=lambda case: case["file"])
 def test_a_field_file_gets_its_verdict(case: dict) -> None:
     expected = case["expected"]
     try:
