@@ -11,6 +11,7 @@ import pytest
 
 from drillctl.machine import Library, TableError
 from drillctl.trace import TraceError, is_segments, is_trace
+from drillctl.wording import LINES, one_line, visible
 
 FORMS = {".trace": is_trace, ".seg": is_segments}
 NO_TRACES = pytest.ExitCode.NO_TESTS_COLLECTED
@@ -75,10 +76,10 @@ class TraceItem(pytest.Item):
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """A dozen plain lines, without a Python traceback, for what is the trace's or the tables' fault."""
         if isinstance(excinfo.value, TraceMismatch | TraceError | TableError):
-            return str(excinfo.value)
+            return visible(str(excinfo.value), LINES)
         return str(super().repr_failure(excinfo))
 
     def reportinfo(self) -> tuple[Path, int, str]:
         """Where the test stands."""
-        return self.path, 0, f"trace {self.path.name}"
+        return self.path, 0, f"trace {one_line(self.path.name)}"
 

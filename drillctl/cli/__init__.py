@@ -9,14 +9,14 @@ one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, 
     jobs.py     the options of a job         operating.py the operator at the terminal while a job runs
     screen.py   work at the machine; what no verb means      scope.py    a trace on the screen
     benches.py  the screens that edit and look             streams.py  standard streams that may be gone
+    parsing.py  argparse, and the word that was meant        refusals.py  what was refused, told
+    examples.py  two command lines for every verb's help
     sweep.py    thousands of variants of a machine         tune.py  the fastest ramp that loses nothing
     plot.py     what the motors did in a run     drawing.py   a picture in the terminal or in a file
 """
 
-import argparse
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
 
 from drillctl import __version__
 from drillctl.cli import (
@@ -36,9 +36,11 @@ from drillctl.cli import (
     tables,
     tune,
 )  # fmt: skip
+from drillctl.cli.examples import EXAMPLES
+from drillctl.cli.parsing import Parser
+from drillctl.cli.refusals import REFUSED, refuse
 from drillctl.wiring.interrupts import caught, exit_code, leave
 
-REFUSED = 2
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope, plot, sweep, tune)
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
@@ -48,25 +50,17 @@ EPILOG = (
 )
 
 
-class Parser(argparse.ArgumentParser):
-    """Complains as the rest of the program does; takes a module's docstring for its description."""
-
-    def format_help(self) -> str:
-        """The help text, without the docstring's marks."""
-        return super().format_help().replace("``", "")
-
-    def error(self, message: str) -> NoReturn:
-        """One line on standard error, exit code 2."""
-        self.exit(REFUSED, f"drillctl: {message} (see {self.prog} --help)\n")
-
-
 def parser() -> Parser:
     """The whole command line."""
     top = Parser("drillctl", description=DESCRIPTION, epilog=EPILOG)
+    top.examples = EXAMPLES["drillctl"]
     top.add_argument("--version", action="version", version=f"drillctl {__version__}")
     verbs = top.add_subparsers(title="verbs", metavar="VERB", dest="verb", required=True)
     for verb in VERBS:
         verb.add(verbs)
+    for name, one in top.verbs().items():
+        for inner in (one, *one.verbs().values()):
+            inner.examples = EXAMPLES[name]
     return top
 
 
@@ -76,8 +70,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         print("drillctl: runs on Linux; on macOS and WSL for simulation. Not here.", file=sys.stderr)
         return REFUSED
     streams.prepare()
-    arguments = parser().parse_args(_with_verb(sys.argv[1:] if argv is None else argv))
+    words = _with_verb(sys.argv[1:] if argv is None else argv)
     try:
+        arguments = parser().parse_args(words)
         with caught(leave):
             return streams.delivered(int(arguments.call(arguments)))
     except KeyboardInterrupt as stop:
@@ -86,7 +81,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         streams.silence(sys.stdout)
         return NOBODY_READS
     except Exception as error:
-        return _refuse(error)
+        return _refused(error, as_json="--json" in words)
 
 
 def _with_verb(argv: Sequence[str]) -> Sequence[str]:
@@ -95,37 +90,9 @@ def _with_verb(argv: Sequence[str]) -> Sequence[str]:
     return ["screen", *argv] if alone else argv
 
 
-def _refuse(error: Exception) -> int:
-    """Tells what the operator got wrong; whatever else it is goes on up, as a fault of ours."""
-    if _is_refusal(error):
-        reason = str(error)
-    elif isinstance(error, OSError) and error.filename is None:
-        return streams.untold(error)
-    elif isinstance(error, OSError):
-        reason = f"{error.filename}: {error.strerror}"
-    else:
-        raise error
-    for line in reason.splitlines():
-        print(f"drillctl: {line}", file=sys.stderr)
-    return REFUSED
-
-
-def _is_refusal(error: Exception) -> bool:
-    from drillctl.generation.drillfile import DrillFileError
-    from drillctl.generation.errors import JobError
-    from drillctl.generation.journal import JournalError
-    from drillctl.generation.measured import AlignmentError
-    from drillctl.generation.placing import PlacingError
-    from drillctl.lab.errors import LabError
-    from drillctl.lab.latency import LatencyError
-    from drillctl.machine import TableError
-    from drillctl.ports import PortError
-    from drillctl.trace import TraceError
-    from drillctl.ui.plotted import PictureRefused
-    from drillctl.wiring.outputs import OutputError
-
-    refusals = (
-        JobError, TableError, TraceError, OutputError, DrillFileError, PlacingError, AlignmentError, PortError,
-        JournalError, LatencyError, LabError, PictureRefused, screen.ScreenError,
-    )  # fmt: skip
-    return isinstance(error, refusals)
+def _refused(error: Exception, as_json: bool) -> int:
+    try:
+        return refuse(error, as_json)
+    except BrokenPipeError:
+        streams.silence(sys.stdout)
+        return NOBODY_READS

@@ -7,15 +7,18 @@ import sys
 from pathlib import Path
 
 from drillctl.cli import jobs, options
+from drillctl.wording import known_words
 
+QUEUE = ".kmd"
 TRACES = (".trace", ".seg")
+EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD programs name drill files
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("convert", help="write a clean Excellon file or a queue", description=__doc__)
     verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program; a trace")
-    to = "OUT.kmd: a queue; OUT.trace, OUT.seg: a trace as text, in segments; else an Excellon file"
+    to = f"OUT.kmd: a queue; OUT.trace, OUT.seg: a trace as text, in segments; {' '.join(EXCELLON)}: an Excellon file"
     verb.add_argument("--to", type=Path, required=True, metavar="OUT", help=to)
     verb.add_argument("--style", default="mm,decimal", metavar="F", help="of the Excellon file; default: %(default)s")
     options.add_machine(verb)
@@ -27,15 +30,29 @@ def call(arguments: argparse.Namespace) -> int:
     """The whole text is made first; then the file is written, or nothing is."""
     from drillctl.wiring.outputs import reserved
 
-    if arguments.to.suffix.lower() in TRACES:
+    ending = _ending(arguments.to)
+    if ending in TRACES:
         return _trace(arguments)
-    text, warnings = _queue(arguments) if arguments.to.suffix.lower() == ".kmd" else _excellon(arguments)
+    text, warnings = _queue(arguments) if ending == QUEUE else _excellon(arguments)
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         for warning in warnings:
             print(f"drillctl: warning: {warning}", file=sys.stderr)
         assert output is not None
         output.write(lambda file: print(text, file=file, end=""))
     return 0
+
+
+def _ending(out: Path) -> str:
+    """What says which form is written. A name without an ending is an Excellon file: a pipe or a device has none.
+
+    Raises OutputError for the ending of something else.
+    """
+    from drillctl.wiring.outputs import OutputError
+
+    ending, known = out.suffix.lower(), (QUEUE, *TRACES, *EXCELLON)
+    if ending and ending not in known:
+        raise OutputError(f"{out}: {ending[:20]!r} is no ending that convert writes; {known_words(ending, known)}")
+    return ending
 
 
 def _trace(arguments: argparse.Namespace) -> int:
@@ -63,6 +80,7 @@ def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
 def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     """The file's own coordinates, whatever was asked about placing: that is a machine's matter."""
     from drillctl.generation.drillfile import DrillFileError, read
+    from drillctl.generation.drillfile.errors import Refusal
     from drillctl.generation.drillfile.write import write
     from drillctl.generation.errors import JobError
     from drillctl.generation.job import file_warnings, refusal
@@ -73,6 +91,8 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
         raise refusal(arguments.file, error) from error
     try:
         data = write(drill_file, arguments.style)
+    except Refusal as error:
+        raise JobError([f"--style {arguments.style}: not understood; write for instance mm,decimal"]) from error
     except ValueError as error:
         raise JobError([f"--style {arguments.style}: {error}"]) from error
     return data.decode("ascii"), file_warnings(arguments.file, drill_file)

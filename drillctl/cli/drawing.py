@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.cli import streams
+
 if TYPE_CHECKING:
     from drillctl.panel.picture import Picture
 
@@ -42,4 +44,4 @@ def _print(picture: "Picture") -> None:
     columns = shutil.get_terminal_size((100, 30)).columns
     plain = not (sys.stdout.encoding or "").lower().startswith("utf")
     look = Look(columns - 1, ROWS, sys.stdout.isatty() and not plain, plain)
-    print("\n".join(picture_lines(picture, look)))
+    streams.as_it_is(sys.stdout, "\n".join(picture_lines(picture, look)) + "\n")

@@ -1,10 +1,10 @@
 """``drillctl estimate FILE``: how long a job will take, exact on the ideal plant, tool by tool."""
 
 import argparse
-import json
 from pathlib import Path
 
 from drillctl.cli import jobs, options
+from drillctl.wording import json_text
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -25,5 +25,5 @@ def call(arguments: argparse.Namespace) -> int:
 
     machine = options.machine(arguments)
     told = estimate(jobs.load(arguments.job, jobs.recipe(arguments), machine), arguments.engine)
-    print(json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(estimate_lines(told)))
+    print(json_text(told.as_dict(), 2) if arguments.json else "\n".join(estimate_lines(told)))
     return 1 if told.fault else 0

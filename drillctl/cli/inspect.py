@@ -1,13 +1,13 @@
 """``drillctl inspect FILE``: what a drill file says, and which format it was taken for."""
 
 import argparse
-import json
 import shutil
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs
+from drillctl.wording import json_text
 
 if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile
@@ -23,7 +23,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """Prints the summary; a refused file is an error (exit 2), with --json told as an object too."""
+    """Prints the summary; a refused file is an error (exit 2)."""
     from drillctl.generation.drillfile import DrillFileError, read, summary
     from drillctl.generation.job import refusal
     from drillctl.ui.drilling import inspect_lines
@@ -31,24 +31,14 @@ def call(arguments: argparse.Namespace) -> int:
     try:
         drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
     except DrillFileError as error:
-        if arguments.json:
-            print(json.dumps(error.as_dict()))
         raise refusal(arguments.file, error) from error
-    except OSError as error:
-        if arguments.json:
-            print(json.dumps(_unreadable(error)))
-        raise
     told = summary(drill_file)
     if arguments.json:
-        print(json.dumps(told, indent=2))
+        print(json_text(told, 2))
     else:
         print("\n".join(inspect_lines(arguments.file.name, told)))
         print("\n".join(_drawing(drill_file)))
     return 0
-
-
-def _unreadable(error: OSError) -> dict[str, object]:
-    return {"error": {"code": "unreadable", "line": None, "text": "", "reason": f"can't be read: {error.strerror}"}}
 
 
 def _drawing(drill_file: "DrillFile") -> list[str]:

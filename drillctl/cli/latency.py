@@ -4,10 +4,10 @@ Nothing is driven: an idle machine on the simulated card is ticked in a process 
 """
 
 import argparse
-import json
 
 from drillctl.cli import options, streams
 from drillctl.wiring.interrupts import caught, exit_code
+from drillctl.wording import json_text
 
 LONGEST_S = 3600
 FASTEST_HZ = 20_000
@@ -25,10 +25,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """Ctrl-C ends it early, with what was measured (exit 130)."""
     from drillctl.lab.latency import LatencyError, a_moment, measure
-    from drillctl.machine import Library
     from drillctl.ui.latency import latency_lines
 
-    machine = Library.standard().machine(options.DEFAULT_MACHINE)
+    machine = options.library(argparse.Namespace(tables=None)).machine(options.DEFAULT_MACHINE)
     machine = machine.at_rate(arguments.hz or machine.tick_hz)
     signals: list[int] = []
     with caught(lambda number, frame: signals.append(number)):
@@ -38,5 +37,5 @@ def call(arguments: argparse.Namespace) -> int:
             if signals:
                 return exit_code(signals[0])
             raise
-    text = json.dumps(told.as_dict(), indent=2) if arguments.json else "\n".join(latency_lines(told))
+    text = json_text(told.as_dict(), 2) if arguments.json else "\n".join(latency_lines(told))
     return streams.delivered(exit_code(signals[0]) if signals else 0, text + "\n")

@@ -5,6 +5,8 @@ import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from drillctl.cli import streams
+
 if TYPE_CHECKING:
     from drillctl.wiring.desk import Run
     from drillctl.wiring.session import Session
@@ -21,7 +23,7 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "Run":
     from drillctl.wiring.terminal_keys import HELP, TerminalKeys
 
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
-    with ProgressView(sys.stderr) as view:
+    with ProgressView(streams.bar(sys.stderr)) as view:
         if not asks and not (paced and _watched(arguments)):
             return session.run(view.show)
         if paced:

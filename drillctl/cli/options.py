@@ -1,14 +1,16 @@
 """Options that several verbs share, and what they stand for."""
 
 import argparse
-import json
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
+from drillctl.panel.words import local_tables
+from drillctl.wording import json_text
 
 if TYPE_CHECKING:
     from drillctl.machine import Library, Machine
@@ -37,7 +39,21 @@ def library(arguments: argparse.Namespace) -> "Library":
 
     if arguments.tables is not None and not arguments.tables.is_dir():
         raise TableError(arguments.tables, "no such folder")
-    return Library.standard(arguments.tables)
+    return replace(Library.standard(arguments.tables), tell=LocalTables())
+
+
+class LocalTables:
+    """Says on standard error which local tables are in use, each once, before anything else is said of the run."""
+
+    def __init__(self) -> None:
+        self._told: set[Path] = set()
+
+    def __call__(self, files: tuple[Path, ...]) -> None:
+        """One line for those that are new."""
+        new = [str(file) for file in dict.fromkeys(files) if file not in self._told]
+        self._told.update(files)
+        if new:
+            print(f"drillctl: {local_tables(new)}", file=sys.stderr)
 
 
 def machine(arguments: argparse.Namespace) -> "Machine":
@@ -176,7 +192,7 @@ def told(done: "Run", as_json: bool, problems: Sequence[str] = ()) -> int:
 
     for notice in done.notices:
         print(f"drillctl: {notice}", file=sys.stderr)
-    lines = [json.dumps(done.outcome.as_dict(), indent=2)] if as_json else summary_lines(done.outcome)
+    lines = [json_text(done.outcome.as_dict(), 2)] if as_json else summary_lines(done.outcome)
     code = 1 if done.outcome.fault or done.trouble or problems else 0
     code = streams.delivered(code if done.signal is None else exit_code(done.signal), "\n".join(lines) + "\n")
     for problem in filter(None, (done.trouble, *problems)):

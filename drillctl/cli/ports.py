@@ -1,8 +1,9 @@
 """``drillctl ports``: what can be driven from here, and what each port needs."""
 
 import argparse
-import json
 from typing import TYPE_CHECKING
+
+from drillctl.wording import json_text
 
 if TYPE_CHECKING:
     from drillctl.portio.registry import Port
@@ -21,7 +22,7 @@ def call(arguments: argparse.Namespace) -> int:
 
     told = [_told(port) for port in PORTS.values()]
     if arguments.json:
-        print(json.dumps(told, indent=2))
+        print(json_text(told, 2))
     else:
         print("\n\n".join(_paragraph(row) for row in told))
     return 0

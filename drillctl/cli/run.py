@@ -37,11 +37,13 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.wiring.machinery import pace_of
     from drillctl.wiring.outputs import reserved, unwritten
     from drillctl.wiring.session import Session
-    from drillctl.wiring.trace_files import takes_segments
+    from drillctl.wiring.trace_files import machine_named, takes_segments
 
     machine = options.machine(arguments)
     port = options.port(arguments, machine)
     running = options.running(arguments, port, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
+    if arguments.trace is not None:
+        machine_named(machine, arguments.trace)  # raises where it could not be written afterwards
     taped = arguments.trace is not None and takes_segments(arguments.trace, machine.cards)
     running = replace(running, engine=arguments.engine, taped=taped and not arguments.vcd)
     paced = pace_of(running) == "real"
@@ -65,11 +67,11 @@ def call(arguments: argparse.Namespace) -> int:
 
 
 def _write_trace(job: "Job", done: "Run", trace: "Output | None") -> None:
-    from drillctl.wiring.trace_files import write_record
+    from drillctl.wiring.trace_files import machine_named, write_record
 
     kept = done.trace
     if trace is not None and kept is not None:
-        named = job.machine.reference_from(trace.path.parent)
+        named = machine_named(job.machine, trace.path)
         write_record(kept.with_header([("machine", named), *kept.header[1:]]), trace)
 
 

@@ -49,6 +49,7 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
 
     run  is what the scope shows, which then is the screen in front
     """
+    from drillctl.machine.library import tell_nobody
     from drillctl.station.station import Station
     from drillctl.ui import words
     from drillctl.ui.app import App
@@ -58,7 +59,7 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
     words.use(arguments.lang or words.language_of(), plain)
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
-    library = options.library(arguments)
+    library = replace(options.library(arguments), tell=tell_nobody)  # the second line says it
     running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace)
     station = Station(
         library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import drawing, options
+from drillctl.cli import drawing, options, streams
 
 if TYPE_CHECKING:
     from drillctl.lab.question import Question
@@ -102,7 +102,8 @@ def _work(question: "Question", results: "Results", crew: "Crew") -> None:
 
     if results.rows:
         print(f"drillctl: {results.path}: {results.rows} of {question.machines} machines are done", file=sys.stderr)
-    with tqdm(total=question.machines, initial=results.rows, unit="machine", disable=None) as bar:
+    stream = streams.bar(sys.stderr)
+    with tqdm(total=question.machines, initial=results.rows, unit="machine", disable=None, file=stream) as bar:
         for rows in sweep(question, results, crew):
             bar.update(rows - bar.n)
 

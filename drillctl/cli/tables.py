@@ -1,12 +1,12 @@
 """``drillctl machines`` and ``drillctl tables check FILE...``: what can be driven, and whether a table is sound."""
 
 import argparse
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options
+from drillctl.wording import json_text
 
 MACHINES = "Lists the machines that can be driven: name, interrupt frequency, axes, description."
 CHECK = "Checks table files. One that can't be used is refused with its line, a dangerous one is warned about."
@@ -42,7 +42,7 @@ def list_machines(arguments: argparse.Namespace) -> int:
             refused = 2
             print(f"drillctl: {error}", file=sys.stderr)
     if arguments.json:
-        print(json.dumps([_told(machine) for machine in machines], indent=2))
+        print(json_text([_told(machine) for machine in machines], 2))
     else:
         for m in machines:
             print(f"{m.name:<20} {m.tick_hz:>5} Hz  {' '.join(m.axis_names):<26} {m.description}")

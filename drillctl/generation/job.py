@@ -19,6 +19,7 @@ from drillctl.generation.worklist import Group, WorkList, build
 from drillctl.inputs import read_bytes
 from drillctl.kmd import KmdError, Names, parse_program, to_text
 from drillctl.machine import Machine
+from drillctl.wording import one_line
 
 if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile, DrillFileError
@@ -141,7 +142,7 @@ def _life_warnings(path: Path, work: WorkList) -> list[str]:
 def queue_text(job: Job) -> str:
     """A job as a ``.kmd`` queue, one command a line."""
     names = names_of(job.machine)
-    lines = [f"# {job.name} on {job.machine.name}: {job.holes_total} holes"]
+    lines = [f"# {one_line(job.name)} on {job.machine.name}: {job.holes_total} holes"]
     lines += [to_text(record, names) for record in job.program]
     return "\n".join([*lines, ""])
 

@@ -2,7 +2,8 @@
 
 Rule: every field has one writer, and nobody waits: counters only rise, the status is copied under a sequence lock and
 read again when it was torn. The file outlives both sides, so that what the ticker confirmed last can be read after a
-crash. Created by the wiring before it forks; a program in one process uses the plain Queue, Requests and Gate instead.
+crash; it stays locked while a process of its run has it mapped. Created by the wiring before it forks; a program in one
+process uses the plain Queue, Requests and Gate instead.
 """
 
 import mmap
@@ -15,9 +16,11 @@ from numpy.typing import NDArray
 from drillctl.kmd.commands import RECORD, Command
 from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, Requests, hand_of, pace_of, request_of
 from drillctl.kmd.status import STATUS
+from drillctl.scratch import make_file
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
 MOST_READS = 1000
+EXISTING = os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC
 
 CHANNEL = np.dtype(
     [
@@ -52,9 +55,7 @@ class Channel:
     def __init__(self, file: Path, create: bool):
         # A new one is made whole beside its place, then put there: whoever looks finds a whole one, and whoever
         # still has an old one mapped keeps it.
-        place = file.with_name(f".{file.name}.{os.getpid()}") if create else file
-        flags = os.O_RDWR | (os.O_CREAT | os.O_TRUNC if create else 0)
-        handle = os.open(place, flags | os.O_CLOEXEC, 0o600)
+        handle, place = make_file(file) if create else (os.open(file, EXISTING), file)
         try:
             if create:
                 _fill(handle, file)

@@ -1,9 +1,10 @@
 """Where tables are found: ``--tables DIR``, the project's ``tables/``, the user's own, the shipped ones.
 
-Rule: the first that has the file wins; a name never leaves its folder. Called by the wiring and the CLI.
+Rule: the first that has the file wins; a name never leaves its folder. A table that nobody pointed at and that is not
+the shipped one (from ``./tables``, or the user's own) is told to whoever asked. Called by the wiring and the CLI.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from drillctl.machine.parts import Parts, find_table
 from drillctl.machine.phase import parse_phase
 from drillctl.machine.ramp import parse_ramp
 from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
+from drillctl.wording import known_words
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -35,11 +37,21 @@ def user_tables() -> Path:
     return user_config_path("drillctl", appauthor=False) / "tables"
 
 
+def tell_nobody(files: tuple[Path, ...]) -> None:
+    """For those who look at ``Library.local`` themselves."""
+
+
 @dataclass(frozen=True)
 class Library:
-    """The folders that are searched, first to last; each may hold phase/, ramp/, motor/, dynamics/ and machines/."""
+    """The folders that are searched, first to last; each may hold phase/, ramp/, motor/, dynamics/ and machines/.
+
+    unasked  those of them that are searched without the operator naming them, the shipped ones apart
+    tell     called with the local tables (``local``) of whatever is read, before it is used
+    """
 
     folders: tuple[Path, ...]
+    unasked: tuple[Path, ...] = ()
+    tell: Callable[[tuple[Path, ...]], None] = tell_nobody
 
     @classmethod
     def standard(cls, extra: Path | None = None) -> "Library":
@@ -49,7 +61,15 @@ class Library:
         """
         shipped, project = shipped_tables(), Path("tables")
         own = [] if real_path(project) == shipped else [project]
-        return cls((*([extra] if extra else []), *own, user_tables(), shipped))
+        asked = real_path(extra) if extra else shipped
+        unasked = tuple(folder for folder in (*own, user_tables()) if real_path(folder) not in (asked, shipped))
+        return cls((*([extra] if extra else []), *own, user_tables(), shipped), unasked)
+
+    def local(self, files: Iterable[str | Path]) -> tuple[Path, ...]:
+        """Those of these table files that lie in an ``unasked`` folder and are not, to the byte, shipped ones."""
+        folders = {real_path(folder) for folder in self.unasked}
+        found = [Path(file) for file in files if real_path(Path(file)).parent.parent in folders]
+        return tuple(file for file in found if not _is_shipped(file))
 
     def machine_names(self) -> list[str]:
         """The names of all machines that can be found, sorted."""
@@ -61,16 +81,19 @@ class Library:
 
     def find(self, kind: str, name: str) -> Path | None:
         """The file of a table, in the first folder that has it."""
-        return find_table(self.folders, kind, name)
+        found = find_table(self.folders, kind, name)
+        if found is not None and (local := self.local([found])):
+            self.tell(local)
+        return found
 
     def machine(self, name_or_file: str) -> Machine:
         """A machine by its name, or by its file's path (anything with a slash or ``.toml``). Raises TableError."""
         if "/" in name_or_file or name_or_file.endswith(".toml"):
             return self._machine_of(Source.read(Path(name_or_file)))
-        found = self.find("machines", name_or_file)
+        found = find_table(self.folders, "machines", name_or_file)
         if found is None:
-            known = ", ".join(self.machine_names())
-            raise TableError(name_or_file, f"no machine of this name; there are {known}")
+            known = known_words(name_or_file, self.machine_names())
+            raise TableError(name_or_file, f"no machine of this name; {known}")
         return self._parse(Source.read(found))
 
     def check(self, file: Path) -> list[str]:
@@ -88,11 +111,15 @@ class Library:
 
     def _machine_of(self, source: Source) -> Machine:
         """A machine given by its file: the tables beside it come first."""
-        return Library((_tables_beside(source.file), *self.folders))._parse(source)
+        beside = _tables_beside(source.file)
+        unasked = tuple(folder for folder in self.unasked if real_path(folder) != real_path(beside))
+        return replace(self, folders=(beside, *self.folders), unasked=unasked)._parse(source)
 
     def _parse(self, source: Source) -> Machine:
         shipped = shipped_tables() in real_path(source.file).parents
         machine = parse_machine(source, shipped, Parts(self.folders, source.file))
+        if local := self.local(machine.files):
+            self.tell(local)
         return machine if shipped else replace(machine, shipped=_same_as_shipped(machine.files))
 
     def _phase_hazards(self, source: Source) -> list[str]:
@@ -131,8 +158,12 @@ def _same_as_shipped(files: tuple[str, ...]) -> bool:
 
     Its traces call the machine by its name then, and can be replayed elsewhere.
     """
-    pairs = ((file, shipped_tables() / file.parent.name / file.name) for file in map(Path, files))
-    return all(_same_bytes(file, shipped) for file, shipped in pairs)
+    return all(map(_is_shipped, map(Path, files)))
+
+
+def _is_shipped(file: Path) -> bool:
+    """Whether it is the shipped table of its kind and name, or the same to the byte."""
+    return _same_bytes(file, shipped_tables() / file.parent.name / file.name)
 
 
 def _same_bytes(file: Path, other: Path) -> bool:

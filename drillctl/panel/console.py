@@ -67,6 +67,7 @@ class MachineView:
     tool_wanted: ToolWanted | None = None
     real_wanted: str = ""  # the port that the machine's file asks for (mode REAL) while a simulated one is in use
     at_work: bool = False  # a job, a jog or an initialisation is on its way
+    local: bool = False  # some of its tables are neither the shipped ones nor named by the operator
     paused: bool = False  # ticks come only as they are granted (panel/handwork.py)
 
 

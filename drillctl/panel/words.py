@@ -1,9 +1,10 @@
-"""Cause and remedy of every fault. Looked up by code; docs/FAULTS.md is made from this and kmd/faults.
+"""Cause and remedy of every fault, looked up by code; docs/FAULTS.md is made from this and kmd/faults. And what verbs
+and screens say in the same words.
 
 Rule: a fault without a cause and a remedy does not exist (a test holds that).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from drillctl.kmd import Fault
@@ -98,3 +99,8 @@ def fault_report(code: int, kept: bool) -> FaultReport:
     fault = Fault(code)
     words = FAULT_WORDS[fault]
     return FaultReport(code, fault.name, words.cause, words.remedy, "kept" if kept else "lost")
+
+
+def local_tables(files: Sequence[str]) -> str:
+    """That these tables, which nobody named and which are not the shipped ones, are in use: for a verb and a screen."""
+    return f"local tables are in use, not the shipped ones: {', '.join(files)}"

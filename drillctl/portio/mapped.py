@@ -110,7 +110,7 @@ def _image(words: memoryview) -> int:
 def _mapped(file: Path, words: int) -> mmap.mmap:
     """Exactly so many words of a file, shared."""
     try:
-        descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        descriptor = _descriptor(file)
         try:
             _lock(descriptor, file)
             if os.fstat(descriptor).st_size:
@@ -125,6 +125,15 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
         raise
     except OSError as error:
         raise PortRefused("mapped", f"{file}: can't be the card's file: {error.strerror}") from error
+
+
+def _descriptor(file: Path) -> int:
+    """The file that is there, or a new one; what a link leads to is neither."""
+    flags = os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC
+    try:
+        return os.open(file, flags)
+    except FileNotFoundError:
+        return os.open(file, flags | os.O_CREAT | os.O_EXCL, 0o666)
 
 
 def _lock(descriptor: int, file: Path) -> None:

@@ -4,7 +4,6 @@ Rule: the old one's outputs are safe before the new one starts; where that can't
 started anew, simulated. Made by station.
 """
 
-import tempfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +12,9 @@ from drillctl.machine.bundle import bundle, unbundle
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.panel.console import Problems
 from drillctl.panel.ports import PortView
+from drillctl.panel.words import local_tables
 from drillctl.ports import PortError
+from drillctl.scratch import KEPT_IN_FOLDERS, Folder
 from drillctl.station.scope import Recording
 from drillctl.wiring.link import Link
 from drillctl.wiring.loading import same_but_tables
@@ -37,9 +38,11 @@ class InUse:
     running   as the options have it; simulated unless ``--port`` says otherwise
     tick_hz   the rate asked for, for this machine alone; ``machine`` has it already
     port_won  ``--port`` was given: the machine's file is not asked for one
+    local     its tables that are neither the shipped ones nor named by the operator
     """
 
     machine: Machine
+    local: tuple[Path, ...]
     running: Running
     link: Link
     recording: Recording
@@ -47,8 +50,12 @@ class InUse:
     def __init__(self, library: Library, machine: Machine, running: Running, tick_hz: int | None, port_won: bool):
         self._library, self._asked = library, running
         self._rated, self._tick_hz, self._port_won = machine.name, tick_hz, port_won
-        self._folder = tempfile.TemporaryDirectory(prefix="drillctl-")
-        self._take(machine, running)
+        self._folder = Folder()
+        try:
+            self._take(machine, running)
+        except BaseException:
+            self._folder.close()
+            raise
 
     def choose(self, name: str) -> Problems:
         """Another machine, or the same with its tables as they are now; refused before the old one is let go."""
@@ -111,19 +118,20 @@ class InUse:
         return port.configured if port.mode == REAL.upper() and not (port.real or port.overridden) else ""
 
     def notices(self) -> Problems:
-        """What became of ``--tick-hz`` and of the rate of the machine's file."""
+        """Which of its tables are local, and what became of ``--tick-hz`` and of the rate of the machine's file."""
+        told = (local_tables([str(file) for file in self.local]),) if self.local else ()
         if self.machine.tick_hz != self._first_hz:
-            return (f"the tick rate was set to {self.machine.tick_hz} Hz; it was {self._first_hz}",)
+            return (*told, f"the tick rate was set to {self.machine.tick_hz} Hz; it was {self._first_hz}")
         if self._tick_hz is None:
-            return ()
+            return told
         if self.machine.name == self._rated:
-            return ("--tick-hz is in force, not the rate of the machine's file",)
-        return ("--tick-hz was for another machine: this one runs at its own rate",)
+            return (*told, "--tick-hz is in force, not the rate of the machine's file")
+        return (*told, "--tick-hz was for another machine: this one runs at its own rate")
 
     def close(self) -> None:
         """Everything that was started ends."""
         self.link.close()
-        self._folder.cleanup()
+        self._folder.close()
 
     def _only_edited(self, machine: Machine) -> bool:
         """The machine in use with other tables: it takes them while it runs. The very same is started anew."""
@@ -137,6 +145,7 @@ class InUse:
         if reason := self.link.load(text):
             return (reason,)
         self.machine = unbundle(text).at_rate(self.machine.tick_hz)
+        self.local = self._library.local(self.machine.files)
         return ()
 
     def _change(self, machine: Machine, running: Running) -> Problems:
@@ -151,7 +160,8 @@ class InUse:
     def _take(self, machine: Machine, running: Running) -> None:
         """With a recording from its first tick. Raises PortError."""
         ring = Recording.ring_for(machine)
-        link = start(machine, replace(running, kept=True), Path(self._folder.name) / "status", ring)
+        link = start(machine, replace(running, kept=True), self._folder.path / KEPT_IN_FOLDERS, ring)
         self.machine, self.running, self.link = machine, running, link
         self._first_hz = machine.tick_hz  # before any PACE
+        self.local = self._library.local(machine.files)
         self.recording = Recording(machine, link.plant_lanes, ring, lambda: int(link.status()["tick"]))

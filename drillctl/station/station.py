@@ -45,7 +45,7 @@ class Station(Operating):
         notices = (*self._used.notices(), *view.notices, *self._boards.troubles)
         return replace(
             view, tool_wanted=self._gate.wanted, real_wanted=self._used.real_wanted, notices=notices,
-            at_work=self.at_work, condition=self._hand.foreseen(view.condition),
+            at_work=self.at_work, local=bool(self._used.local), condition=self._hand.foreseen(view.condition),
         )  # fmt: skip
 
     def board(self) -> BoardView | None:

@@ -6,12 +6,11 @@ nothing, so that an Enter meant for something else moves nothing. Used by app.py
 
 from collections.abc import Callable
 
-import urwid
-
 from drillctl.panel.console import Console, MachineView, ToolWanted
 from drillctl.panel.records import FaultReport
 from drillctl.ui import dialogs
 from drillctl.ui.layers import Layers
+from drillctl.ui.texts import Text
 from drillctl.ui.told import told
 from drillctl.ui.words import _
 
@@ -62,7 +61,7 @@ class Alerts:
             (_("Hold"), self._console.hold),
             (_("Stop"), self._console.stop),
         ]
-        return dialogs.Dialog(_("Tool change"), [urwid.Text(line) for line in lines], buttons, self._layers.pop)
+        return dialogs.Dialog(_("Tool change"), [Text(line) for line in lines], buttons, self._layers.pop)
 
     def _show_real(self, view: MachineView) -> None:
         """A machine whose file says REAL is driven on its port after a yes, and simulated until then."""

@@ -4,8 +4,10 @@ Rule: the emergency stop is looked for before any widget sees a key, so it works
 here blocks. Made and run by the screen verb, which closes the console on every way out.
 """
 
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from typing import TextIO
 
 import urwid
 
@@ -53,7 +55,7 @@ class App(Boxes):
         self._made["drilling"] = self._first
         self.screens = [self._first]
         self.frame = MainFrame(self.screens[0])
-        terminal = terminal or urwid.display.raw.Screen()
+        terminal = terminal or urwid.display.raw.Screen(output=_terminal())
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows))
         self._alerts = Alerts(console, self.layers)
         self.loop = urwid.MainLoop(
@@ -233,5 +235,11 @@ class App(Boxes):
             method = getattr(target, item.method)
             method() if item.argument is None else method(item.argument)
 
+
 def _leave() -> None:
     raise urwid.ExitMainLoop
+
+
+def _terminal() -> TextIO:
+    """Where the screen is drawn: not the stream of the verbs, which escapes what moves the cursor."""
+    return sys.__stdout__ or sys.stdout

@@ -1,7 +1,8 @@
 """Pictures of numbers in characters: curves as braille dots between labelled axes. Functions of a record and a size.
 
 Rule: where there are several, every curve has a letter in it, by which the legend names it; on a terminal a colour too.
-Called by the verbs that draw; plotted.py draws the same records into files.
+The colours are control characters of this program's own: words are escaped here, before they are painted. Called by the
+verbs that draw; plotted.py draws the same records into files.
 """
 
 from collections.abc import Sequence
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from drillctl.panel.picture import Chart, Curve, Floats, Picture, Style
 from drillctl.ui.board import BRAILLE, CELL_DOTS, braille_cells
+from drillctl.wording import visible
 
 MARGIN = 10  # characters left of a chart, for the numbers
 LEAST_COLUMNS = MARGIN + 10
@@ -33,10 +35,10 @@ class Look:
 
 def picture_lines(picture: Picture, look: Look) -> list[str]:
     """Title, charts and notes. Narrower than LEAST_COLUMNS it is drawn as wide as that."""
-    lines = [picture.title]
+    lines = [visible(picture.title)]
     for chart in picture.charts:
         lines += ["", *_chart_lines(chart, look)]
-    return [*lines, "", *picture.notes]
+    return [*lines, "", *map(visible, picture.notes)]
 
 
 def _chart_lines(chart: Chart, look: Look) -> list[str]:
@@ -44,7 +46,7 @@ def _chart_lines(chart: Chart, look: Look) -> list[str]:
     points = np.concatenate([np.column_stack((curve.x, curve.y)) for curve in curves])
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):
-        return [f"{chart.y_label}: nothing to be drawn"]
+        return [f"{visible(chart.y_label)}: nothing to be drawn"]
     frame = _Frame.around(points, chart.to_scale, look)
     top, bottom = (f"{value:>{MARGIN - 2}.4g} |" for value in (frame.high[1], frame.low[1]))
     rows = frame.drawn(curves, look)
@@ -52,16 +54,17 @@ def _chart_lines(chart: Chart, look: Look) -> list[str]:
     body = [side + row for side, row in zip(sides, rows, strict=True)]
     left, right = (f"{value:.4g}" for value in (frame.low[0], frame.high[0]))
     foot = " " * MARGIN + left + right.rjust(frame.columns - len(left))
-    return [*_head(chart, look), *body, foot, chart.x_label.rjust(MARGIN + frame.columns)]
+    return [*_head(chart, look), *body, foot, visible(chart.x_label).rjust(MARGIN + frame.columns)]
 
 
 def _head(chart: Chart, look: Look) -> list[str]:
     """What is drawn upwards, and the legend: beside it, or below where there is no room."""
-    names = [f"{_letter(number, chart.curves)} {curve.label}" for number, curve in enumerate(chart.curves)]
+    upwards = visible(chart.y_label)
+    names = [f"{_letter(number, chart.curves)} {visible(curve.label)}" for number, curve in enumerate(chart.curves)]
     legend = [_painted(name, number, look) for number, name in enumerate(names)]
-    if len("   ".join((chart.y_label, *names))) <= max(look.columns, LEAST_COLUMNS):
-        return ["   ".join((chart.y_label, *legend))]
-    return [chart.y_label, *legend]
+    if len("   ".join((upwards, *names))) <= max(look.columns, LEAST_COLUMNS):
+        return ["   ".join((upwards, *legend))]
+    return [upwards, *legend]
 
 
 def _letter(number: int, curves: Sequence[Curve]) -> str:

@@ -10,12 +10,13 @@ from typing import Any
 import urwid
 
 from drillctl.ui.lines import Size
+from drillctl.ui.texts import Box, Button, Edit, Text
 from drillctl.ui.words import _
 
 WIDEST = 72
 
 Act = Callable[[], object]
-Part = urwid.Text | urwid.AttrMap[Any]  # text, or a field or a line to be picked, in its colours
+Part = Text | urwid.AttrMap[Any]  # text, or a field or a line to be picked, in its colours
 
 
 class Dialog(urwid.WidgetWrap[urwid.Widget]):
@@ -29,7 +30,7 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         self._list = urwid.ListBox(urwid.SimpleFocusListWalker(self._parts))
         self._list.set_focus(_first_selectable(body, len(body) + 1))
         self._title = title
-        self._frame = urwid.LineBox(urwid.Padding(self._list, left=1, right=1), title=title, title_attr="title")
+        self._frame = Box(urwid.Padding(self._list, left=1, right=1), title)
         super().__init__(urwid.AttrMap(self._frame, "body"))
 
     def keypress(self, size: Size, key: str) -> str | None:
@@ -53,9 +54,9 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         inner = (columns - 4,)
         return sum(widget.rows(inner) for widget in self._parts) + 2
 
-    def _button(self, label: str, act: Act) -> urwid.AttrMap[urwid.Button]:
+    def _button(self, label: str, act: Act) -> urwid.AttrMap[Button]:
         pressed = self._closed_by(act)
-        return urwid.AttrMap(urwid.Button(label, lambda _button: pressed()), "key", "focus")
+        return urwid.AttrMap(Button(label, lambda _button: pressed()), "key", "focus")
 
     def _closed_by(self, act: Act) -> Act:
         def both() -> None:
@@ -71,12 +72,12 @@ def nothing() -> None:
 
 def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing) -> Dialog:
     """Tells; ``then`` follows on Enter."""
-    return Dialog(title, [urwid.Text(line) for line in lines], [(_("OK"), then)], closing)
+    return Dialog(title, [Text(line) for line in lines], [(_("OK"), then)], closing)
 
 
 def question(text: str, yes: Act, closing: Act) -> Dialog:
     """No stands first, so that Enter alone does nothing."""
-    return Dialog(_("Question"), [urwid.Text(text)], [(_("No"), nothing), (_("Yes"), yes)], closing)
+    return Dialog(_("Question"), [Text(text)], [(_("No"), nothing), (_("Yes"), yes)], closing)
 
 
 def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], closing: Act) -> Dialog:
@@ -97,7 +98,7 @@ def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], clo
     return dialog
 
 
-class _Field(urwid.Edit):
+class _Field(Edit):
     """A line of text with something to do on Enter. A character typed first takes the place of what was proposed."""
 
     entered: Act = staticmethod(nothing)

@@ -13,6 +13,7 @@ from drillctl.panel.console import Problems
 from drillctl.ui.dialogs import Act, Dialog, Part, nothing
 from drillctl.ui.lines import Size
 from drillctl.ui.pick import Pick
+from drillctl.ui.texts import Edit, Text
 from drillctl.ui.told import told
 from drillctl.ui.words import _
 
@@ -31,9 +32,9 @@ class Form(Dialog):
 
     def __init__(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems], closing: Act):
         widest = max(len(field.label) for field in fields)
-        self._edits = [urwid.Edit(("body", f"{field.label:{widest}} "), field.text) for field in fields]
+        self._edits = [Edit(("body", f"{field.label:{widest}} "), field.text) for field in fields]
         self._accept = accept
-        self._told = urwid.Text("\n" * (PROBLEM_ROWS - 1))
+        self._told = Text("\n" * (PROBLEM_ROWS - 1))
         boxes: list[Part] = [urwid.AttrMap(edit, "field", "focus") for edit in self._edits]
         super().__init__(title, [*boxes, self._told], [(_("OK"), self.submit), (_("Cancel"), nothing)], closing)
 
@@ -72,7 +73,7 @@ class Choice(Dialog):
 
 def offer(title: str, lines: Sequence[str], ways: Sequence[tuple[str, Act]], closing: Act) -> Dialog:
     """Several ways on, a button each; the first, which Enter means, and Esc do nothing."""
-    return Dialog(title, [urwid.Text(line) for line in lines], [(_("Not now"), nothing), *ways], closing)
+    return Dialog(title, [Text(line) for line in lines], [(_("Not now"), nothing), *ways], closing)
 
 
 def _call(chosen: Callable[[int], object], index: int) -> Act:

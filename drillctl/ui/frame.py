@@ -12,6 +12,7 @@ from drillctl.panel.console import MachineView
 from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
 from drillctl.ui.lines import Line, Size, boxed, packed
 from drillctl.ui.menus import MENUS, hot_letter, label_markup, plain_label
+from drillctl.ui.texts import Text
 from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
@@ -27,7 +28,7 @@ CONDITIONS = {
 PAUSED = ("warning", N_("CLOCK STOPPED"))
 
 
-class MenuBar(urwid.Text):
+class MenuBar(Text):
     """The menus side by side; ``left_of`` and ``at`` tell where each of them stands."""
 
     def __init__(self) -> None:
@@ -77,7 +78,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
 
     def __init__(self, screen: urwid.Widget):
         self.bar = MenuBar()
-        self._machine = urwid.Text("", wrap="ellipsis")
+        self._machine = Text("", wrap="ellipsis")
         self._keys = KeyLine()
         self._shown: Line = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
@@ -96,7 +97,8 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
             attribute, word = PAUSED
         moving = _("moving") if view.moving else _("at rest")
         known = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
-        place = f" {view.machine} | {view.port} | "
+        tables = f" {_('(local)')}" if view.local else ""
+        place = f" {view.machine}{tables} | {view.port} | "
         shown = (attribute, f" {_(word)} ")
         title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
         markup: Line = [title, place, shown, f" {moving} | ", known]

@@ -1,9 +1,14 @@
-"""Lines of marked text: what the board, the side window and the key line are in the end."""
+"""Lines of marked text: what the board, the side window and the key line are in the end.
+
+Rule: escaped as they are drawn, as the widgets of texts.py are.
+"""
 
 from collections.abc import Hashable, Sequence
 from typing import Literal
 
 import urwid
+
+from drillctl.wording import visible
 
 Line = list[str | tuple[str, str]]
 Names = list[tuple[Hashable, int]]  # of attributes, and of how many bytes
@@ -45,6 +50,7 @@ def _drawn(line: Line, columns: int) -> tuple[bytes, Names, Charsets]:
     charsets: Charsets = []
     for part in line:
         attribute, words = (None, part) if isinstance(part, str) else part
+        words = visible(words)
         end, width = _fitting(words, room)
         encoded, sets = urwid.apply_target_encoding(words[:end])
         text, room = text + encoded, room - width
@@ -65,4 +71,5 @@ def _fitting(words: str, room: int) -> tuple[int, int]:
 
 def width_of(line: Line) -> int:
     """Columns that a line takes."""
-    return sum(urwid.calc_width(text, 0, len(text)) for text in (p if isinstance(p, str) else p[1] for p in line))
+    texts = (visible(part if isinstance(part, str) else part[1]) for part in line)
+    return sum(urwid.calc_width(text, 0, len(text)) for text in texts)

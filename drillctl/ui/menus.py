@@ -12,6 +12,7 @@ import urwid
 from drillctl.ui.formats import FORMATS
 from drillctl.ui.lines import Line, Size
 from drillctl.ui.pick import Pick
+from drillctl.ui.texts import Box
 from drillctl.ui.words import N_, _
 
 
@@ -120,7 +121,7 @@ class PullDown(urwid.WidgetWrap[urwid.Widget]):
     ):  # fmt: skip
         self._items, self._chosen, self._sideways, self._closing = items, chosen, sideways, closing
         rows = urwid.SimpleFocusListWalker([urwid.AttrMap(self._row(item), "menu", FOCUSED) for item in items])
-        super().__init__(urwid.AttrMap(urwid.LineBox(urwid.ListBox(rows)), "menu"))
+        super().__init__(urwid.AttrMap(Box(urwid.ListBox(rows)), "menu"))
         self.columns = max(len(plain_label(item)) for item in items) + 4
         self.rows_wanted = len(items) + 2
 

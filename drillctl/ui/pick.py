@@ -2,12 +2,11 @@
 
 from collections.abc import Callable
 
-import urwid
-
 from drillctl.ui.lines import Line, Size
+from drillctl.ui.texts import Text
 
 
-class Pick(urwid.Text):
+class Pick(Text):
     """``chosen`` is called for Enter and for the further ``keys``, and for a click with the first button."""
 
     _selectable = True

@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from drillctl.panel.picture import Chart, Curve, Picture, Style
+from drillctl.wording import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,8 +49,8 @@ def picture_bytes(picture: Picture, kind: str) -> bytes:
     foot_in = NOTE_IN * (len(picture.notes) + 1)
     with matplotlib.rc_context(SETTINGS):
         figure = Figure((WIDTH_IN, sum(heights) + foot_in), layout="constrained")
-        figure.suptitle(picture.title)
-        figure.supxlabel("\n".join(picture.notes), fontsize="small")
+        figure.suptitle(_words(picture.title))
+        figure.supxlabel("\n".join(map(_words, picture.notes)), fontsize="small")
         places = figure.subplots(len(heights), squeeze=False, height_ratios=heights)[:, 0]
         for chart, axes in zip(picture.charts, places, strict=True):
             _draw(chart, axes)
@@ -62,12 +63,17 @@ def picture_bytes(picture: Picture, kind: str) -> bytes:
 def _draw(chart: Chart, axes: "Axes") -> None:
     for curve in chart.curves:
         _plot(curve, axes)
-    axes.set_xlabel(chart.x_label)
-    axes.set_ylabel(chart.y_label)
+    axes.set_xlabel(_words(chart.x_label))
+    axes.set_ylabel(_words(chart.y_label))
     if chart.to_scale:
         axes.set_aspect("equal", adjustable="datalim")
     axes.legend(loc="best", fontsize="small")
 
 
+def _words(text: str) -> str:
+    """As they are: no control characters, which SVG must not have; dollars are no formula of matplotlib's."""
+    return visible(text).replace("$", r"\$")
+
+
 def _plot(curve: Curve, axes: "Axes") -> None:
-    axes.plot(curve.x, curve.y, label=curve.label, **STYLES[curve.style])
+    axes.plot(curve.x, curve.y, label=_words(curve.label), **STYLES[curve.style])

@@ -56,7 +56,7 @@ class TableSlot:
 
     def answer(self, reason: str) -> None:
         """Empty: it was taken."""
-        data = reason.encode()[:MOST_REPLY_BYTES]
+        data = reason.encode("utf-8", "backslashreplace")[:MOST_REPLY_BYTES]
         self._fields["reply"][0, : len(data)] = np.frombuffer(data, np.uint8)
         self._fields["reply_length"] = len(data)
         self._fields["answered"] = self._fields["offered"]

@@ -1,15 +1,16 @@
 """Wiring: files that a run will write. Reserved before anything moves, complete or absent afterwards.
 
 Rule: a result goes to a temporary file beside its place and is renamed when whole; a path that can't be written
-refuses the run. Called by the verbs.
+refuses the run. What killed runs have left in that folder goes. Called by the verbs.
 """
 
 import os
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
+
+from drillctl import scratch
 
 
 class OutputError(Exception):
@@ -23,27 +24,28 @@ class Output:
         self.path = path
         self._place = Path(os.path.realpath(path))
         self._temporary: Path | None = None
+        self._handle = -1
         try:
             if path.exists() and not path.is_file():
                 path.open("a").close()  # a device or a pipe: written as it is; a folder raises
                 return
-            handle, name = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=self._place.parent)
-            os.close(handle)
-            self._temporary = Path(name)
+            scratch.sweep(self._place.parent)
+            self._handle, self._temporary = scratch.make_file(self._place)
         except OSError as error:
             raise OutputError(f"{path}: can't be written: {error.strerror}") from error
 
     def write(self, fill: Callable[[TextIO], object]) -> None:
         """Calls ``fill`` with an open text file (LF ends). Raises OutputError; the old file then still stands."""
-        target = self._temporary or self.path
+        target = os.dup(self._handle) if self._temporary else self.path
         try:
-            with target.open("w", encoding="utf-8", newline="\n") as file:
+            with open(target, "w", encoding="utf-8", newline="\n") as file:
                 fill(file)
                 file.flush()
             if self._temporary:
-                self._temporary.chmod(0o666 & ~_umask())
+                os.fchmod(self._handle, 0o666 & ~_umask())
                 self._temporary.replace(self._place)
                 self._temporary = None
+                self.drop()
         except OSError as error:
             raise OutputError(f"{self.path}: can't be written: {error.strerror}") from error
 
@@ -56,6 +58,9 @@ class Output:
         if self._temporary:
             self._temporary.unlink(missing_ok=True)
             self._temporary = None
+        if self._handle >= 0:
+            os.close(self._handle)
+            self._handle = -1
 
 
 @contextmanager

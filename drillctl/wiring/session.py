@@ -1,7 +1,7 @@
 """Wiring: one run of a job, from opening the port to the last line of the journal. Called by run and resume."""
 
 import hashlib
-import tempfile
+import os
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
@@ -14,6 +14,7 @@ from drillctl.generation.recipe import Recipe
 from drillctl.inputs import real_path
 from drillctl.lab import forecast
 from drillctl.machine import Machine
+from drillctl.scratch import KEPT_IN_FOLDERS, Folder, sweep
 from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
 from drillctl.wiring.machinery import Running, files_of, is_soon_over, start
 
@@ -80,7 +81,7 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> Rest:
 
 def default_journal(file: Path) -> Path:
     """Where a job's journal is kept when nobody says where: one for each file, wherever that lies."""
-    place = hashlib.sha256(str(real_path(file)).encode()).hexdigest()[:8]
+    place = hashlib.sha256(os.fsencode(real_path(file))).hexdigest()[:8]
     return journals() / f"{file.stem}-{place}.journal"
 
 
@@ -97,11 +98,15 @@ def _status_of(journal: Path) -> Path:
 
 @contextmanager
 def _status_file(journal: Path | None) -> Iterator[Path]:
-    """The mapped file of a paced run: beside the journal, where it stays after a crash; else for the moment."""
+    """The mapped file of a paced run: beside the journal, where it stays after a crash until the next run; else for
+    the moment.
+    """
     if journal is not None:
         file = _status_of(journal)
+        sweep(journals(), "*.journal.status")
+        sweep(file.parent)
         yield file
         file.unlink(missing_ok=True)
         return
-    with tempfile.TemporaryDirectory(prefix="drillctl-") as folder:
-        yield Path(folder) / "status"
+    with Folder() as folder:
+        yield folder / KEPT_IN_FOLDERS

@@ -8,7 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from drillctl.machine import Machine
 from drillctl.trace import Segments, Trace, TraceError, is_segments, read_segments, read_text, segment_bytes, write_text
+from drillctl.trace.values import is_plain
 from drillctl.wiring.outputs import Output, OutputError
 
 SEGMENTS = ".seg"
@@ -35,6 +37,15 @@ def takes_segments(file: Path, cards: int) -> bool:
     if wanted and cards > MOST_CARDS:
         raise OutputError(f"{file}: segments hold the outputs of {MOST_CARDS} cards; keep a .trace of this machine")
     return wanted
+
+
+def machine_named(machine: Machine, file: Path) -> str:
+    """What a trace of this name calls its machine. Raises OutputError for a machine's file that no trace can name."""
+    named = machine.reference_from(file.parent)
+    if not is_plain(named):
+        reason = f"a trace can't name {machine.file}; give the machine's file and its folders plain names"
+        raise OutputError(f"{file}: {reason}")
+    return named
 
 
 def write_record(record: Trace | Segments, output: Output) -> None:

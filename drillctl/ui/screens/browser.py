@@ -12,6 +12,7 @@ import urwid
 from drillctl.inputs import read_start, real_path
 from drillctl.ui.pick import Pick
 from drillctl.ui.words import _
+from drillctl.wording import one_line
 
 DRILL_FILES = "*.drl *.drd *.xln *.xnc *.exc *.cnc *.nc *.txt *.tap *.ncd *.rou"
 MOST_ENTRIES = 2000
@@ -70,7 +71,7 @@ class Browser(urwid.ListBox[int]):
             yield self.folder, _("(more than can be shown: use the filter)")
 
     def _row(self, path: Path, name: str) -> Pick:
-        return Pick("".join(c if c.isprintable() else "?" for c in name), lambda: self._choose(path))
+        return Pick(one_line(name), lambda: self._choose(path))
 
     def _matches(self, name: str) -> bool:
         return any(fnmatch(name.lower(), pattern.lower()) for pattern in self.pattern.split())

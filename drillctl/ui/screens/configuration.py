@@ -19,6 +19,7 @@ from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.shell import Shell, asked_to_leave
+from drillctl.ui.texts import Edit, Text
 from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
@@ -44,7 +45,7 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
         self._console, self._shell, self._desk, self._name = console, shell, desk, name
         self._shelf = Shelf(console, shell, desk, "machines")
-        self._heading, self._told = urwid.Text(""), urwid.Text("")
+        self._heading, self._told = Text(""), Text("")
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
         self._list = urwid.ListBox(self._rows)
         header = urwid.AttrMap(self._heading, "title")
@@ -129,7 +130,7 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
     def _open(self) -> None:
         at = self._list.focus_position if self._rows else 0
         self._form = Form(self._desk, self._desk.read("machines", self._name))
-        self._edits = [urwid.Edit(edit_text=field.value) for field in self._form.fields]
+        self._edits = [Edit(edit_text=field.value) for field in self._form.fields]
         self._rows[:] = [_row(field, edit) for field, edit in zip(self._form.fields, self._edits, strict=True)]
         if self._edits:
             self._list.set_focus(min(at, len(self._edits) - 1))
@@ -173,12 +174,12 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
 
 
-def _row(field: FieldView, edit: urwid.Edit) -> urwid.Widget:
+def _row(field: FieldView, edit: Edit) -> urwid.Widget:
     unit = _(words_of(field).unit)
     allowed = "" if field.locked else " | ".join(field.choices) or field.bounds
     sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
     hint: Line = [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []
-    label, box = urwid.Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
+    label, box = Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
     if not hint:  # free text has the whole line
         return urwid.Columns([(LABEL_COLUMNS, label), box], 1)
-    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), urwid.Text(hint, wrap="clip")], 1)
+    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), Text(hint, wrap="clip")], 1)

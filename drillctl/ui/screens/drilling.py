@@ -20,6 +20,7 @@ from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.side_window import SideWindow
 from drillctl.ui.shell import Shell
+from drillctl.ui.texts import Text
 from drillctl.ui.unfinished import offer_job
 from drillctl.ui.words import N_, _
 
@@ -54,7 +55,7 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         self._picture = BoardPicture(plain, N_("F opens a drill file."))
         self._window = SideWindow()
         self._was_at_work = False
-        self._footer = urwid.Text("")
+        self._footer = Text("")
         self._columns = urwid.Columns([self._picture, self._window], dividechars=1)
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._columns, footer=self._footer))
         self.refresh(console.view())

@@ -26,6 +26,7 @@ from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.browser import Browser, preview
 from drillctl.ui.screens.typed import accepted, length_mm, panel_of, tool_numbers
 from drillctl.ui.shell import Shell
+from drillctl.ui.texts import Icon, Text
 from drillctl.ui.told import told
 from drillctl.ui.unfinished import offer_unfinished
 from drillctl.ui.words import N_, _
@@ -58,10 +59,10 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._console, self._shell = console, shell
         self._asked, self._loaded = Asked(), Path()
         self._picture = BoardPicture(plain)
-        self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[urwid.SelectableIcon]] = urwid.SimpleFocusListWalker([])
+        self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
         facts = urwid.ListBox(self._rows)
         self._browser = Browser(folder or Path.cwd(), self.load, self._look_at)
-        self._where = urwid.Text("", wrap="ellipsis")
+        self._where = Text("", wrap="ellipsis")
         self._right = urwid.Pile([("weight", 2, self._picture), ("weight", 3, facts)])
         left: urwid.Widget = urwid.Frame(self._browser, header=urwid.AttrMap(self._where, "title"))
         self._sides = urwid.Columns([("weight", 2, left), ("weight", 3, self._right)], dividechars=1)
@@ -229,6 +230,6 @@ def _typed_mm(value_mm: float | None) -> str:
     return "" if value_mm is None else f"{value_mm:g}"
 
 
-def _row(line: str) -> urwid.AttrMap[urwid.SelectableIcon]:
+def _row(line: str) -> urwid.AttrMap[Icon]:
     """A line that can be scrolled to; a warning is marked."""
-    return urwid.AttrMap(urwid.SelectableIcon(line, 0), "warning" if is_warning(line) else "body", "focus")
+    return urwid.AttrMap(Icon(line, 0), "warning" if is_warning(line) else "body", "focus")

@@ -19,6 +19,7 @@ from drillctl.ui.models.history import History
 from drillctl.ui.real import asked_if_real
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.shell import Shell, asked_to_leave
+from drillctl.ui.texts import Edit, Text
 from drillctl.ui.told import told
 from drillctl.ui.words import N_, _
 
@@ -47,8 +48,8 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         self._stopped: list[Line] = []
         self._commands = desk.commands()
         self.file = ""
-        self._edit = urwid.Edit(multiline=True)
-        self._heading, self._told = urwid.Text(""), urwid.Text("")
+        self._edit = Edit(multiline=True)
+        self._heading, self._told = Text(""), Text("")
         body = urwid.ListBox(urwid.SimpleFocusListWalker([self._edit]))
         header = urwid.AttrMap(self._heading, "title")
         super().__init__(urwid.Frame(urwid.AttrMap(body, "field"), header=header, footer=self._told))

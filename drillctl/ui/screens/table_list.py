@@ -17,6 +17,7 @@ from drillctl.ui.screens.ramp_editor import RampEditor
 from drillctl.ui.screens.shelf import Shelf
 from drillctl.ui.screens.table_editor import ORIGINS, Size
 from drillctl.ui.shell import Shell, unsaved
+from drillctl.ui.texts import Icon
 from drillctl.ui.words import N_, _
 
 Editor = Callable[[Console, Shell, TableDesk, str, bool], urwid.Widget]
@@ -66,7 +67,7 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         in_use = (row for row, entry in enumerate(self._entries) if entry.in_use)
         at = self._list.focus_position if self._rows else next(in_use, 0)
         lines = list(map(_line, self._entries))
-        self._rows[:] = [urwid.AttrMap(urwid.SelectableIcon(line, 0), "body", "focus") for line in lines]
+        self._rows[:] = [urwid.AttrMap(Icon(line, 0), "body", "focus") for line in lines]
         if lines:
             self._list.set_focus(min(at, len(lines) - 1))
 

@@ -1,0 +1,73 @@
+"""Two command lines for each verb, as its help shows them. ``tests/cli/test_cli_examples.py`` runs them.
+
+Rule: a line may name files of ``examples/`` in a checkout, and files that a line before it in this table has written.
+"""
+
+from collections.abc import Mapping, Sequence
+
+EXAMPLES: Mapping[str, Sequence[str]] = {
+    "drillctl": (
+        "drillctl inspect examples/blinker.drl",
+        "drillctl run examples/blinker.drl --holes holes.csv",
+    ),
+    "run": (
+        "drillctl run examples/blinker.drl --order optimised --trace board.trace",
+        "drillctl run examples/short-moves.kmd --plant dynamic --vcd moves.vcd",
+    ),
+    "resume": (
+        "drillctl resume",
+        "drillctl resume board.journal --holes rest.csv",
+    ),
+    "estimate": (
+        "drillctl estimate examples/blinker.drl",
+        "drillctl estimate examples/blinker.drl --order nearest --json",
+    ),
+    "inspect": (
+        "drillctl inspect examples/blinker.drl",
+        "drillctl inspect examples/blinker.drl --format inch,decimal --json",
+    ),
+    "convert": (
+        "drillctl convert examples/blinker.drl --to clean.drl --style mm,decimal",
+        "drillctl convert examples/blinker.drl --to board.kmd --order optimised",
+    ),
+    "replay": (
+        "drillctl replay board.trace",
+        "drillctl replay board.trace --same-tables --engine tick",
+    ),
+    "machines": (
+        "drillctl machines",
+        "drillctl machines --json",
+    ),
+    "tables": (
+        "drillctl tables check tables/ramp/seven-state.toml",
+        "drillctl tables check tables/phase/two-phase-forced.toml tables/machines/pcb-drill.toml",
+    ),
+    "ports": (
+        "drillctl ports",
+        "drillctl ports --json",
+    ),
+    "latency": (
+        "drillctl latency --seconds 2",
+        "drillctl latency --hz 1000 --seconds 2 --json",
+    ),
+    "screen": (
+        "drillctl screen",
+        "drillctl screen --machine boiler-drum --lang pl",
+    ),
+    "scope": (
+        "drillctl scope board.trace",
+        "drillctl scope board.trace --from-tick 500",
+    ),
+    "plot": (
+        "drillctl plot board.trace",
+        "drillctl plot board.trace --what speed --axis x --to-tick 2000",
+    ),
+    "sweep": (
+        "drillctl sweep --hz 500:600:50 --steps 10 --out rates.csv",
+        "drillctl sweep --ramp seven-state,direct-start --steps 10 --out ramps.csv",
+    ),
+    "tune": (
+        "drillctl tune pcb-drill --axis x --out tuned-pcb-drill-x.toml",
+        "drillctl tune pcb-drill --margin 1.5 --out careful.toml --name careful",
+    ),
+}

@@ -1,0 +1,90 @@
+"""What the operator got wrong, told: lines on standard error, and with --json an object on standard output.
+
+Rule: the object has the same keys whatever was refused: ``{"error": {"code", "line", "text", "reason"}}``. Whatever is
+no refusal goes on up, as a fault of this program. Called by the command line's ``main``.
+"""
+
+import re
+import sys
+from typing import Any
+
+from drillctl.cli import streams
+from drillctl.wording import json_text
+
+REFUSED = 2
+_PLACE = re.compile(r".*?:(\d+)(?::\d+)?: ")  # FILE:LINE: or FILE:LINE:COLUMN:
+
+
+class UsageRefused(Exception):
+    """A command line that can't be understood."""
+
+
+def refuse(error: Exception, as_json: bool) -> int:
+    """Tells it; returns the exit code. Raises ``error`` where it is no refusal."""
+    code = _code(error)
+    if code is None and isinstance(error, OSError) and error.filename is None:
+        return streams.untold(error)
+    if code is None:
+        raise error
+    told = _object(error, code)
+    if as_json:
+        print(json_text(told))
+    for line in _text(error).split("\n"):
+        print(f"drillctl: {line}", file=sys.stderr)
+    return streams.delivered(REFUSED)
+
+
+def _code(error: Exception) -> str | None:
+    """What kind of thing was refused; None for what is no refusal."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return "unreadable"
+    return next((code for kind, code in _codes() if isinstance(error, kind)), None)
+
+
+def _codes() -> list[tuple[type[Exception], str]]:
+    from drillctl.cli.screen import ScreenError
+    from drillctl.generation.drillfile import DrillFileError
+    from drillctl.generation.errors import JobError
+    from drillctl.generation.journal import JournalError
+    from drillctl.generation.measured import AlignmentError
+    from drillctl.generation.placing import PlacingError
+    from drillctl.lab.errors import LabError
+    from drillctl.lab.latency import LatencyError
+    from drillctl.machine import TableError
+    from drillctl.ports import PortError
+    from drillctl.trace import TraceError
+    from drillctl.ui.plotted import PictureRefused
+    from drillctl.wiring.outputs import OutputError
+
+    return [
+        (UsageRefused, "usage"), (JobError, "job"), (TableError, "table"), (TraceError, "trace"),
+        (OutputError, "output"), (DrillFileError, "drill-file"), (PlacingError, "placing"),
+        (AlignmentError, "alignment"), (PortError, "port"), (JournalError, "journal"), (LatencyError, "latency"),
+        (LabError, "lab"), (PictureRefused, "picture"), (ScreenError, "screen"),
+    ]  # fmt: skip
+
+
+def _text(error: Exception) -> str:
+    """A line a problem."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{_name(error.filename)}: {error.strerror}"
+    return str(error)
+
+
+def _object(error: Exception, code: str) -> dict[str, Any]:
+    """As a drill file's first problem has it; of anything else the line is the one that its reason begins with."""
+    from drillctl.generation.drillfile import DrillFileError
+
+    inner = error if isinstance(error, DrillFileError) else error.__cause__
+    if isinstance(inner, DrillFileError):
+        return dict(inner.as_dict())
+    if isinstance(error, OSError) and code == "unreadable":
+        return {"error": {"code": code, "line": None, "text": "", "reason": f"can't be read: {error.strerror}"}}
+    text = _text(error)
+    place = _PLACE.match(text)
+    return {"error": {"code": code, "line": int(place[1]) if place else None, "text": "", "reason": text}}
+
+
+def _name(file: object) -> str:
+    """A file's name as the system has it: text, or bytes."""
+    return file.decode("utf-8", "surrogateescape") if isinstance(file, bytes) else str(file)

@@ -1,0 +1,124 @@
+"""Files and folders that live as long as the run that made them, and what a killed run has left of its own.
+
+Rule: a new file is made by O_EXCL and O_NOFOLLOW, so it never is somebody else's, nor what a link leads to; it stays
+locked (flock) while any process of its run lives. ``sweep`` and ``sweep_folders`` remove only what carries our mark,
+belongs to this user, and has nobody's lock. Called by outputs, the channel, sessions and the station.
+"""
+
+import fcntl
+import os
+import secrets
+import stat
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+MARK = ".drillctl-tmp"  # how the name of a file ends that is not yet whole
+FOLDERS = "drillctl-run-"
+KEPT_IN_FOLDERS = "status"  # what a run keeps in its folder, beside files with the mark
+LONGEST_STEM = 100  # characters of the name that the file is made for
+MOST_TRIES = 100
+_NEW = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+_LOOK = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+
+
+def make_file(place: Path) -> tuple[int, Path]:
+    """A new empty file beside ``place``, for its owner alone: a locked descriptor and its path. Raises OSError."""
+    for _ in range(MOST_TRIES):
+        path = place.with_name(f".{place.name[:LONGEST_STEM]}.{secrets.token_hex(4)}{MARK}")
+        with suppress(FileExistsError):
+            handle = os.open(path, _NEW, 0o600)
+            lock(handle)
+            if os.fstat(handle).st_nlink:  # none: it was swept before it was locked
+                return handle, path
+            os.close(handle)
+    raise FileExistsError(f"{place}: {MOST_TRIES} names beside it are taken")
+
+
+def lock(handle: int) -> None:
+    """Holds a file for as long as this description is open in any process. A file system without locks has none."""
+    with suppress(OSError):
+        fcntl.flock(handle, fcntl.LOCK_EX)
+
+
+def sweep(folder: Path, pattern: str = f".*{MARK}") -> None:
+    """Removes the files of a folder that killed runs have left. What can't be looked at or removed stays."""
+    with suppress(OSError):
+        for file in folder.glob(pattern):
+            _remove_left(file)
+
+
+class Folder:
+    """A folder for one run, for its owner alone. Raises OSError. To be closed: it goes then, with what is in it."""
+
+    def __init__(self) -> None:
+        sweep_folders()
+        for _ in range(MOST_TRIES):
+            self.path = Path(tempfile.mkdtemp(prefix=FOLDERS))
+            with suppress(FileNotFoundError):  # it was swept before it was locked
+                self._handle = os.open(self.path, _LOOK | os.O_DIRECTORY)
+                lock(self._handle)
+                if _is_at(self.path, os.fstat(self._handle)):
+                    return
+                os.close(self._handle)
+        raise FileExistsError(f"{self.path}: no folder of that kind stays")
+
+    def close(self) -> None:
+        """More than once is allowed."""
+        if self._handle >= 0:
+            _remove_folder(self.path, self._handle)
+            os.close(self._handle)
+            self._handle = -1
+
+    def __enter__(self) -> Path:
+        return self.path
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def sweep_folders() -> None:
+    """Removes the folders that killed runs have left where the system keeps temporary files."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{FOLDERS}*"):
+        with suppress(OSError):
+            handle = os.open(folder, _LOOK | os.O_DIRECTORY)
+            try:
+                if _is_left(handle):
+                    _remove_folder(folder, handle)
+            finally:
+                os.close(handle)
+
+
+def _remove_left(file: Path) -> None:
+    with suppress(OSError):
+        handle = os.open(file, _LOOK)
+        try:
+            if stat.S_ISREG(os.fstat(handle).st_mode) and _is_left(handle) and _is_at(file, os.fstat(handle)):
+                file.unlink()
+        finally:
+            os.close(handle)
+
+
+def _is_left(handle: int) -> bool:
+    """Whether it is this user's, and no process holds it; it is held from here on, until the handle is closed."""
+    if os.fstat(handle).st_uid != os.geteuid():
+        return False
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:  # held, or a file system that knows no locks: nobody can say that its run is over
+        return False
+    return True
+
+
+def _is_at(path: Path, told: os.stat_result) -> bool:
+    """Whether the path still leads to this file or folder."""
+    return os.path.samestat(path.lstat(), told)
+
+
+def _remove_folder(folder: Path, handle: int) -> None:
+    """With what a run keeps in it; anything else in it keeps it where it is."""
+    with suppress(OSError):
+        for name in os.listdir(handle):
+            if name == KEPT_IN_FOLDERS or name.endswith(MARK):
+                os.unlink(name, dir_fd=handle)
+        folder.rmdir()

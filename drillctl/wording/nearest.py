@@ -1,0 +1,26 @@
+"""The word that was probably meant, for a refusal of one that is not known.
+
+Rule: a suggestion is one of the words there are, and none is made for what is like none of them. Used wherever an
+operator types a name: verbs and choices, machines and tables, commands, axes, outputs, faults, ports.
+"""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+CLOSE_ENOUGH = 0.6  # difflib's ratio: `pcb-dril` is 0.94 like `pcb-drill`, `dig` 0.57 like `run` at most
+LONGEST_WORD = 60  # compared and shown; what is longer was no slip of a finger
+
+
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """The known word most like this one, whatever its capitals; None where none is like it."""
+    lowered = {name.casefold(): name for name in known}
+    found = get_close_matches(word[:LONGEST_WORD].casefold(), lowered, n=1, cutoff=CLOSE_ENOUGH)
+    return lowered[found[0]] if found else None
+
+
+def known_words(word: str, known: Iterable[str]) -> str:
+    """What follows the refusal of a word: ``there are a, b; did you mean b?``, the question where one is like it."""
+    names = list(known)
+    meant = nearest(word, names)
+    listed = f"there are {', '.join(names)}" if names else "there are none"
+    return f"{listed}; did you mean {meant}?" if meant else listed
