@@ -40,7 +40,7 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     ),
     "tables": (
         "drillctl tables check tables/ramp/seven-state.toml",
-        "drillctl tables check tables/phase/two-phase-forced.toml tables/machines/pcb-drill.toml",
+        "drillctl tables check tables/machines/pcb-drill.toml",
     ),
     "ports": (
         "drillctl ports",

@@ -6,12 +6,12 @@ Rule: a text is wrong as a whole or a program as a whole. Called by generation a
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, MOST_AXES, RECORD, Form, Names, Op, Spec
+from drillctl.wording import known_words, nearest
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
@@ -101,8 +101,8 @@ def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]
 def _unknown(name: str) -> str:
     """With a hint for a slip of the finger; what all names begin with says nothing."""
     known = {command.removeprefix(_PREFIX).upper(): command for command in COMMANDS}
-    close = get_close_matches(name.upper().removeprefix(_PREFIX), known, n=1, cutoff=0.7)
-    return f"unknown command {name!r}; did you mean {known[close[0]]}?" if close else f"unknown command {name!r}"
+    close = nearest(name.upper().removeprefix(_PREFIX), known)
+    return f"unknown command {name!r}; did you mean {known[close]}?" if close else f"unknown command {name!r}"
 
 
 def _count(spec: Spec, name: _Word, rest: list[_Word], wanted: int) -> None:
@@ -124,13 +124,13 @@ def _integer(word: _Word, least: int = -MOST_ARGUMENT) -> int:
 
 def _axis(word: _Word, name: str, names: Names) -> int:
     if name not in names.axes:
-        raise _LineError(word, f"no axis is named {name[:40]!r}; there are {', '.join(names.axes)}")
+        raise _LineError(word, f"no axis is named {name[:40]!r}; {known_words(name, names.axes)}")
     return names.axes.index(name)
 
 
 def _known(word: _Word, table: Mapping[str, int], kind: str) -> int:
     if word.text not in table:
-        there = f"there are {', '.join(table)}" if table else "this machine has none"
+        there = known_words(word.text, table) if table else "this machine has none"
         raise _LineError(word, f"no {kind} is named {word.text[:40]!r}; {there}")
     return table[word.text]
 

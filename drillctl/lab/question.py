@@ -17,6 +17,7 @@ from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
 from drillctl.plant.dynamic.coefficients import SUBSTEPS
+from drillctl.wording import known_words
 
 PARAMETERS = tuple(field.name for field in fields(Dynamics) if field.type is float)
 SPREAD = ("resistance_ohm", "inductance_h", "torque_nm_per_a", "inertia_kgm2", "viscous_nms", "coulomb_nm")
@@ -65,7 +66,7 @@ class Question:
             raise LabError(f"axis {self.axis.name} has no dynamics; docs/PLANT.md says how to name some")
         for name, _ in self.times:
             if name not in PARAMETERS:
-                raise LabError(f"no parameter {name!r}; there are {', '.join(PARAMETERS)}")
+                raise LabError(f"no parameter {name!r}; {known_words(name, PARAMETERS)}")
         _check_same_once([name for name, _ in self.times])
         for name, table in self.phases:
             _check_wires(name, table, self.axis.phase)

@@ -11,6 +11,7 @@ from drillctl.machine import AxisTable, Library, Machine
 from drillctl.machine.phase import NAME, PhaseTable, parse_phase
 from drillctl.machine.ramp import RampTable, read_ramp
 from drillctl.machine.source import Source
+from drillctl.wording import known_words
 
 ALL_BROKEN = "broken"
 LONGEST_NAME = 40
@@ -21,7 +22,7 @@ def axis_index(machine: Machine, name: str) -> int:
     """An axis by its name. Raises LabError."""
     index = machine.axis_index(name)
     if index is None:
-        raise LabError(f"{machine.name} has no axis {name!r}; it has {', '.join(machine.axis_names)}")
+        raise LabError(f"{machine.name} has no axis {name!r}; {known_words(name, machine.axis_names)}")
     return index
 
 
@@ -67,7 +68,7 @@ def _phase(name: str, axis: AxisTable, library: Library) -> PhaseTable:
 
 
 def _unknown(kind: str, name: str, known: list[str]) -> NoReturn:
-    raise LabError(f"no {kind} is named {name[:60]!r}; there are {', '.join(known)}")
+    raise LabError(f"no {kind} is named {name[:60]!r}; {known_words(name, known)}")
 
 
 def _apart(names: str) -> list[str]:

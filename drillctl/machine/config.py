@@ -14,6 +14,7 @@ from drillctl.machine.phase import NAME
 from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
+from drillctl.wording import known_words
 
 # Names that a trace gives to its own signals and scopes: an axis of such a name could not be told from them.
 TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
@@ -125,7 +126,7 @@ def _check_locked(source: Source, raw: MachineFile) -> None:
     known = frozenset(name for setting in (*settings_of(raw), *wire_settings_of(raw)) for name in setting.names)
     for name in raw.locked:
         if name not in known:
-            raise source.error(f"locked: no setting is named {name!r}; there are {', '.join(sorted(known))}", "locked")
+            raise source.error(f"locked: no setting is named {name!r}; {known_words(name, sorted(known))}", "locked")
 
 
 def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -> None:
@@ -186,6 +187,6 @@ def _surfaces(source: Source, surfaces: Mapping[str, object], names: list[str]) 
 def _indexes(source: Source, wanted: Iterable[str], names: list[str], *place: str | int) -> tuple[int, ...]:
     for name in wanted:
         if name not in names:
-            reason = f"{place[0]}: no axis is named {name!r}; there are {', '.join(names)}"
+            reason = f"{place[0]}: no axis is named {name!r}; {known_words(name, names)}"
             raise source.error(reason, *place)
     return tuple(names.index(name) for name in wanted)

@@ -13,6 +13,7 @@ from drillctl.machine.motor import Motor, parse_motor
 from drillctl.machine.phase import PhaseTable, parse_phase
 from drillctl.machine.ramp import RampTable, parse_ramp
 from drillctl.machine.source import Source
+from drillctl.wording import known_words
 
 Place = tuple[str | int, ...]
 
@@ -76,7 +77,8 @@ class Parts:
     def _open(self, kind: str, name: str, source: Source, place: Place) -> Source:
         found = self._find(kind, name)
         if found is None:
-            raise source.error(f"no {kind} table is named {name[:60]!r}", *place)
+            names = sorted({file.stem for folder in self._folders for file in (folder / kind).glob("*.toml")})
+            raise source.error(f"no {kind} table is named {name[:60]!r}; {known_words(name, names)}", *place)
         self.files.append(found.file)
         return found
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from drillctl.machine import Machine
+from drillctl.wording import nearest
 
 
 class PlantRefused(Exception):
@@ -73,8 +74,10 @@ def parse_fault(text: str) -> Fault:
     found = _FORM.fullmatch(text)
     kind = FAULT_KINDS.get(found[1]) if found else None
     if found is None or kind is None:
-        known = ", ".join(_usage(name) for name in FAULT_KINDS)
-        raise PlantRefused(f"fault {text[:60]!r}: not known; there are {known}")
+        word = re.split("[.=]", text, maxsplit=1)[0]
+        meant = nearest(word, FAULT_KINDS)
+        hint = f"; did you mean {_usage(meant)}?" if meant else ""
+        raise PlantRefused(f"fault {text[:60]!r}: not known; there are {', '.join(map(_usage, FAULT_KINDS))}{hint}")
     if bool(found[2]) != bool(kind.part):
         raise PlantRefused(f"fault {text[:60]!r}: it is told as {_usage(found[1])}")
     if not kind.least <= float(found[3]) <= kind.most:

@@ -11,6 +11,7 @@ from functools import partial
 from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
 from drillctl.ports import Driver, PortRefused, Wiring
+from drillctl.wording import known_words
 
 Open = Callable[[str, Wiring, Driver | None], Driver]
 Rate = Callable[[str, Wiring, Iterable[int]], int | None]
@@ -140,7 +141,7 @@ def select(spec: str) -> tuple[Port, str]:
     """The port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
     name, _, address = spec.partition(":")
     if name not in PORTS:
-        raise PortRefused(name, f"there is no such port; there are {', '.join(PORTS)}")
+        raise PortRefused(name, f"there is no such port; {known_words(name, PORTS)}")
     return PORTS[name], address
 
 

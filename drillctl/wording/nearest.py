@@ -21,6 +21,7 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
 def known_words(word: str, known: Iterable[str]) -> str:
     """What follows the refusal of a word: ``there are a, b; did you mean b?``, the question where one is like it."""
     names = list(known)
-    meant = nearest(word, names)
-    listed = f"there are {', '.join(names)}" if names else "there are none"
-    return f"{listed}; did you mean {meant}?" if meant else listed
+    listed, meant = ", ".join(names), nearest(word, names)
+    if meant:
+        return f"there are {listed}; did you mean {meant}?"
+    return f"there are {listed}" if names else "there are none"

@@ -38,7 +38,7 @@ def trees(*rooms: str) -> Iterator[ast.Module]:
 
 def all_forms() -> set[str]:
     """Every string below the screen that might be told; what msgspec says of a table is put plainly by machine."""
-    rooms = trees("generation", "station", "wiring", "machine", "kmd", "inputs", "portio")
+    rooms = trees("generation", "station", "wiring", "machine", "kmd", "inputs", "portio", "panel", "wording")
     return {without_place(text) for tree in rooms for text in texts(tree)} | OF_MSGSPEC
 
 
