@@ -1,7 +1,8 @@
 """What the dynamic plant loses, and from when on: the tables of docs/PLANT.md.
 
 Run as ``python -m benchmarks.plant_figures`` (some minutes; ``--quick`` for one rest column of each kind and a
-coarser grid). Every figure is a trial of the real automaton on X of a machine, judged at rest (lab/trials.py).
+coarser grid). Every figure is a trial of the real automaton on X of a machine, judged at rest (lab/trials.py), but
+for the example board, which is drilled whole.
 """
 
 import argparse
@@ -9,15 +10,22 @@ import os
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from random import Random
 
 import numpy as np
 
+from drillctl.generation.job import load_job
+from drillctl.generation.wishes import Wishes
 from drillctl.lab.broken import BROKEN, direct_start
 from drillctl.lab.moves import move
 from drillctl.lab.trials import Trial, errors_full_steps, lost
 from drillctl.machine import AxisTable, Dynamics, Library, shipped_tables
+from drillctl.plant import PlantChoice
 from drillctl.plant.dynamic.plant import DynamicPlant
+from drillctl.wiring.desk import Desk
+from drillctl.wiring.link import LocalLink
+from drillctl.wiring.ticker import Ticker
 
 MACHINES = ("pcb-drill", "pcb-drill-ramp-lab")
 LONG_COLUMNS, SHORT_COLUMNS, LONGEST_COLUMNS = 900, 300, 1500
@@ -25,6 +33,8 @@ VARIED = ("resistance_ohm", "inductance_h", "torque_nm_per_a", "inertia_kgm2", "
 VARIANTS, SPREAD = 40, 0.03
 WAYS = {"forward": 1, "backward": -1}
 NEVER = "-"
+BOARD = Path(__file__).resolve().parent.parent / "examples" / "blinker.drl"
+BOARD_HZ = (500, 560, 575, 580, 585, 590, 595, 600)
 
 
 @dataclass(frozen=True)
@@ -121,6 +131,19 @@ def broken_tables(axis: AxisTable, bench: Bench) -> None:
     print_table(["table", *(f"{hz} Hz" for hz in rates)], lines)
 
 
+def whole_board() -> None:
+    """The example board on pcb-drill with its nominal figures: X, Y and Z with its drill."""
+    lines = []
+    for hz in BOARD_HZ:
+        machine = Library((shipped_tables(),)).machine("pcb-drill").at_rate(hz)
+        link = LocalLink(Ticker.simulated(machine, plant_choice=PlantChoice("dynamic")))
+        told = Desk(load_job(BOARD, machine, Wishes()), link, lambda progress: None).run().outcome
+        lost_steps = " ".join(f"{name} {steps}" for name, steps in (told.lost_steps or {}).items())
+        fault = told.fault.name if told.fault else NEVER
+        lines.append([f"{hz} Hz", f"{told.holes_done} of {told.holes_total}", lost_steps, fault])
+    print_table(["blinker.drl at", "holes", "steps lost", "fault"], lines)
+
+
 def ticks_a_second(name: str) -> str:
     """Of the scalar plant, three axes moving; of CPU time."""
     machine = Library((shipped_tables(),)).machine(name)
@@ -143,6 +166,8 @@ def main() -> None:
     print_table(["", *MACHINES], [[what, a, b] for (what, a), (_, b) in zip(first, second, strict=True)])
     print()
     broken_tables(axes[0], bench)
+    print()
+    whole_board()
     speeds = ", ".join(f"{name} {ticks_a_second(name)}" for name in MACHINES)
     print(f"\nTicks a second, three axes moving: {speeds}; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 

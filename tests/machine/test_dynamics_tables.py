@@ -56,14 +56,14 @@ def test_a_machine_need_not_have_them() -> None:
 def test_they_leave_the_digest(table: str, changed: Change) -> None:
     """A run is decided by images and sensors; replay needs no plant."""
     before = Library((shipped_tables(),)).machine("pcb-drill")
-    old, new = ("0.061", "0.062") if table == CARRIAGE else ("thrust_n = 4", "thrust_n = 5")
+    old, new = ("0.061", "0.062") if table == CARRIAGE else ("thrust_n = 3", "thrust_n = 5")
     after = changed(table, old, new)
     told = [(m.axes[0].dynamics, m.surroundings) for m in (before, after)]
     assert told[0] != told[1] and before.digest == after.digest
 
 
 def test_what_surrounds_the_motors_is_read(changed: Change) -> None:
-    assert astuple(changed(DRILL, "scatter_mm = 0.01", "scatter_mm = 0.02").surroundings) == (0.02, 4, 1)
+    assert astuple(changed(DRILL, "scatter_mm = 0.01", "scatter_mm = 0.02").surroundings) == (0.02, 3, 1.5)
 
 
 @pytest.mark.parametrize(
