@@ -1,10 +1,12 @@
 """A board that was reset makes no hole that is told as done: a piece of benchmarks/board_resets.py, which tries all."""
 
+from pathlib import Path
 
 import pytest
 
 from drillctl.generation.job import Job
 from tests.campaign.board_resets import Reset, play, short_job
+from tests.campaign.resetting_board import play_round
 
 EVERY = 17  # wakes of some 420
 QUIET_WAKES, SILENT_WAKES = 25, 500  # within which a loss is told: a question's beat and its answer; its patience
@@ -36,3 +38,8 @@ def test_a_reset_at_any_tick(job: Job, greets: bool, silent: bool, longest: int,
         assert played.told_after <= longest
         lost += played.outcome.fault is not None
     assert lost >= wakes // every
+
+
+def test_the_program_on_a_board_that_resets_quietly_and_its_resume(tmp_path: Path) -> None:
+    played = play_round(short_job(tmp_path), tmp_path, message=100, greets=False)
+    assert played.was_reset and not played.violations
