@@ -77,7 +77,8 @@ class Played:
             wrong.append(f"{self.outcome.holes_done} holes told as done, {self.made} made")
         name = fault.name if fault else "nothing"
         others = ("LIMIT",) if reset.silent else ()  # of a sensor that stays as it was
-        if 0 <= reset.wake < self.wakes - 1 and name not in ("PORT_LOST", *others):
+        settled = self.wakes - 1 - ANSWER_TICKS  # from then on the last answer, of before the reset, is under way
+        if 0 <= reset.wake < settled and name not in ("PORT_LOST", *others):
             wrong.append(f"no PORT_LOST but {name}")
         if fault is not None and (self.outcome.position_known or fault.position != "lost"):
             wrong.append("the position is told as known")
