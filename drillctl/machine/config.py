@@ -14,7 +14,7 @@ from drillctl.machine.phase import NAME
 from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
-from drillctl.wording import known_words
+from drillctl.wording import known_words, nearest
 
 # Names that a trace gives to its own signals and scopes: an axis of such a name could not be told from them.
 TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
@@ -101,8 +101,11 @@ def _check_wiring(
 ) -> None:
     known = {f"{axis.name}.{wire}" for axis in axes for wire in axis.phase.wire_names()}
     for name in wiring:
-        if name not in known:
-            raise source.error(f'wiring: no axis has a wire "{name}"', "wiring", name)
+        if name in known:
+            continue
+        if meant := nearest(name, sorted(known)):
+            raise source.error(f'wiring: no axis has a wire "{name}"; did you mean "{meant}"?', "wiring", name)
+        raise source.error(f'wiring: no axis has a wire "{name}"', "wiring", name)
     taken: dict[int, str] = {}
     for table, bits in (("wiring", wiring), ("outputs", outputs)):
         for name, bit in bits.items():

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.cli import main
+
 Drillctl = Callable[..., "subprocess.CompletedProcess[str]"]
 GERBER = "%FSLAX24Y24*%\n%MOIN*%\n%ADD10C,0.01*%\nD10*\nX0Y0D02*\nX100Y100D01*\nM02*\n"
 BIG = "M48\nMETRIC\nT1C0.8\n%\nT1\nX0.0Y0.0\nX2000.0Y10.0\nX20.0Y10.0\nX15.0Y3000.0\nM30\n"
@@ -119,6 +121,67 @@ def test_inspect_tells_an_error_as_an_object_too(
     assert done.returncode == 2 and done.stderr.startswith(f"drillctl: {name}: ")
     error = json.loads(done.stdout)["error"]
     assert (error["code"], error["line"], error["text"]) == (code, None, text)
+
+
+OBJECTS = [
+    (["run", "missing.drl"], "unreadable", None),
+    (["run", "missing.kmd"], "job", None),
+    (["run", "board.gbr"], "gerber-not-drill", None),
+    (["run", "bad.kmd"], "job", 2),
+    (["run", "big.drl"], "job", 7),
+    (["run", "hole.kmd", "--machine", "pcb-dril"], "table", None),
+    (["run", "hole.kmd", "--machine", "bad.toml"], "table", 3),
+    (["run", "hole.kmd", "--port", "gpi"], "port", None),
+    (["run", "hole.kmd", "--trace", "."], "output", None),
+    (["run", "hole.kmd", "--plant", "dynamik"], "usage", None),
+    (["run", "hole.kmd", "--plan", "dynamic", "--fualt", "blunt=1"], "usage", None),
+    (["run"], "usage", None),
+    (["resume", "hole.kmd"], "journal", 1),
+    (["estimate", "empty.kmd"], "job", 1),
+    (["estimate", "kicad.drl", "--offset", "1"], "usage", None),
+    (["inspect", "empty.drl"], "empty-file", None),
+    (["latency", "--seconds", "0"], "usage", None),
+    (["machines", "--tables", "nowhere"], "table", None),
+    (["ports", "more"], "usage", None),
+]
+
+
+@pytest.mark.parametrize(("arguments", "code", "line"), OBJECTS, ids=[" ".join(row[0]) for row in OBJECTS])
+def test_with_json_a_refusal_is_an_object_of_every_verb(
+    arguments: list[str], code: str, line: int | None, hostile: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.chdir(hostile)
+    before = contents(hostile)
+    assert main([*arguments, "--json"]) == 2
+    told = capsys.readouterr()
+    error = json.loads(told.out)["error"]
+    assert set(error) == {"code", "line", "text", "reason"}
+    assert (error["code"], error["line"]) == (code, line) and error["reason"]
+    assert told.err.startswith("drillctl: ")
+    assert contents(hostile) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "meant"),
+    [
+        (["runn", "x"], "run"), (["run", "x", "--order", "optimized"], "optimised"),
+        (["run", "x", "--mahcine", "x"], "--machine"), (["run", "hole.kmd", "--machine", "pcb-dril"], "pcb-drill"),
+        (["run", "hole.kmd", "--port", "simulate"], "simulated"), (["tables", "chek", "x"], "check"),
+        (["run", "hole.kmd", "--plant", "dynamic", "--fault", "blumt=1"], "blunt=N"),
+        (["sweep", "--out", "o", "--ramp", "seven-stat"], "seven-state"), (["run", "slip.kmd"], "KMD_CZEKAJ"),
+        (["sweep", "--out", "o", "--vary", "coulom_nm=1"], "coulomb_nm"),
+        (["run", "lamp.kmd", "--machine", "cnc-shield"], "spindle"),
+    ],
+)  # fmt: skip
+def test_a_word_that_is_nearly_right(
+    arguments: list[str], meant: str, hostile: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(hostile)
+    (hostile / "slip.kmd").write_text("KMD_CZEKA 3\n")
+    (hostile / "lamp.kmd").write_text("KMD_WYJSCIE spindel 1\n")
+    assert main(arguments) == 2
+    assert f"did you mean {meant}?" in capsys.readouterr().err
 
 
 def test_a_broken_table_spoils_its_own_machine_only(drillctl: Drillctl, folder: Path) -> None:

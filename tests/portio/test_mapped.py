@@ -89,6 +89,15 @@ def test_any_other_file_is_refused_and_kept(tmp_path: Path, content: bytes) -> N
     assert (tmp_path / "card").read_bytes() == content
 
 
+def test_a_link_is_no_card(tmp_path: Path) -> None:
+    (tmp_path / "mine").write_bytes(b"")
+    for name, target in (("link", "mine"), ("dangling", "nowhere")):
+        (tmp_path / name).symlink_to(tmp_path / target)
+        with pytest.raises(PortRefused, match="symbolic link"):
+            card_at(tmp_path / name)
+    assert (tmp_path / "mine").read_bytes() == b"" and not (tmp_path / "nowhere").exists()
+
+
 @pytest.mark.parametrize("place", ["no/such/folder/card", ".", "/dev/null"])
 def test_a_place_where_no_file_can_be(tmp_path: Path, place: str) -> None:
     with pytest.raises(PortRefused, match="can't be the card's file"):

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from drillctl.cli import main
+from drillctl.wording import visible
 
 COLLECTED_NOTHING = 5
 
@@ -65,6 +66,14 @@ def test_a_broken_trace_fails_with_its_line(repository: Path) -> None:
     (repository / "good.trace").write_text(text[: text.index("\nend ")] + "\n")
     done = run_pytest(repository)
     assert done.returncode == 1 and "good.trace:" in done.stdout and "Traceback" not in done.stdout
+
+
+def test_what_a_trace_holds_reaches_no_terminal(repository: Path) -> None:
+    (repository / "n\x1b[31m\u202e.trace").write_text("drillctl-trace 1\nmachine \u202e\u200b\x1b[2J\n\nend 1\n")
+    done = run_pytest(repository, "--no-header", "--color=no")
+    said = [line for line in done.stdout.splitlines() if "out of place" in line or "trace n" in line]
+    assert done.returncode == 1 and said
+    assert all(visible(line) == line for line in said)
 
 
 def test_required_traces_must_be_there(repository: Path) -> None:
