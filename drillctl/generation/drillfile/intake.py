@@ -130,9 +130,6 @@ def _tidy_line(found: re.Match[str]) -> str:
 
 def _plain_text(data: bytes) -> str:
     """ASCII with Latin-1 comments, without tape leader and what DOS left behind its end mark."""
-    text, end, _ = data.removeprefix(UTF8_MARK).strip(TAPE_LEADER).partition(DOS_END)
-    text = text.strip(TAPE_LEADER)
-    if end and not text.endswith((b"\r", b"\n")):
-        text += b"\n"  # the mark ends the last line too
+    text = data.removeprefix(UTF8_MARK).strip(TAPE_LEADER).partition(DOS_END)[0].strip(TAPE_LEADER)
     sniff.check_controls(text)
     return text.decode("latin-1")

@@ -153,16 +153,15 @@ def test_allegro_without_t_words() -> None:
 # -- files cut short, limits ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("last", ["X5.0Y1", "X5", "X5.0Y1.0 ", "T2", "R3X1", "G85X5.0"])
+@pytest.mark.parametrize("last", ["X5.0Y1", "X5", "X5.0Y1.0 ", "T2", "R3X1", "G85X5.0", "X5.0Y1\x1a", "X5.0Y1\x00\x00"])
 def test_a_file_cut_in_its_last_line_is_refused(last: str) -> None:
     assert refusal(HEADER + BODY + last) == "cut-short"
 
 
 @pytest.mark.parametrize(
     ("last", "told"),
-    [("", ["no-end-of-program"]), ("; a note", ["no-end-of-program"]), ("M30", []), ("M30X0Y0", []),
-     ("X5.0Y5.0\x1a", ["no-end-of-program"])],
-)  # fmt: skip
+    [("", ["no-end-of-program"]), ("; a note", ["no-end-of-program"]), ("M30", []), ("M30X0Y0", []), ("M30\x1a", [])],
+)
 def test_a_file_that_ends_on_a_whole_line(last: str, told: list[str]) -> None:
     assert codes(read_text(HEADER + BODY + last)) == told
 
