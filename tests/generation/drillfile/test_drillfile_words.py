@@ -85,6 +85,8 @@ def test_what_is_not_drilled_is_refused_by_name(word: str, place: str) -> None:
         ("N", "unknown-command"),
         ("T3C0.8C1.2", "bad-diameter"),
         ("T2\nR2X1.0", "repeat-without-hole"),
+        ("M06X9.0Y9.0\nR2X1.0", "repeat-without-hole"),
+        ("G00X2.0\nR2X1.0", "repeat-without-hole"),
         ("G93X5.0Y5.0", "zero-moved"),
         ("G91\nM25\nX1.0\nM01\nM02X5.0", "unsupported-command"),
         ("M25\nX1.0\nM01\nM02X5.0\nM02\nM02X5.0", "bad-pattern"),
@@ -166,6 +168,11 @@ def test_a_setting_that_is_told(setting: str, code: str) -> None:
     )
     found = read_text(text + "M30\n")
     assert [remark.code for remark in found.warnings] == [code] and holes(found) == [(1, 1.0, 1.0)]
+
+
+def test_a_slot_without_length_is_a_hole() -> None:
+    found = read_text(f"{HEADER}X1.0Y1.0G85X1.0Y1.0\nX5.0Y5.0G85X6.0\nM30\n")
+    assert holes(found) == [(1, 1.0, 1.0)] and found.slot_mm.tolist() == [[5.0, 5.0, 6.0, 5.0]]
 
 
 def test_format_one_has_other_names() -> None:
