@@ -19,7 +19,6 @@ FURTHEST_MM = 5_000.0
 THINNEST_MM, THICKEST_MM = 0.15, 6.5  # drills that houses have
 SAME_SIZE_MM, SAME_SIZE_SHARE = 0.03, 0.03  # how far a report may round a diameter
 SHORTEST_SLOT_MM = 1e-6
-DOUBTFUL_SHARE = 0.05  # of overlapping holes, from which on the format itself is doubted
 
 
 def faults(machine: Machine, mm_per_unit: float, ends_mm: Floats) -> Iterator[Remark]:

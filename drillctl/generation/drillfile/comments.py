@@ -69,15 +69,19 @@ def declare(groups: Mapping[str, str], source: str, line: int | None, voice: Voi
     """Turn found groups into facts; words nobody knows declare nothing."""
     if "integer" in groups and "decimal" in groups:
         digits = int(groups["integer"]), int(groups["decimal"])
-        facts.declare_digits(Fact(digits, voice, line, source))
-    mm = MM_PER_WORD.get(groups.get("units", "").lower())
-    for units in [name for name, factor in MM_PER_UNIT.items() if factor == mm]:
+        facts.declare_digits(Fact(digits, voice, line, source), _units(groups))
+    if units := _units(groups):
         facts.declare_units(Fact(units, voice, line, source))
     if zeros := ZEROS.get(groups.get("zeros", "").strip().lower()):
         facts.declare_zeros(Fact(zeros, voice, line, source))
     if "size" in groups:
         number = int(groups.get("tool") or groups.get("index", "0"))
         facts.declare_size(number, _size(groups, voice))
+
+
+def _units(groups: Mapping[str, str]) -> str | None:
+    mm = MM_PER_WORD.get(groups.get("units", "").lower())
+    return next((name for name, factor in MM_PER_UNIT.items() if factor == mm), None)
 
 
 def _size(groups: Mapping[str, str], voice: Voice) -> Size:

@@ -31,7 +31,7 @@ def _units(units: str, machine: Machine, command: str) -> None:
             machine.facts.declare_zeros(fact)
         elif mask := DIGITS_MASK.fullmatch(argument):
             places = (len(mask[1]), len(mask[2])) if mask[1] else (int(mask[3]), int(mask[4]))
-            machine.facts.declare_digits(Fact(places, Voice.HEADER, machine.line, command))
+            machine.facts.declare_digits(Fact(places, Voice.HEADER, machine.line, command), units)
         else:
             raise Refusal("bad-setting", command)
 
@@ -88,6 +88,8 @@ MACHINE_SETTINGS = (
 KEYWORDS: dict[str, Keyword] = {
     "INCH": partial(_units, "inch"),
     "METRIC": partial(_units, "mm"),
+    "M72": partial(_units, "inch"),  # with arguments; bare ones are codes.py's
+    "M71": partial(_units, "mm"),
     "ICI": _incremental_input,
     "BLKD": _block_delete,
     "FMAT": _format,

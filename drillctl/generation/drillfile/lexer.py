@@ -23,7 +23,9 @@ LETTERS_TO_SPACES = str.maketrans("XY", "  ")
 # A diameter may name its unit (mm per unit); no other number may.
 UNITS_BEHIND = {"MM": 1.0, "INCH": 25.4, "IN": 25.4, '"': 25.4, "MILS": 0.0254, "MIL": 0.0254}
 WORD = re.compile(rf"(C)({NUMBER}(?:{'|'.join(UNITS_BEHIND)}))|([A-Z])({NUMBER})?")
-KEYWORD = re.compile(r"[A-Z]{2,}|[A-Z](?=,)|M(?:19|45|47|96|97|98|99)(?!\d)|%(?=%*$)|/$|Z(?=[-+]?[.\d]+$)")
+KEYWORD = re.compile(
+    r"[A-Z]{2,}|[A-Z](?=,)|M(?:19|45|47|96|97|98|99)(?!\d)|M7[12](?=[ \t]*,)|%(?=%*$)|/$|Z(?=[-+]?[.\d]+$)"
+)
 REMARK = re.compile(r";(.*)|\([^()]*\)")
 SPACE = re.compile(r"[ \t]+")
 TORN_NUMBER = re.compile(r"[.\d][ \t]+[.\d]")

@@ -79,7 +79,9 @@ class Machine:
             if self.in_header and self.headers < 2:
                 raise Refusal("contradictory-units", source)
             self.remark("units-change-in-body", source)
-            self.at *= self.mm / mm
+            self.at *= self.facts.carried(_units_of(self.mm), units)
+            if not len(self.rows):
+                self.facts.replace_units(Fact(units, Voice.HEADER, self.line, source))
         else:
             self.facts.declare_units(Fact(units, Voice.HEADER, self.line, source))
         self.mm = mm
@@ -207,6 +209,10 @@ class Machine:
     def toolless(self) -> bool:
         """Whether the whole program never named a tool (PCB Wizard, Vutrax)."""
         return not self.tools.entries and bool((self.rows.array()["tool"] == NO_TOOL).any())
+
+
+def _units_of(mm: float) -> str:
+    return next(units for units, factor in MM_PER_UNIT.items() if factor == mm)
 
 
 def _columns(axes: Mapping[str, str]) -> list[Sequence[str]]:

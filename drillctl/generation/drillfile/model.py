@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from .errors import Remark
 
 MM_PER_UNIT = {"inch": 25.4, "mm": 1.0}
+# The format's rule for numbers without a point where only the unit is declared: 00.0000 and 000.000 (CNC-7 manual).
+DEFAULT_DIGITS = {"inch": (2, 4), "mm": (3, 3)}
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -24,12 +26,14 @@ class FormatChoice:
 
     units: 'inch' or 'mm'. digits: places before and after the implied point, None where the numbers
     carry a decimal point. zeros: which are left out, 'leading', 'trailing', 'none', or None with a point.
+    other_digits: places of what is written in the other unit, where the file changes its units.
     score: logarithm of plausibility, comparable within one file only (0 where nothing was compared).
     """
 
     units: str
     digits: tuple[int, int] | None = None
     zeros: str | None = None
+    other_digits: tuple[int, int] | None = None
     dialect: str = "Excellon"
     score: float = 0.0
 
@@ -40,9 +44,23 @@ class FormatChoice:
 
     def weights(self) -> Floats:
         """What one unit of a number's three readings is worth, in file units (see numbers.py)."""
-        if self.digits is None:  # a whole number among decimal ones stands for itself
+        return self._weights(self.digits)
+
+    def lengths_mm(self, at: Floats, mm: Floats) -> Floats:
+        """Number triples (n, ..., 3) in millimetres (n, ...); mm (n,): per unit in force there, 0 undeclared."""
+        own_mm = MM_PER_UNIT[self.units]
+        in_force = np.where(mm > 0, mm, own_mm)
+        per_row = in_force.reshape(-1, *[1] * (at.ndim - 2))
+        lengths: Floats = (at @ self.weights()) * per_row
+        foreign = in_force != own_mm
+        if foreign.any() and self.digits and self.other_digits:
+            lengths[foreign] = (at[foreign] @ self._weights(self.other_digits)) * per_row[foreign]
+        return lengths
+
+    def _weights(self, digits: tuple[int, int] | None) -> Floats:
+        if digits is None:  # a whole number among decimal ones stands for itself
             return np.array([1.0, 0.0, 1.0])
-        integer, decimal = self.digits
+        integer, decimal = digits
         if self.zeros == "trailing":
             return np.array([0.0, 10.0**integer, 1.0])
         return np.array([10.0**-decimal, 0.0, 1.0])

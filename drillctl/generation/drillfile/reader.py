@@ -23,7 +23,7 @@ from .intake import condense, to_text
 from .machine import Machine
 from .model import MM_PER_UNIT, DrillFile, Floats, Tool
 from .program import run
-from .recognise import Recognition, dialect, doubted, parse_option, recognise
+from .recognise import Recognition, dialect, parse_option, recognise
 from .spacing import meetings
 
 
@@ -82,9 +82,7 @@ def _measured(name: str, machine: Machine, found: Recognition, remarks: list[Rem
 def _ends_mm(machine: Machine, found: Recognition) -> Floats:
     """Both ends of every row (n, 2, 2); rows keep the units in force where they were written."""
     rows = machine.rows.array()
-    mm = np.where(rows["mm"] > 0, rows["mm"], MM_PER_UNIT[found.choice.units])
-    ends: Floats = (rows["at"] @ found.choice.weights()) * mm[:, None, None]
-    return ends
+    return found.choice.lengths_mm(rows["at"], rows["mm"])
 
 
 def _assembled(name: str, machine: Machine, found: Recognition, ends_mm: Floats, tools: tuple[Tool, ...]) -> DrillFile:
@@ -111,12 +109,9 @@ def _assembled(name: str, machine: Machine, found: Recognition, ends_mm: Floats,
 
 
 def _checked(drill_file: DrillFile, machine: Machine, found: Recognition, remarks: list[Remark]) -> DrillFile:
-    """The same with its warnings; a format under which many holes overlap is doubted."""
+    """The same with its warnings."""
     diameter = np.array([tool.diameter_mm or 0.0 for tool in drill_file.tools] or [0.0])
     overlapping, duplicate = meetings(drill_file.hole_xy_mm, diameter[drill_file.hole_tool])
-    crowded = len(overlapping) > checks.DOUBTFUL_SHARE * len(drill_file.hole_xy_mm)
-    if crowded and found.runner_up is None and not found.by_hand:
-        found = doubted(machine, found)
     mm_per_unit = MM_PER_UNIT[found.choice.units]
     warnings = [
         *remarks,
@@ -127,10 +122,4 @@ def _checked(drill_file: DrillFile, machine: Machine, found: Recognition, remark
         *checks.tool_warnings(machine, mm_per_unit),
         *checks.hole_warnings(overlapping, duplicate, drill_file.hole_line),
     ]
-    return replace(
-        drill_file,
-        confidence=found.confidence,
-        runner_up=found.runner_up,
-        reason=found.reason,
-        warnings=checks.first_ones(warnings),
-    )
+    return replace(drill_file, warnings=checks.first_ones(warnings))

@@ -1,7 +1,8 @@
-"""Which number format a file is in. Rule: what is declared is believed; only what is left open is guessed,
-and every guess comes with its confidence, its runner-up and a sentence that says why.
+"""Which number format a file is in. Rule: what is declared is believed; where only the unit is, its default digits
+hold (INCH 00.0000, METRIC 000.000); only what is left open is guessed.
 
-`reader` calls `recognise` with the machine after the whole program has run.
+A guess comes with its confidence, its runner-up, a sentence that says why, and a warning. `reader` calls
+`recognise` with the machine after the whole program has run.
 """
 
 from __future__ import annotations
@@ -15,13 +16,16 @@ import numpy as np
 
 from .errors import Refusal, Remark
 from .facts import Facts
+from .layout import LARGEST_MM, Layout
 from .machine import Machine
-from .model import MM_PER_UNIT, Floats, FormatChoice
-from .rows import RowArray
-from .score import COMMON_DIGITS, SAMPLE_HOLES, Digits, Layout, common, drills, same_places
+from .model import DEFAULT_DIGITS, MM_PER_UNIT, FormatChoice
+from .sample import Sample
+from .score import COMMON_DIGITS, Digits, board, common, drills, same_places
 
 ZEROS = ("none", "leading", "trailing")
 SURE = 0.97  # below this confidence the guess is announced as one
+FEW_PLACES = 6  # below this number of holes a guess is always announced
+EAGLE_DIGITS = (2, 5)  # written under a bare M72; its drills then have five decimals as well
 DECLARED_BONUS = 4.0  # for declared zeros that the numbers contradict
 CONTRADICTED = -3.0
 ALTERNATIVE_MARGIN = 3.0  # score by which an alternative to a declared format must win to be named
@@ -51,33 +55,15 @@ class Recognition:
 
 
 @dataclass(frozen=True)
-class Sample:
-    """What candidates are judged by: digits, and some distinct holes with raw diameters.
+class Question:
+    """What is open about a file's format: what it declares, the digits that hold (declared, or by the unit's rule;
+    None: to be guessed), whether they hold by the rule, and whether the numbers contradict the declared zeros."""
 
-    at (n, 2, 3) number triples and diameter (n,), each with its mm per unit, 0 where undeclared; places:
-    decimals of the tools' diameters.
-    """
-
-    digits: Digits
-    decimals: int
-    at: Floats
-    mm: Floats
-    diameter: Floats
-    diameter_mm: Floats
-    places: int
-
-    def layout(self, choice: FormatChoice) -> Layout:
-        """The sample's holes measured in a format."""
-        xy_mm = (self.at @ choice.weights()) * self._mm(self.mm, choice)[:, None]
-        return Layout.of(xy_mm, self.diameters_mm(choice))
-
-    def diameters_mm(self, choice: FormatChoice) -> Floats:
-        """The sample's drills in a format's units."""
-        return self.diameter * self._mm(self.diameter_mm, choice)
-
-    @staticmethod
-    def _mm(declared: Floats, choice: FormatChoice) -> Floats:
-        return np.where(declared > 0, declared, MM_PER_UNIT[choice.units])
+    facts: Facts
+    sample: Sample
+    digits: tuple[int, int] | None
+    by_rule: bool
+    contradicted: bool
 
 
 def parse_option(text: str) -> FormatChoice:
@@ -93,19 +79,19 @@ def recognise(machine: Machine, option: FormatChoice | None) -> Recognition:
     """The format of a program that has run; option is the one a person settled on."""
     if option:
         return Recognition(option, 1.0, None, f"set by hand: {option}", by_hand=True)
-    sample = take_sample(machine)
-    contradiction = _zeros_contradicted(machine.facts, sample.digits)
-    scored = _scored(machine.facts, sample, contradiction is not None)
+    sample = Sample.of(machine)
+    question = _question(machine.facts, sample)
+    scored = _scored(question)
     best = scored[0]
     runner_up = scored[1] if len(scored) > 1 else None
+    layout = sample.layout(best)
     confidence = _confidence([choice.score for choice in scored])
-    remarks = [contradiction] if contradiction else []
-    if machine.facts.units is None:
-        remarks.append(Remark("missing-units", None, best.units))
-    if confidence < SURE:
+    remarks = [*_remarks(question, best, layout)]
+    if runner_up and (confidence < SURE or layout.places < FEW_PLACES):
         remarks.append(Remark("format-guessed", None, f"{best}; or {runner_up}"))
-    reason = _reason(machine.facts, sample, best, runner_up)
-    return Recognition(best, confidence, runner_up, reason, tuple(remarks))
+    reason = _reason(question, best, runner_up, layout)
+    found = Recognition(best, confidence, runner_up, reason, tuple(remarks))
+    return _doubted(found, question) if layout.piled_up and not runner_up else found
 
 
 def dialect(machine: Machine, choice: FormatChoice, *, tape_code: bool) -> str:
@@ -115,9 +101,9 @@ def dialect(machine: Machine, choice: FormatChoice, *, tape_code: bool) -> str:
     return DIALECTS[choice.zeros] if machine.headers else "ASCII drill (OrCAD)"
 
 
-def doubted(machine: Machine, declared: Recognition) -> Recognition:
-    """A format whose holes overlap, looked at again as if only the units had been declared."""
-    scored = _scored(Facts(units=machine.facts.units), take_sample(machine), False)
+def _doubted(declared: Recognition, question: Question) -> Recognition:
+    """A declared format under which most holes overlap, looked at again as if only the units had been declared."""
+    scored = _scored(Question(Facts(units=question.facts.units), question.sample, None, False, False))
     own = next((choice.score for choice in scored if _same(choice, declared.choice)), -np.inf)
     if scored[0].score < own + ALTERNATIVE_MARGIN or _same(scored[0], declared.choice):
         return declared
@@ -125,81 +111,88 @@ def doubted(machine: Machine, declared: Recognition) -> Recognition:
     return replace(declared, confidence=0.5, runner_up=scored[0], reason=reason)
 
 
-def take_sample(machine: Machine) -> Sample:
-    """At most SAMPLE_HOLES distinct holes, the first ones of every tool."""
-    rows = _distinct(machine.rows.array())
-    entries = machine.tools.entries
-    tool = rows["tool"]
-    return Sample(
-        digits=Digits.of(machine.evidence.whole, machine.evidence.length),
-        decimals=machine.evidence.decimals,
-        at=rows["at"][:, 0],
-        mm=rows["mm"],
-        diameter=np.array([entry.diameter or 0.0 for entry in entries] + [0.0])[tool],
-        diameter_mm=np.array([entry.mm for entry in entries] + [0.0])[tool],
-        places=max((entry.places for entry in entries), default=0),
-    )
+def _question(facts: Facts, sample: Sample) -> Question:
+    units = facts.units.value if facts.units else None
+    told = facts.digits_for(units)
+    contradicted = _zeros_contradicted(facts, sample.digits, told.value if told else DEFAULT_DIGITS.get(units or ""))
+    if told or not units or not sample.digits.count:
+        return Question(facts, sample, told.value if told else None, False, contradicted)
+    rule = Question(facts, sample, DEFAULT_DIGITS[units], True, contradicted)
+    return replace(rule, digits=None, by_rule=False) if _rule_is_broken(rule, units) else rule
 
 
-def _distinct(rows: RowArray) -> RowArray:
-    tools = np.unique(rows["tool"])
-    share = max(SAMPLE_HOLES // max(1, len(tools)), 20)
-    none = np.empty(0, dtype=np.int64)
-    first = np.concatenate([none, *(np.flatnonzero(rows["tool"] == tool)[:share] for tool in tools)])
-    some = rows[np.sort(first)][:SAMPLE_HOLES]
-    # The same place written twice is no evidence; the same place reached by different digits is.
-    _, kept = np.unique(some["at"][:, 0].reshape(-1, 6), axis=0, return_index=True)
-    distinct: RowArray = some[np.sort(kept)]
-    return distinct
+def _rule_is_broken(rule: Question, units: str) -> bool:
+    """Whether the numbers can't have their unit's default digits."""
+    digits, sample, facts = DEFAULT_DIGITS[units], rule.sample, rule.facts
+    if sample.digits.other_width(digits, facts.zeros.value if facts.zeros else None):
+        return True
+    best = _scored(rule)[0]
+    layout = sample.layout(best)
+    eagle = same_places(replace(best, digits=EAGLE_DIGITS), sample.places) > 0
+    return layout.piled_up or (eagle and layout.extent_mm > LARGEST_MM)
 
 
-def _scored(facts: Facts, sample: Sample, contradicted: bool) -> list[FormatChoice]:
+def _scored(question: Question) -> list[FormatChoice]:
     """Every candidate with its score, best first; of those that give the same board, the best."""
     best: dict[tuple[str, bytes], FormatChoice] = {}
-    for choice in _candidates(facts, sample, contradicted):
-        score = _score(choice, facts, sample, contradicted)
-        key = choice.units, _effect(choice, sample)
+    layouts: dict[tuple[str, bytes], float] = {}
+    for choice in _candidates(question):
+        key = choice.units, np.round(question.sample.xy_mm(choice), 6).tobytes()
+        if key not in layouts:
+            layouts[key] = board(question.sample.layout(choice))
+        score = layouts[key] + _score(choice, question)
         if key not in best or score > best[key].score:
             best[key] = replace(choice, score=round(score, 3))
     return sorted(best.values(), key=lambda choice: -choice.score)
 
 
-def _candidates(facts: Facts, sample: Sample, contradicted: bool) -> Iterator[FormatChoice]:
+def _candidates(question: Question) -> Iterator[FormatChoice]:
     """All formats that agree with what is declared."""
+    facts, sample = question.facts, question.sample
     for units in [facts.units.value] if facts.units else list(MM_PER_UNIT):
-        if not sample.digits.count or (sample.decimals and not facts.digits):
+        if not sample.digits.count or (sample.decimals and not question.digits):
             yield FormatChoice(units)
-        if sample.digits.count or (facts.digits and not sample.decimals):
-            places = [facts.digits.value] if facts.digits else list(COMMON_DIGITS[units])
-            zeros = [facts.zeros.value] if facts.zeros and not contradicted else list(ZEROS)
-            yield from (FormatChoice(units, *pair) for pair in product(places, zeros))
+        if sample.digits.count or (question.digits and not sample.decimals):
+            places = [question.digits] if question.digits else _common_places(units, bool(facts.units))
+            zeros = [facts.zeros.value] if facts.zeros and not question.contradicted else list(ZEROS)
+            other = _other_digits(facts, units)
+            yield from (FormatChoice(units, *pair, other) for pair in product(places, zeros))
 
 
-def _effect(choice: FormatChoice, sample: Sample) -> bytes:
-    """What the format makes of the sample; two names for one effect are one candidate."""
-    return np.round(sample.at @ choice.weights(), 6).tobytes()
+def _common_places(units: str, declared: bool) -> list[tuple[int, int]]:
+    """The digits to try; a declared METRIC has three integer digits or four, two are inch."""
+    places = list(COMMON_DIGITS[units])
+    return [each for each in places if each[0] > 2] if declared and units == "mm" else places
 
 
-def _score(choice: FormatChoice, facts: Facts, sample: Sample, contradicted: bool) -> float:
-    score = common(choice) + same_places(choice, sample.places) + sample.layout(choice).plausible()
+def _other_digits(facts: Facts, units: str) -> tuple[int, int]:
+    """Digits of numbers that a file with changing units writes in the other unit."""
+    other = next(each for each in MM_PER_UNIT if each != units)
+    told = facts.digits_for(other)
+    return told.value if told else DEFAULT_DIGITS[other]
+
+
+def _score(choice: FormatChoice, question: Question) -> float:
+    """What speaks for a format beside the board that it gives."""
+    facts, sample = question.facts, question.sample
+    score = common(choice) + same_places(choice, sample.places)
     if choice.digits and sample.digits.count:
-        score += sample.digits.dropped(choice.zeros) + sample.digits.fits(choice.digits)
+        score += sample.digits.dropped(choice.zeros, choice.digits) + sample.digits.fits(choice.digits)
     if not facts.units:
         score += drills(sample.diameters_mm(choice))
-    if contradicted and facts.zeros and choice.zeros == facts.zeros.value:
+    if question.contradicted and facts.zeros and choice.zeros == facts.zeros.value:
         score += DECLARED_BONUS
     return score
 
 
-def _zeros_contradicted(facts: Facts, digits: Digits) -> Remark | None:
-    """Zeros declared dropped that are all there, while the other kind is missing."""
-    if not facts.zeros or facts.zeros.value == "none" or not digits.count or digits.full_width:
-        return None
+def _zeros_contradicted(facts: Facts, digits: Digits, places: tuple[int, int] | None) -> bool:
+    """Whether the zeros that are declared dropped are there, while the other kind is missing."""
+    if not facts.zeros or facts.zeros.value == "none" or not digits.count or digits.equal:
+        return False
     declared = facts.zeros.value
     other = "leading" if declared == "trailing" else "trailing"
-    if digits.dropped(declared) > CONTRADICTED or digits.dropped(other) < CONTRADICTED or digits.equal:
-        return None
-    return Remark("zeros-contradict-data", facts.zeros.line, facts.zeros.source)
+    width = places or (0, 0)
+    return digits.dropped(declared, width) <= CONTRADICTED and digits.dropped(other, width) >= CONTRADICTED
 
 
 def _same(one: FormatChoice, other: FormatChoice) -> bool:
@@ -211,12 +204,43 @@ def _confidence(scores: list[float]) -> float:
     return round(float(1 / np.exp(np.array(scores) - scores[0]).sum()), 3)
 
 
-def _reason(facts: Facts, sample: Sample, best: FormatChoice, runner_up: FormatChoice | None) -> str:
+def _remarks(question: Question, best: FormatChoice, layout: Layout) -> Iterator[Remark]:
+    """What a person must know about the choice."""
+    facts, sample = question.facts, question.sample
+    if facts.zeros and question.contradicted:
+        yield Remark("zeros-contradict-data", facts.zeros.line, facts.zeros.source)
+    if facts.units is None:
+        yield Remark("missing-units", None, best.units)
+    elif best.digits and not facts.digits_for(best.units):
+        yield from _of_default(question, best)
+    if foreign := sample.units - {best.units}:
+        yield from (_carried(facts, units) for units in foreign if not facts.digits_for(units) and best.digits)
+    if layout.odd or (layout.unusual and question.by_rule):
+        yield Remark("odd-board", None, str(layout))
+
+
+def _of_default(question: Question, best: FormatChoice) -> Iterator[Remark]:
+    """Digits declared for the other unit only, or default digits that the numbers do not have."""
+    if question.facts.digits:
+        yield _carried(question.facts, best.units)
+    if not question.by_rule:
+        default = replace(best, digits=DEFAULT_DIGITS[best.units])
+        yield Remark("default-digits-left", None, f"{best.format}, not {default.format}")
+
+
+def _carried(facts: Facts, units: str) -> Remark:
+    _, fact = facts.digits[-1]
+    default = FormatChoice(units, DEFAULT_DIGITS[units])
+    return Remark("digits-of-other-unit", fact.line, f"{fact.source}; {units} is read as {default.format}")
+
+
+def _reason(question: Question, best: FormatChoice, runner_up: FormatChoice | None, layout: Layout) -> str:
     """One sentence a person understands."""
-    said = f"declared by {facts.sources()}" if facts.sources() else "nothing declared"
+    said = f"declared by {question.facts.sources()}" if question.facts.sources() else "nothing declared"
+    if question.by_rule:
+        said = f"{said}; {best.units} without digits is {best.format}"
     if not runner_up:
         return said if best.digits else f"{said}; the numbers carry decimal points"
-    layout = sample.layout(best)
     overlap = f"{layout.overlap:.0%} of holes overlapping" if layout.overlap else "no overlapping holes"
     seen = f"{overlap}, an extent of {layout.extent_mm:.1f} mm and {layout.grid:.0%} on a drawing grid"
     return f"{said}; {best} gives {seen}; runner-up {runner_up}"

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .layout import Layout
 from .model import Floats, FormatChoice, Integers
 
 SAMPLE_HOLES = 600
@@ -32,64 +33,92 @@ DECIMAL_AMONG_WHOLE = -1.0  # 12 beside 12.7 means 12, unless digits were declar
 BOARD_MM, BOARD_SPREAD = 70.0, 2.2
 PITCH_MM, PITCH_SPREAD = 2.2, 2.0
 DRILL_MM, DRILL_SPREAD = 0.8, 1.9
+# A board has a drill below the one, and one above the other.
+WIDEST_OF_ALL_MM, FINEST_OF_ALL_MM, ABSURD_DRILLS_WEIGHT = 7.0, 0.15, 6.0
+BOARD_DRILLS, BOARD_DRILLS_SPREAD = 50.0, 3.0  # longer side in diameters of the widest drill
+FEW_PLACES = 20
 TAIL = 4.0  # Student's degrees of freedom: how soon an odd value stops being held against a format
 
-GRIDS_MM = (1.27, 0.5)
-GRID_TOLERANCE_MM = 0.01
 GRID_WEIGHT = 1.5
-OVERLAP_WEIGHT = 20.0  # times the square of the share: a third may be two drills for one hole, all is a wrong scale
+CROWD_WEIGHT = 20.0  # times the square of the share: a third may be an area nibbled out, all is a wrong scale
 EAGLE_PLACES = 2.0  # EAGLE writes its drills with as many decimals as its coordinates
+MOST_DIGITS = 15  # numbers.py reads no longer ones
 DROPPED_WEIGHT = 14.0  # every number that begins (ends) with a zero, times the share of such numbers
 TOO_LONG_WEIGHT = 8.0
-TOO_SHORT_WEIGHT = 4.0
 UNUSED_PLACE_WEIGHT = 0.3
-NONE_OF_THE_KIND_WEIGHT = 1.0
+# Numbers whose zeros at the end were dropped begin with 0 up to 10 inch or 100 mm; the others end with 0 on a grid.
+NO_ZERO_IN_FRONT, NO_ZERO_IN_FRONT_MOST = 0.7, 6.0
+NO_ZERO_AT_END = 1.0
 
 
 @dataclass(frozen=True)
 class Digits:
     """What the written numbers tell. Zero is left out: every format writes it as it likes.
 
-    starts, ends: share of numbers that begin or end with 0; longest: most digits; equal: all as long.
+    counts (length, begins with 0, ends with 0): how many numbers there are of each kind.
     """
 
-    count: int
-    starts: float
-    ends: float
-    longest: int
-    equal: bool
+    counts: Integers
 
     @classmethod
     def of(cls, whole: Floats, length: Integers) -> Digits:
         """From absolute values and digit counts (n,) of numbers without a point."""
         whole, length = whole[whole > 0], length[whole > 0]
-        if not len(whole):
-            return cls(0, 0.0, 0.0, 0, True)
-        starts = float((whole < 10.0 ** (length - 1)).mean())
-        ends = float((whole % 10 == 0).mean())
-        return cls(len(whole), starts, ends, int(length.max()), bool((length == length[0]).all()))
+        counts = np.zeros((MOST_DIGITS + 1, 2, 2), dtype=np.int64)
+        begins, ends = whole < 10.0 ** (length - 1), whole % 10 == 0
+        np.add.at(counts, (length, begins.astype(np.int64), ends.astype(np.int64)), 1)
+        return cls(counts)
 
     @property
-    def full_width(self) -> bool:
-        """All equally long with zeros in front: nothing was dropped."""
-        return self.equal and self.starts > 0
+    def count(self) -> int:
+        """How many numbers."""
+        return int(self.counts.sum())
 
-    def dropped(self, zeros: str | None) -> float:
+    @property
+    def longest(self) -> int:
+        """Most digits of a number."""
+        return int(np.flatnonzero(self.counts.any(axis=(1, 2))).max(initial=0))
+
+    @property
+    def equal(self) -> bool:
+        """Whether all are as long."""
+        return int(self.counts.any(axis=(1, 2)).sum()) <= 1
+
+    @property
+    def begins(self) -> float:
+        """Share of numbers that begin with 0."""
+        return float(self.counts[:, 1].sum()) / max(1, self.count)
+
+    def ends(self, integer: int = 0) -> float:
+        """Share of numbers that end with 0 behind the integer places: some write those in full, 010 for 10."""
+        return float(self.counts[integer + 1 :, :, 1].sum()) / max(1, self.count)
+
+    def full_width(self, digits: tuple[int, int]) -> bool:
+        """Whether every number has all its places, so that no zero was dropped."""
+        return self.equal and self.longest == sum(digits) > 1
+
+    def other_width(self, digits: tuple[int, int], zeros: str | None) -> bool:
+        """Whether the numbers can't have these places: longer, or equally long with zeros kept at both ends."""
+        if self.longest > sum(digits):
+            return True
+        kept = self.begins > 0 and (self.ends(digits[0]) > 0 or zeros == "leading")
+        return bool(self.equal and 1 < self.longest < sum(digits) and kept)
+
+    def dropped(self, zeros: str | None, digits: tuple[int, int]) -> float:
         """That `zeros` were dropped, against the zeros that are still there."""
-        if zeros == "none":
-            return 0.0 if self.equal else -DROPPED_WEIGHT
-        if self.full_width:
+        if self.full_width(digits):
             return 0.0
-        there, other = (self.starts, self.ends) if zeros == "leading" else (self.ends, self.starts)
-        unlikely = NONE_OF_THE_KIND_WEIGHT if not (other or self.equal) else 0.0
-        return -DROPPED_WEIGHT * there - unlikely
+        if zeros == "none":
+            return -DROPPED_WEIGHT
+        begins, ends = self.begins, self.ends(digits[0])
+        if zeros == "leading":
+            return -DROPPED_WEIGHT * begins - (0.0 if ends else NO_ZERO_AT_END)
+        return -DROPPED_WEIGHT * ends - (0.0 if begins else min(NO_ZERO_IN_FRONT_MOST, NO_ZERO_IN_FRONT * self.count))
 
     def fits(self, digits: tuple[int, int]) -> float:
         """That the format has as many places as the numbers have digits."""
         spare = sum(digits) - self.longest
-        if spare < 0:
-            return TOO_LONG_WEIGHT * spare
-        return -TOO_SHORT_WEIGHT * spare if self.full_width else -UNUSED_PLACE_WEIGHT * spare
+        return TOO_LONG_WEIGHT * spare if spare < 0 else -UNUSED_PLACE_WEIGHT * spare
 
 
 def common(choice: FormatChoice) -> float:
@@ -108,55 +137,27 @@ def same_places(choice: FormatChoice, places: int) -> float:
 def drills(diameter_mm: Floats) -> float:
     """That these are drills of a board, for the tools' known diameters."""
     known = diameter_mm[diameter_mm > 0]
-    return _typical(float(np.median(known)), DRILL_MM, DRILL_SPREAD) if len(known) else 0.0
+    if not len(known):
+        return 0.0
+    absurd = known.min() > WIDEST_OF_ALL_MM or known.max() < FINEST_OF_ALL_MM
+    return _typical(float(np.median(known)), DRILL_MM, DRILL_SPREAD) - ABSURD_DRILLS_WEIGHT * absurd
 
 
-@dataclass(frozen=True)
-class Layout:
-    """Measures of a sample of holes under one format (mm): n holes, extent, median distance to the next hole,
-    share of holes that overlap another, share on a drawing grid."""
-
-    extent_mm: float
-    pitch_mm: float
-    overlap: float
-    grid: float
-
-    @classmethod
-    def of(cls, xy_mm: Floats, diameter_mm: Floats) -> Layout:
-        """From at most SAMPLE_HOLES distinct holes (n, 2) and their diameters (n,), 0 for unknown."""
-        if len(xy_mm) < 2:
-            return cls(0.0, 0.0, 0.0, 0.0)
-        distance = np.hypot(*(xy_mm[:, None] - xy_mm[None]).transpose(2, 0, 1))
-        np.fill_diagonal(distance, np.inf)
-        reach = (diameter_mm[:, None] + diameter_mm[None]) / 2
-        overlap = float((distance < reach).any(axis=1).mean())
-        pitch_mm = float(np.median(distance.min(axis=1)))
-        return cls(float(np.ptp(xy_mm, axis=0).max()), pitch_mm, overlap, _on_grid(xy_mm))
-
-    def plausible(self) -> float:
-        """That this is a board."""
-        if not self.extent_mm:
-            return 0.0
-        return (
-            _typical(self.extent_mm, BOARD_MM, BOARD_SPREAD)
-            + _typical(self.pitch_mm, PITCH_MM, PITCH_SPREAD)
-            - OVERLAP_WEIGHT * self.overlap**2
-            + GRID_WEIGHT * self.grid
-        )
+def board(layout: Layout) -> float:
+    """That holes laid out so are those of a board."""
+    if layout.count < 2 or not layout.extent_mm:
+        return 0.0
+    dense = layout.places / (layout.places + FEW_PLACES)  # a few holes lie anywhere
+    return (
+        _typical(layout.extent_mm, BOARD_MM, BOARD_SPREAD)
+        + dense * _typical(layout.pitch_mm, PITCH_MM, PITCH_SPREAD)
+        + (_typical(layout.extent_mm / layout.drill_mm, BOARD_DRILLS, BOARD_DRILLS_SPREAD) if layout.drill_mm else 0.0)
+        - CROWD_WEIGHT * layout.crowd**2
+        + GRID_WEIGHT * layout.grid
+    )
 
 
 def _typical(value: float, typical: float, spread: float) -> float:
     """Logarithm of a density over log(value), 0 at the typical value; Student's t, as odd boards do exist."""
     deviation = np.log(max(value, 1e-6) / typical) / np.log(spread)
     return float(-(TAIL + 1) / 2 * np.log1p(deviation * deviation / TAIL))
-
-
-def _on_grid(xy_mm: Floats) -> float:
-    """Share of coordinates on the better of the drawing grids, beyond what chance gives."""
-    steps = xy_mm - np.sort(xy_mm, axis=0)[len(xy_mm) // 2]
-    shares = []
-    for grid_mm in GRIDS_MM:
-        off = np.abs(steps - grid_mm * np.round(steps / grid_mm))
-        chance = 2 * GRID_TOLERANCE_MM / grid_mm
-        shares.append((float((off <= GRID_TOLERANCE_MM).mean()) - chance) / (1 - chance))
-    return max(0.0, *shares)
