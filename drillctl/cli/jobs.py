@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.generation.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 from drillctl.inputs import real_path
 
 if TYPE_CHECKING:
@@ -18,17 +19,16 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     """The options of a job, in two groups."""
     placing = verb.add_argument_group("placing the board")
     placing.add_argument(
-        "--origin", choices=("base", "file"),
+        "--origin", choices=ORIGINS,
         help="base (default): lowest X and Y of the board at the working base; file: coordinates as they are",
     )  # fmt: skip
-    placing.add_argument("--mirror", choices=("x", "y"), help="for the bottom side: this axis changes sign")
+    placing.add_argument("--mirror", choices=MIRRORED, help="for the bottom side: this axis changes sign")
     placing.add_argument("--rotate", type=float, default=0.0, metavar="DEG", help="counter-clockwise")
     placing.add_argument("--offset", type=_pair, default=(0.0, 0.0), metavar="X,Y", help="mm, added last")
     placing.add_argument("--align", type=Path, metavar="FILE", help="measured holes: file_x file_y machine_x machine_y")
     placing.add_argument("--panel", type=_panel, metavar="CxR:PX,PY", help="step and repeat, e.g. 3x2:40,30 (mm)")
     drilling = verb.add_argument_group("drilling")
-    orders = ("file", "nearest", "optimised")
-    drilling.add_argument("--order", choices=orders, default="file", help="of the holes of a tool")
+    drilling.add_argument("--order", choices=ORDERS, default="file", help="of the holes of a tool")
     drilling.add_argument("--skip-tools", type=_numbers, default=frozenset(), metavar="N,N", help="tools not to drill")
     drilling.add_argument("--drills", type=Path, metavar="FILE", help="the drills at hand, with tolerances and lives")
     drilling.add_argument("--peck", type=float, metavar="MM", help="in steps of so much, drawn out between them")
@@ -39,9 +39,8 @@ def add_job(verb: argparse.ArgumentParser) -> None:
 def add_reading(verb: "argparse._ActionsContainer") -> None:
     """The options that say how a drill file is read."""
     verb.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
-    choices = ("refuse", "ignore", "drill")
     verb.add_argument(
-        "--after-end", choices=choices, default="refuse",
+        "--after-end", choices=AFTER_END, default="refuse",
         help="holes behind the end of the program (M30): refuse the file (default), leave them out, or drill them too",
     )  # fmt: skip
 

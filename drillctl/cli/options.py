@@ -3,7 +3,7 @@
 import argparse
 import math
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from drillctl.wording import json_text
 
 if TYPE_CHECKING:
     from drillctl.machine import Library, Machine
+    from drillctl.plant import PlantChoice
     from drillctl.wiring.desk import Run
     from drillctl.wiring.machinery import Running
     from drillctl.wiring.outputs import Output
@@ -95,18 +96,28 @@ def up_to(most: int) -> Callable[[str], int]:
     return read
 
 
-def add_running(verb: argparse.ArgumentParser) -> None:
+# What holds where an option of a running machine is left out.
+DEFAULTS = {
+    "port": "simulated, or with mode REAL in the machine's file the port of its card",
+    "pace": "as the port wants",
+    "plant": "ideal",
+    "seed": "0",
+}
+AS_IT_RAN = dict.fromkeys(DEFAULTS, "as the job ran")
+
+
+def add_running(verb: argparse.ArgumentParser, defaults: Mapping[str, str] = DEFAULTS) -> None:
     """``--port`` and ``--pace``; and of a simulated machine ``--plant``, ``--fault`` and ``--seed``."""
-    where = "see drillctl ports; default: simulated, or with mode REAL in the machine's file the port of its card"
+    where = f"see drillctl ports; default: {defaults['port']}"
     verb.add_argument("--port", metavar="NAME[:ADDRESS]", help=where)
-    pace = "real: by the clock, in a process of its own; default: as the port wants"
+    pace = f"real: by the clock, in a process of its own; default: {defaults['pace']}"
     verb.add_argument("--pace", choices=("free", "real"), help=pace)
-    plant = "of a simulated machine: motors that go where they are pulled, or with inertia and friction; default: ideal"
-    verb.add_argument("--plant", choices=("ideal", "dynamic"), default="ideal", help=plant)
+    plant = "of a simulated machine: motors that go where they are pulled, or with inertia and friction; default: "
+    verb.add_argument("--plant", choices=("ideal", "dynamic"), help=plant + defaults["plant"])
     wrong = "of the dynamic plant: what is wrong with the machine, e.g. blunt=20; --fault list names all"
     verb.add_argument("--fault", action=_FaultAction, default=[], metavar="NAME=N", help=wrong)
-    scatter = "of the dynamic plant: where the scatter of its sensors comes from; default: %(default)s"
-    verb.add_argument("--seed", type=_seed, default=0, metavar="N", help=scatter)
+    scatter = f"of the dynamic plant: where the scatter of its sensors comes from; default: {defaults['seed']}"
+    verb.add_argument("--seed", type=_seed, metavar="N", help=scatter)
 
 
 def add_engine(verb: argparse.ArgumentParser) -> None:
@@ -151,11 +162,20 @@ def port(arguments: argparse.Namespace, machine: "Machine") -> str:
 
 def running(arguments: argparse.Namespace, port: str, traced: bool = False, derived: bool = False) -> "Running":
     """On this port, at which pace, before which plant."""
-    from drillctl.plant import PlantChoice
+    from drillctl.plant import IDEAL_PLANT
     from drillctl.wiring.machinery import Running
 
-    plant = PlantChoice(arguments.plant, tuple(arguments.fault), arguments.seed)
-    return Running(port, arguments.pace, traced, derived, plant)
+    return Running(port, arguments.pace, traced, derived, plant(arguments) or IDEAL_PLANT)
+
+
+def plant(arguments: argparse.Namespace) -> "PlantChoice | None":
+    """As asked for; None where nothing was asked for."""
+    from drillctl.plant import PlantChoice
+    from drillctl.plant.choice import IDEAL
+
+    if arguments.plant is None and not arguments.fault and arguments.seed is None:
+        return None
+    return PlantChoice(arguments.plant or IDEAL, tuple(arguments.fault), arguments.seed or 0)
 
 
 def add_tools(verb: argparse.ArgumentParser, otherwise: str = "ask on a real port") -> None:

@@ -1,4 +1,6 @@
-"""``drillctl resume [JOURNAL]``: goes on with a job that was cut off: initialises anew and drills what is left."""
+"""``drillctl resume [JOURNAL]``: goes on with a job that was cut off, on the port, at the pace and before the plant it
+ran: initialises anew and drills what is left.
+"""
 
 import argparse
 import sys
@@ -9,8 +11,8 @@ from typing import TYPE_CHECKING
 from drillctl.cli import operating, options
 
 if TYPE_CHECKING:
-    from drillctl.generation.job import Job
     from drillctl.generation.journal import Account
+    from drillctl.wiring.machinery import Running
     from drillctl.wiring.session import Session
 
 
@@ -19,7 +21,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb = verbs.add_parser("resume", help="go on with a job that was cut off", description=__doc__)
     newest = "default: the newest unfinished one in the user's state folder"
     verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help=newest)
-    options.add_running(verb)
+    options.add_running(verb, options.AS_IT_RAN)
+    there = "go on although port, pace or plant are not those that the job ran on; without it that is refused"
+    verb.add_argument("--elsewhere", action="store_true", help=there)
     options.add_engine(verb)
     options.add_tools(verb)
     options.add_results(verb)
@@ -35,7 +39,7 @@ def call(arguments: argparse.Namespace) -> int:
     account = read_journal(file)
     session = _session(file, account, arguments)
     with reserved((arguments.holes,), (Path(account.head.job), *session.files)) as (holes,):
-        _tell(file, account, session.job)
+        _tell(account, session)
         done = operating.operated(session, arguments)
         problems = unwritten(lambda: options.write_holes(done, holes))
     return options.told(done, arguments.json, problems)
@@ -48,31 +52,51 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     recipe = Recipe.of_options(account.head.options, file)
     tables = recipe.tables and Path(recipe.tables)
     machine = options.machine(argparse.Namespace(machine=recipe.machine, tables=tables, tick_hz=recipe.tick_hz))
-    running = replace(options.running(arguments, options.port(arguments, machine)), engine=arguments.engine)
-    return Session(rest_of(file, account, machine).left, running, file, account)
+    left = rest_of(file, account, machine).left
+    return Session(left, _running(file, account, arguments), file, account)
+
+
+def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "Running":
+    """As the job ran, or as asked for. Raises JobError where that is elsewhere, and nobody said that it may be."""
+    from drillctl.generation.errors import JobError
+    from drillctl.wiring.site import Asked, moved, running_at, site_of
+
+    asked = Asked(arguments.port, arguments.pace, options.plant(arguments))
+    running = running_at(account.site, asked)
+    if not arguments.elsewhere and (reason := moved(account.site, site_of(running))):
+        there = "leave --port, --pace, --plant, --fault and --seed out to go on there"
+        raise JobError([f"{file}: {reason}; {there}, or say --elsewhere as well"])
+    return replace(running, engine=arguments.engine)
 
 
 def _newest() -> Path:
     from drillctl.generation.errors import JobError
-    from drillctl.generation.journals import unfinished
+    from drillctl.generation.journal.folder import newest_unfinished
     from drillctl.wiring.session import journals
 
-    found = unfinished(journals())
-    if not found:
+    found = newest_unfinished(journals())
+    if found is None:
         raise JobError([f"{journals()}: no unfinished journal is kept here; name one"])
-    return found[0][0]
+    return found[0]
 
 
-def _tell(file: Path, account: "Account", left: "Job") -> None:
-    """What the journal says, before anything moves."""
-    print(f"drillctl: {file}: {len(account.done)} of {account.head.holes} holes are drilled", file=sys.stderr)
+def _tell(account: "Account", session: "Session") -> None:
+    """Where it goes on, and what the journal says, before anything moves."""
+    from drillctl.wiring.site import site_of
+
+    file, left, here = session.journal, session.job, site_of(session.running)
+    where = f"as it ran: {here}" if here == account.site else f"elsewhere: {here}; it ran on {account.site}"
+    counted = f"{account.holes_done} of {account.head.holes} holes are drilled"
+    print(f"drillctl: {file}: {counted}; it goes on {where}", file=sys.stderr)
     if account.torn:
         print(f"drillctl: {file}: its last line is torn, and left out", file=sys.stderr)
     for warning in left.warnings:
         print(f"drillctl: warning: {warning}", file=sys.stderr)
-    if account.head.options.get("spot") is not None and account.begun:
+    if account.head.options.get("spot") is not None and account.holes_begun:
         spotted = "holes of the tool in hand may bear their spot already; they are marked again, in the same place"
         print(f"drillctl: {spotted}", file=sys.stderr)
-    for number in account.open:
-        x_mm, y_mm = left.file_place(number)
-        print(f"drillctl: hole {number} (X{x_mm:.4f} Y{y_mm:.4f} mm) was cut off; it is drilled again", file=sys.stderr)
+    if account.again is not None:
+        x_mm, y_mm = left.file_place(account.again)
+        hole = f"hole {account.again} (X{x_mm:.4f} Y{y_mm:.4f} mm)"
+        why = "was cut off" if account.open else "may have been begun"
+        print(f"drillctl: {hole} {why}; it is drilled again", file=sys.stderr)

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from drillctl.generation.job import Job
     from drillctl.wiring.desk import Run
     from drillctl.wiring.outputs import Output
+    from drillctl.wiring.session import Session
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -55,6 +56,8 @@ def call(arguments: argparse.Namespace) -> int:
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
     inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files), *session.files)
     with reserved(wanted, inputs) as (trace, vcd, holes):
+        if paced or session.journal:
+            _tell(session)
         for warning in (*machine_hazards(machine), *job.warnings):
             print(f"drillctl: warning: {warning}", file=sys.stderr)
         done = operating.operated(session, arguments)
@@ -64,6 +67,14 @@ def call(arguments: argparse.Namespace) -> int:
             lambda: options.write_holes(done, holes),
         )
     return options.told(done, arguments.json, problems)
+
+
+def _tell(session: "Session") -> None:
+    """Where it runs, and where its journal is kept: the first line of what it says."""
+    from drillctl.wiring.site import site_of
+
+    kept = f"; journal {session.journal}" if session.journal else ""
+    print(f"drillctl: {site_of(session.running)}{kept}", file=sys.stderr)
 
 
 def _write_trace(job: "Job", done: "Run", trace: "Output | None") -> None:

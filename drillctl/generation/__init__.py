@@ -8,7 +8,7 @@
     job.py        what is run: a program with its names and holes, from a drill file or a ``.kmd`` queue
     recipe.py     the options from which a job can be made again      wishes.py  what may be asked for
     strokes.py    how one hole is drilled                             drills.py  with which of a workshop's drills
-    journal.py    what was begun and done                             journals.py  a folder of them
+    choices.py    what some of these may be, by name                  journal/   what was begun and done, and where
     feeder.py     puts a program into the queue as room is made
     errors.py     JobError: the operator's input, refused before anything moves
 

@@ -16,6 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drillctl.generation.choices import ORIGINS
+
 MIRRORS = {
     None: ((1.0, 0.0), (0.0, 1.0)),
     "x": ((-1.0, 0.0), (0.0, 1.0)),  # x changes sign
@@ -23,7 +25,6 @@ MIRRORS = {
 }
 # Cosine and sine of the quarter turns, exact: math.cos(math.radians(90)) is 6e-17, not 0.
 QUARTER_TURNS = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0), 180.0: (-1.0, 0.0), 270.0: (0.0, -1.0)}
-ORIGINS = ("base", "file")
 PANEL_ORDERS = ("serpentine", "rows")
 MAX_BOARDS = 1000  # more than any bed holds; a slip of the finger must not fill the memory
 

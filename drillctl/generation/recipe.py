@@ -6,57 +6,67 @@ the command line. Made by the verbs and the station.
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any
 
 import msgspec
 import numpy as np
 
 from drillctl.generation import alignment
 from drillctl.generation.alignment import Alignment
+from drillctl.generation.choices import AfterEnd, Mirror, Order, Origin
 from drillctl.generation.drills import read_drills
 from drillctl.generation.errors import JobError
+from drillctl.generation.measured import MAX_MM
 from drillctl.generation.placing import Affine, Panel, Placing
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import positioning_axes
 from drillctl.machine import Machine
+from drillctl.machine.shape import Steps, TickHz
 
-MeasuredRow = tuple[float, float, float, float]  # file_x, file_y, machine_x, machine_y, mm
+FilePath = Annotated[str, msgspec.Meta(min_length=1, pattern=r"\A[^\x00]*\Z")]  # no argument of a program has a NUL
+Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
+MeasuredRow = tuple[Millimetres, Millimetres, Millimetres, Millimetres]  # file_x, file_y, machine_x, machine_y
 
 
 class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a job is made by, beside its drill file. Paths are absolute.
+    """What a job is made by, beside its drill file. Paths are absolute. The types are what the command line takes.
 
     align  an alignment file, or the measured holes themselves
     panel  columns, rows, pitch in X and Y (mm)
     base   the working base, X and Y in steps from machine zero
     """
 
-    machine: str
-    tables: str | None = None
-    tick_hz: int | None = None
-    origin: str | None = None
-    mirror: str | None = None
+    machine: FilePath
+    tables: FilePath | None = None
+    tick_hz: TickHz | None = None
+    origin: Origin | None = None
+    mirror: Mirror | None = None
     rotate: float = 0.0
     offset: tuple[float, float] = (0.0, 0.0)
-    align: str | tuple[MeasuredRow, ...] | None = None
+    align: FilePath | tuple[MeasuredRow, ...] | None = None
     panel: tuple[int, int, float, float] | None = None
-    order: str = "file"
+    order: Order = "file"
     skip_tools: tuple[int, ...] = ()
-    drills: str | None = None
+    drills: FilePath | None = None
     peck: float | None = None
     spot: float | None = None
     format: str | None = None
-    after_end: Literal["refuse", "ignore", "drill"] = "refuse"
-    base: tuple[int, int] = (0, 0)
+    after_end: AfterEnd = "refuse"
+    base: tuple[Steps, Steps] = (0, 0)
 
     @classmethod
     def of_options(cls, told: Mapping[str, Any], journal: Path) -> "Recipe":
-        """From the first line of a journal. Raises JobError for one of another version, or damaged."""
+        """From the first line of a journal. Raises JobError for what the command line would not take."""
         try:
-            return msgspec.convert(told, cls)
+            return cls.checked(told)
         except msgspec.ValidationError as error:
-            reason = f"the journal was written by another version of this program: {error}"
+            reason = f"its options were written by another version of this program, or altered: {error}"
             raise JobError([f"{journal}:1: {reason}"]) from error
+
+    @classmethod
+    def checked(cls, told: Mapping[str, Any]) -> "Recipe":
+        """From its fields by name. Raises msgspec.ValidationError for what the command line would not take."""
+        return msgspec.convert(told, cls)
 
     def options(self) -> dict[str, Any]:
         """As it stands in a journal."""

@@ -139,8 +139,10 @@ class Console(Protocol):
     def unfinished(self) -> Sequence[UnfinishedJob]:
         """Jobs that were cut off, the newest first. Looks on the disk."""
 
-    def go_on(self, journal: str) -> Problems:
-        """Initialises, goes to the same base and drills what is left. Refused where anything is not the same."""
+    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
+        """Initialises, goes to the same base and drills what is left. Refused where anything is not the same;
+        ``elsewhere``: but for port, pace and plant.
+        """
 
     def give_up(self, journal: str) -> Problems:
         """An unfinished job is not gone on with: its journal goes."""

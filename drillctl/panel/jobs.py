@@ -82,8 +82,38 @@ class RecentJob:
 
 
 @dataclass(frozen=True, slots=True)
+class Site:
+    """Where a job is run, and how: two runs of one site meet the same machine.
+
+    port   NAME[:ADDRESS], an address that is a file absolute
+    pace   'free' or 'real'
+    plant  as a trace's header has it: 'ideal', 'dynamic' with its faults, 'none' on a real port; ``seed`` is its own
+    """
+
+    port: str
+    pace: str
+    plant: str
+    seed: int = 0
+
+    @property
+    def real(self) -> bool:
+        """A real machine stands behind the port."""
+        return self.plant == "none"
+
+    def __str__(self) -> str:
+        plant = "" if self.real else f", plant {self.plant}"
+        seed = f", seed {self.seed}" if self.seed else ""
+        return f"port {self.port}, pace {self.pace}{plant}{seed}"
+
+
+@dataclass(frozen=True, slots=True)
 class UnfinishedJob:
-    """A job that was cut off, as its journal has it. ``again``: holes that were under way, to be drilled again."""
+    """A job that was cut off, as its journal has it.
+
+    again     holes that were under way, to be drilled again
+    doubtful  the hole that may have been, by a torn last line; None where there is no doubt
+    ran, here where it ran last, and where it would go on
+    """
 
     journal: str
     file: str
@@ -93,3 +123,6 @@ class UnfinishedJob:
     again: tuple[int, ...]
     torn: bool
     spotted: bool
+    doubtful: int | None
+    ran: Site
+    here: Site

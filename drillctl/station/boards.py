@@ -16,20 +16,21 @@ from drillctl.generation.alignment import decompose
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.journal import Account, Head, Journal, JournalError, head_of, read_journal
-from drillctl.generation.journals import give_up, unfinished
+from drillctl.generation.journal.folder import give_up, unfinished
 from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.recipe import MeasuredRow, Recipe
 from drillctl.inputs import real_path
 from drillctl.machine import Library, Machine
 from drillctl.panel.console import BoardView, Problems
-from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
+from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, Site, UnfinishedJob
 from drillctl.station.recent import RecentJobs
 from drillctl.station.views import board_view
 from drillctl.station.workingbase import Base
 from drillctl.wiring.desk import Desk
 from drillctl.wiring.estimate import foresee
 from drillctl.wiring.session import default_journal, journals, rest_of
+from drillctl.wiring.site import moved
 
 REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, OSError)
 
@@ -49,7 +50,7 @@ class Plan:
     @property
     def done_before(self) -> int:
         """Holes of earlier runs."""
-        return len(self.known.done) if isinstance(self.known, Account) else 0
+        return self.known.holes_done if isinstance(self.known, Account) else 0
 
 
 class Boards:
@@ -63,7 +64,10 @@ class Boards:
 
     def load(self, file: Path, asked: Asked, machine: Machine, base: Base) -> Problems:
         """A drill file, as asked."""
-        recipe = recipe_of(asked, machine, base)
+        try:
+            recipe = recipe_of(asked, machine, base)
+        except msgspec.ValidationError as error:
+            return (f"{file}: it can't be opened with these settings: {error}",)
         if problems := self._planned(file, recipe, machine):
             return problems
         self._recent.add(file, asked)
@@ -84,16 +88,18 @@ class Boards:
         """The newest first."""
         return self._recent.read()
 
-    def unfinished(self) -> list[UnfinishedJob]:
-        """The newest first, whichever machine they were begun on."""
-        return [_unfinished_job(file, account) for file, account in unfinished(journals())]
+    def unfinished(self, here: Site) -> list[UnfinishedJob]:
+        """The newest first, whichever machine they were begun on; ``here`` is where they would go on."""
+        return [_unfinished_job(file, account, here) for file, account in unfinished(journals())]
 
-    def take_up(self, journal: Path, machine: Machine) -> Problems:
-        """What is left of a job that was cut off, from its own base."""
+    def take_up(self, journal: Path, machine: Machine, here: Site, elsewhere: bool) -> Problems:
+        """What is left of a job that was cut off, from its own base; not elsewhere unless that was agreed to."""
         try:
             account = read_journal(journal)
             if account.head.machine != machine.name:
                 return (f"the job was begun on machine {account.head.machine}; choose that one first",)
+            if not elsewhere and (reason := moved(account.site, here)):
+                return (f"{journal}: {reason}",)
             rest = rest_of(journal, account, machine)
             told, ticks = foresee(rest.left)
             view = board_view(Path(account.head.job), rest.whole, told, *rest.recipe.reading())
@@ -110,11 +116,11 @@ class Boards:
             return _problems(error)
         return ()
 
-    def begin(self) -> Problems:
+    def begin(self, here: Site) -> Problems:
         """Opens the journal of the board on the desk. Refused too where an unfinished job of its file would be lost."""
         assert self.plan is not None
         try:
-            self.journal = Journal(self.plan.journal, self.plan.known)
+            self.journal = Journal(self.plan.journal, self.plan.known, here)
         except JournalError as error:
             return _problems(error)
         return ()
@@ -150,25 +156,28 @@ class Boards:
 
 
 def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
-    """A board is placed by its measured holes alone where there are any."""
+    """A board is placed by its measured holes alone where there are any. Raises msgspec.ValidationError for settings
+    that the command line would not take: a list of recent jobs may hold anything.
+    """
     panel = asked.panel
-    return Recipe(
-        machine=_reference(machine),
-        tick_hz=machine.tick_hz,
-        origin=None if asked.origin == "base" else asked.origin,
-        mirror=asked.mirror,
-        rotate=asked.rotate_deg,
-        offset=asked.offset_mm,
-        align=tuple(map(_row, asked.measured)) or None,
-        panel=(panel.columns, panel.rows, panel.pitch_x_mm, panel.pitch_y_mm) if panel else None,
-        order=asked.order,
-        skip_tools=tuple(sorted(asked.skip_tools)),
-        drills=asked.drills,
-        peck=asked.peck_mm,
-        spot=asked.spot_mm,
-        format=asked.format,
-        base=base,
-    )
+    told = {
+        "machine": _reference(machine),
+        "tick_hz": machine.tick_hz,
+        "origin": None if asked.origin == "base" else asked.origin,
+        "mirror": asked.mirror,
+        "rotate": asked.rotate_deg,
+        "offset": asked.offset_mm,
+        "align": tuple(map(_row, asked.measured)) or None,
+        "panel": (panel.columns, panel.rows, panel.pitch_x_mm, panel.pitch_y_mm) if panel else None,
+        "order": asked.order,
+        "skip_tools": tuple(sorted(asked.skip_tools)),
+        "drills": asked.drills,
+        "peck": asked.peck_mm,
+        "spot": asked.spot_mm,
+        "format": asked.format,
+        "base": base,
+    }
+    return Recipe.checked(told)
 
 
 def _reference(machine: Machine) -> str:
@@ -204,15 +213,18 @@ def _problems(error: Exception) -> Problems:
     return tuple(str(error).splitlines())
 
 
-def _unfinished_job(file: Path, account: Account) -> UnfinishedJob:
+def _unfinished_job(file: Path, account: Account, here: Site) -> UnfinishedJob:
     head = account.head
     return UnfinishedJob(
         journal=str(file),
         file=head.job,
         machine=head.machine,
-        holes_done=len(account.done),
+        holes_done=account.holes_done,
         holes_total=head.holes,
         again=tuple(account.open),
         torn=account.torn,
         spotted=head.options.get("spot") is not None,
+        doubtful=account.doubtful,
+        ran=account.site,
+        here=here,
     )

@@ -11,6 +11,7 @@ from drillctl.machine import Library, Machine, TableError
 from drillctl.machine.bundle import bundle, unbundle
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.panel.console import Problems
+from drillctl.panel.jobs import Site
 from drillctl.panel.ports import PortView
 from drillctl.panel.words import local_tables
 from drillctl.ports import PortError
@@ -30,6 +31,7 @@ from drillctl.wiring.machinery import (
     simulated,
     start,
 )  # fmt: skip
+from drillctl.wiring.site import site_of
 
 
 class InUse:
@@ -102,6 +104,11 @@ class InUse:
     def runs_free(self) -> bool:
         """As fast as it is turned, by no clock."""
         return pace_of(self.running) == FREE
+
+    @property
+    def site(self) -> Site:
+        """Where a job runs that is begun now."""
+        return site_of(self.running)
 
     @property
     def port(self) -> PortView:

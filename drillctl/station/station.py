@@ -92,11 +92,11 @@ class Station(Operating):
 
     def unfinished(self) -> Sequence[UnfinishedJob]:
         """From the user's state folder; not the one that runs."""
-        return self._boards.unfinished()
+        return self._boards.unfinished(self._used.site)
 
-    def go_on(self, journal: str) -> Problems:
-        """As ``drillctl resume`` does."""
-        if problems := self.busy() or self._boards.take_up(Path(journal), self.machine):
+    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
+        """As ``drillctl resume`` does; ``elsewhere`` is its option."""
+        if problems := self.busy() or self._boards.take_up(Path(journal), self.machine, self._used.site, elsewhere):
             return problems
         return self._drill()
 
@@ -125,7 +125,7 @@ class Station(Operating):
 
     def _drill(self) -> Problems:
         """From the base that the board was planned for, with its journal."""
-        if problems := self._boards.begin():
+        if problems := self._boards.begin(self._used.site):
             return problems
         plan = self._boards.plan
         assert plan is not None

@@ -12,7 +12,7 @@
     outputs      files reserved before anything moves  timeleft       how long it will still take
     loading      edited tables into a running one      porttest       who answers at a port, before it is driven
     interrupts   what signals do                       terminal_keys  the operator's keys while a job runs
-    vouched      what a board must answer for first
+    vouched      what a board must answer for first            site           where a job runs, for its journal
 
 Called by the verbs, by the screens' station and by the pytest plugin. Imports nothing by itself.
 """

@@ -207,7 +207,7 @@ class Desk:
     def _end_journal(self, outcome: Outcome) -> None:
         if self.journal is None:
             return
-        how = "stopped" if outcome.interrupted else "done"
+        how = "stopped" if outcome.interrupted or self.trouble else "done"
         try:
             self.journal.ended(outcome.fault.name if outcome.fault else how)
         except JournalError as error:

@@ -17,6 +17,7 @@ from drillctl.machine import Machine
 from drillctl.scratch import KEPT_IN_FOLDERS, Folder, sweep
 from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
 from drillctl.wiring.machinery import Running, files_of, is_soon_over, start
+from drillctl.wiring.site import site_of
 
 
 @dataclass(frozen=True)
@@ -44,11 +45,11 @@ class Session:
         """Raises JournalError or PortError before anything moves."""
         wanted = self.job.work and not is_soon_over(self.running)
         foreseen = forecast(self.job.program, self.job.machine).ticks if wanted else None
-        done_before = len(self.known.done) if isinstance(self.known, Account) else 0
+        done_before = self.known.holes_done if isinstance(self.known, Account) else 0
         with ExitStack() as opened:
             journal = None
             if self.journal is not None and self.known is not None:
-                journal = opened.enter_context(closing(Journal(self.journal, self.known)))
+                journal = opened.enter_context(closing(Journal(self.journal, self.known, site_of(self.running))))
             status_file = opened.enter_context(_status_file(self.journal))
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
             desk = Desk(
@@ -74,7 +75,7 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> Rest:
     wishes = recipe.wishes(machine)
     job = load_job(file, machine, wishes, *recipe.reading())
     check_same(journal, account.head, head_of(file, job, account.head.options))
-    if len(account.done) == job.holes_total:
+    if account.complete:
         raise JobError([f"{journal}: all {job.holes_total} holes of {file.name} are drilled; nothing is left"])
     return Rest(recipe, job, job.without(account.done, wishes))
 

@@ -16,7 +16,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from drillctl.cli import main
-from drillctl.generation import journal
+from drillctl.generation.journal import writer
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.wiring import machinery
@@ -99,7 +99,7 @@ def run(witness_file: str, plan: Plan, arguments: list[str]) -> int:
     if plan.get("fails") == "disk":
         real = {name: getattr(os, name) for name in dir(os)}
         full = full_disk(plan["lines"], plan["room_bytes"], witness)
-        setattr(journal, "os", SimpleNamespace(**real | {"write": full}))  # noqa: B010  nor is this a module
+        setattr(writer, "os", SimpleNamespace(**real | {"write": full}))  # noqa: B010  nor is this a module
     return main(arguments)
 
 

@@ -1,6 +1,5 @@
 """The keys of a paced run on a terminal: held and gone on with, stopped, dropped; and where there are none."""
 
-import json
 import sys
 import termios
 import time
@@ -9,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.generation.journal import read_journal
 from drillctl.kmd.channel import Channel
 from drillctl.portio.mapped import read_map
 from drillctl.wiring.terminal_keys import HELP
@@ -90,8 +90,7 @@ def test_x_stops_down_the_ramp_and_the_job_can_be_resumed(begin: Begin, tmp_path
     terminal.press("x")
     assert terminal.exit_code() == 1
     assert "the operator stopped the job" in terminal.text and "position kept" in terminal.text
-    last = json.loads((tmp_path / "j").read_text().splitlines()[-1])
-    assert last == {"ended": "stopped"}
+    assert read_journal(tmp_path / "j").ended == "stopped"
     assert read_map(tmp_path / "card").outputs == 0 and line_mode(terminal)
 
 

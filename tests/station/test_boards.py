@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +12,12 @@ import pytest
 from drillctl.cli import main
 from drillctl.generation.journal import read_journal
 from drillctl.machine import Library
-from drillctl.panel.jobs import Asked, Measured, PanelOf
+from drillctl.panel.jobs import Asked, Measured, PanelOf, Site
 from drillctl.station.queuebench import QueueBench
 from drillctl.station.station import Station
 from drillctl.wiring.machinery import Running
 from drillctl.wiring.session import default_journal
-from tests.support.journalled import BOARD
+from tests.support.journalled import BOARD, forged, lines_of
 from tests.support.operator import settle, until
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
@@ -125,16 +126,39 @@ def test_a_job_is_not_gone_on_with_where_something_is_another(station: Station, 
     board.write_text(BOARD.replace("X3.0Y4.0", "X3.0Y4.1"))
     assert "has changed since the job was begun" in station.go_on(job.journal)[0]
     board.write_text(BOARD)
-    head = json.loads(Path(job.journal).read_text().splitlines()[0])
+    head, *lines = lines_of(Path(job.journal))
     for name, value, reason in (
         ("machine", "boiler-drum", "begun on machine boiler-drum; choose that one first"),
         ("machine_digest", "0" * 16, "machine pcb-drill is not the one that the job was begun on"),
         ("options", {**head["options"], "offset": [1.0, 0.0]}, "the placing, the order or a table"),
         ("options", {**head["options"], "peck": "deep"}, "written by another version"),
     ):
-        lines = Path(job.journal).read_text().splitlines()
-        Path(job.journal).write_text("\n".join([json.dumps({**head, name: value}), *lines[1:], ""]))
+        Path(job.journal).write_bytes(forged([{**head, name: value}, *lines]))
         assert reason in station.go_on(job.journal)[0] and not station.at_work
+
+
+def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(station: Station, board: Path) -> None:
+    """Begun on a real board, it would be simulated to its end."""
+    cut_off(station, board, 2)
+    (job,) = station.unfinished()
+    assert job.ran == job.here == Site("simulated", "free", "ideal")
+    real = Site("firmata:/dev/ttyACM0", "real", "none")
+    head, *lines = lines_of(Path(job.journal))
+    Path(job.journal).write_bytes(forged([{**head, "site": asdict(real)}, *lines]))
+    before = Path(job.journal).read_bytes()
+    (job,) = station.unfinished()
+    assert (job.ran, job.here) == (real, Site("simulated", "free", "ideal"))
+    assert "the job ran with port firmata:/dev/ttyACM0, pace real; what port" in station.go_on(job.journal)[0]
+    assert not station.at_work and Path(job.journal).read_bytes() == before
+    assert station.go_on(job.journal, elsewhere=True) == ()
+    settle(station)
+    assert station.unfinished() == [] and read_journal(Path(job.journal)).site == job.here
+
+
+def test_a_list_of_recent_jobs_may_hold_any_settings(station: Station, board: Path) -> None:
+    for asked in (Asked(order="shortest"), Asked(mirror="z"), Asked(measured=(Measured(0, 0, 1e9, 0),) * 2)):
+        assert "it can't be opened with these settings" in station.load(str(board), asked)[0]
+    assert station.board() is None
 
 
 def test_a_job_that_is_given_up_leaves_room_for_a_new_one(station: Station, board: Path) -> None:

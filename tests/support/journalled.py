@@ -1,9 +1,16 @@
 """A board of four holes, run with its journal and resumed from it: what the tests of journal and resume share."""
 
 import csv
+import json
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from drillctl.cli import main
+from drillctl.generation.journal.chain import NO_SEAL, sealed
+from drillctl.panel.jobs import Site
+
+SITE = Site("simulated", "free", "ideal")
 
 # Tool 1 comes twice, so the numbers of the holes are not those of the file's lines.
 BOARD = "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nG90\nT1\nX1.0Y1.0\nX3.0Y1.0\nT2\nX1.0Y3.0\nT1\nX3.0Y4.0\nM30\n"
@@ -14,9 +21,9 @@ def run(*options: str) -> int:
     return main(["run", "job.drl", "--journal", "j", "--holes", "h.csv", "--json", *options])
 
 
-def resume() -> int:
+def resume(*options: str) -> int:
     """What the journal says is left; returns the exit code."""
-    return main(["resume", "j", "--holes", "h.csv", "--json"])
+    return main(["resume", "j", "--holes", "h.csv", "--json", *options])
 
 
 def holes(folder: Path) -> list[list[str]]:
@@ -28,3 +35,18 @@ def keep_lines(folder: Path, count: int, piece: bytes = b"") -> None:
     """Cuts the journal behind so many lines: what a power cut at that moment leaves, with a torn piece of the next."""
     lines = (folder / "j").read_bytes().splitlines(keepends=True)
     (folder / "j").write_bytes(b"".join(lines[:count]) + piece)
+
+
+def lines_of(file: Path) -> list[dict[str, Any]]:
+    """What each line of a journal says, its checksum left out."""
+    lines = [json.loads(line) for line in file.read_text().splitlines()]
+    return [{key: value for key, value in line.items() if key != "chain"} for line in lines]
+
+
+def forged(lines: Iterable[dict[str, Any]]) -> bytes:
+    """A journal of these lines with the checksums that belong to them: what only somebody who means to can write."""
+    found, seal = [], NO_SEAL
+    for line in lines:
+        data, seal = sealed(line, seal)
+        found.append(data)
+    return b"".join(found)

@@ -99,8 +99,8 @@ class FakeConsole:
     def unfinished(self) -> Sequence[UnfinishedJob]:
         return self.unfinished_jobs
 
-    def go_on(self, journal: str) -> Problems:
-        return self._keep("go_on", journal)
+    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
+        return self._keep("go_on", journal, elsewhere)
 
     def give_up(self, journal: str) -> Problems:
         self.unfinished_jobs = []

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob, UnfinishedJob
+from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob, Site, UnfinishedJob
 from drillctl.ui import words
 from drillctl.ui.formats import FORMATS
 from drillctl.ui.models.measuring import far_apart
@@ -16,7 +16,8 @@ from drillctl.ui.screens.files import Files
 from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50)]
-CUT = UnfinishedJob("/state/four.journal", "/home/four.drl", "pcb-drill", 3, 26, (4,), True, True)
+HERE = Site("simulated", "real", "ideal")
+CUT = UnfinishedJob("/state/four.journal", "/home/four.drl", "pcb-drill", 3, 26, (4,), True, True, None, HERE, HERE)
 
 
 pytestmark = pytest.mark.usefixtures("idle")
@@ -148,13 +149,19 @@ def test_an_interrupted_job_is_offered_with_all_that_it_means(language: str, siz
     words.use(language)
     program = Program(FakeConsole(unfinished_jobs=[CUT]), size)
     program.press("f", "u")
-    text = " ".join(program.text().replace("│", " ").split())
+    text = " ".join(" ".join(row.split("│")[1] for row in program.text().splitlines() if row.count("│") == 2).split())
     for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the tool in hand"):
         source = next(message for message in words_of_screen() if message.startswith(told))
         assert words._(source).format(numbers="4") in text
     assert words._("{done} of {total} holes are drilled").format(done=3, total=26) in text
     program.press("enter")
     assert not program.console.asked
+
+
+def test_a_hole_that_may_have_been_begun_is_named() -> None:
+    program = Program(FakeConsole(unfinished_jobs=[replace(CUT, again=(), doubtful=4)]))
+    program.press("f", "u")
+    assert "Hole 4 may have been begun; it will be drilled again." in program.text()
 
 
 def words_of_screen() -> set[str]:
@@ -166,11 +173,34 @@ def words_of_screen() -> set[str]:
 def test_an_interrupted_job_goes_on_or_is_given_up() -> None:
     program = Program(FakeConsole(unfinished_jobs=[CUT]))
     program.press("f", "u", "right", "enter")
-    assert program.console.asked == [("go_on", CUT.journal)] and " Drilling " in program.text().splitlines()[1]
+    assert program.console.asked == [("go_on", CUT.journal, False)] and " Drilling " in program.text().splitlines()[1]
     program.press("f", "u", "right", "right", "enter")
     assert program.console.asked[-1] == ("give_up", CUT.journal)
     program.press("u")
     assert "No job was cut off." in program.text()
+
+
+BOARD_SITE = Site("firmata:/dev/ttyACM0", "real", "none")
+
+
+@pytest.mark.parametrize(
+    ("ran", "here", "told"),
+    [
+        (BOARD_SITE, HERE, "What a simulated machine drills counts as drilled. Go on all the same?"),
+        (replace(HERE, pace="free"), HERE, "ran with port simulated, pace free, plant ideal. It would go on with port"),
+        (HERE, BOARD_SITE, "go on with port firmata:/dev/ttyACM0, pace real. Go on all the same?"),
+        (replace(HERE, plant="dynamic blunt=20", seed=3), HERE, "pace real, plant dynamic blunt=20, seed 3."),
+    ],
+)
+def test_a_job_that_ran_elsewhere_is_asked_about(ran: Site, here: Site, told: str) -> None:
+    """What is in use is none of the journal's sites: No, and Enter alone, leave everything as it is."""
+    program = Program(FakeConsole(unfinished_jobs=[replace(CUT, ran=ran, here=here)]))
+    program.press("f", "u", "right", "enter")
+    assert told in " ".join(program.text().replace("│", " ").split()) and not program.console.asked
+    program.press("enter")
+    assert not program.console.asked
+    program.press("u", "right", "enter", "right", "enter")
+    assert program.console.asked == [("go_on", CUT.journal, True)]
 
 
 def test_several_interrupted_jobs_are_listed_and_a_refusal_is_told() -> None:
@@ -181,7 +211,7 @@ def test_several_interrupted_jobs_are_listed_and_a_refusal_is_told() -> None:
     assert "1 four.drl  3 of 26 holes are drilled" in program.text()
     console.answer = ("two.drl has changed since the job was begun",)
     program.press("2", "right", "enter")
-    assert console.asked == [("go_on", "/j2")] and "has changed since" in program.text()
+    assert console.asked == [("go_on", "/j2", False)] and "has changed since" in program.text()
 
 
 def test_start_offers_what_was_cut_off_of_the_same_board_and_begins_anew_on_request() -> None:

@@ -64,8 +64,8 @@ class Watched(Station):
     def start(self, dry: bool) -> Problems:
         return self.noted("dry" if dry else "start", super().start(dry))
 
-    def go_on(self, journal: str) -> Problems:
-        return self.noted("go_on", super().go_on(journal))
+    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
+        return self.noted("go_on", super().go_on(journal, elsewhere))
 
     def tool_changed(self) -> Problems:
         return self.noted("tool_changed", super().tool_changed())

@@ -1,0 +1,16 @@
+"""What options of a job may be, by name: one table for the command line, for a journal, and for whoever acts on them.
+
+Rule: nothing heavy is imported here. Used by cli/jobs.py, recipe.py, placing.py and order/plan.py.
+"""
+
+from typing import Literal, get_args
+
+Origin = Literal["base", "file"]
+Mirror = Literal["x", "y"]
+Order = Literal["file", "nearest", "optimised"]
+AfterEnd = Literal["refuse", "ignore", "drill"]
+
+ORIGINS: tuple[str, ...] = get_args(Origin)
+MIRRORED: tuple[str, ...] = get_args(Mirror)
+ORDERS: tuple[str, ...] = get_args(Order)
+AFTER_END: tuple[str, ...] = get_args(AfterEnd)
