@@ -1,4 +1,5 @@
-"""The long campaign: boards are drilled by the clock while processes are killed, sensors lie, disks fill, ports go.
+"""The long campaign: boards are drilled by the clock while processes are killed, sensors lie, disks fill, ports go;
+then each job is resumed, as it ran or on another port.
 
     .venv/bin/python benchmarks/campaign.py --rounds 1000 --jobs 2
 
@@ -62,7 +63,8 @@ def _report(played: list[Round], seconds: float) -> None:
     by_blow = defaultdict(list)
     for r in played:
         by_blow[r.blow.name].append(r)
-    print(f"{'blow':<30} rounds  in time  resumed  named again  visited again  outputs off after, worst  violations")
+    counts = "rounds  in time  resumed  elsewhere  named again  visited again"
+    print(f"{'blow':<30} {counts}  outputs off after, worst  violations")
     for name, rounds in by_blow.items():
         print(f"{name:<30} {_row(rounds)}")
     print(f"{'all':<30} {_row(played)}")
@@ -72,11 +74,10 @@ def _report(played: list[Round], seconds: float) -> None:
 
 def _row(rounds: list[Round]) -> str:
     worst_s = max(r.safe_after_s for r in rounds)
-    sums = [sum(getattr(r, name) for r in rounds) for name in ("met", "resumes", "named", "again")]
+    sums = [sum(getattr(r, name) for r in rounds) for name in ("met", "resumes", "elsewhere", "named", "again")]
     wrong = sum(bool(r.violations) for r in rounds)
-    return (
-        f"{len(rounds):6}  {sums[0]:7}  {sums[1]:7}  {sums[2]:11}  {sums[3]:13}  {worst_s:22.2f} s  {wrong:10}"
-    )
+    counts = "  ".join(f"{count:{width}}" for count, width in zip(sums, (7, 7, 9, 11, 13), strict=True))
+    return f"{len(rounds):6}  {counts}  {worst_s:22.2f} s  {wrong:10}"
 
 
 if __name__ == "__main__":

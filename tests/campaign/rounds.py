@@ -29,7 +29,12 @@ SAFE_WITHIN_S = 1.0
 PATIENCE_S = 30.0
 HOMING_TICKS, HOLE_TICKS = 1400, 1650  # as they are on these boards, about
 MOST_RESUMES = 3
-NAMED = re.compile(r"hole (\d+) \(.*\) was cut off; it is drilled again")
+NAMED = re.compile(r"hole (\d+) \(.*\) (?:was cut off|may have been begun); it is drilled again")
+SITES = (
+    ("--port", "mapped:card", "--pace", "real"),  # where every job begins
+    ("--port", "simulated", "--pace", "free"),
+    ("--port", "mapped:other", "--pace", "real"),
+)
 EXIT_CODES = {0, 1, 2, 129, 130, 143, -signal.SIGKILL}
 
 
@@ -48,6 +53,7 @@ class Round:
     resumes: int = 0
     named: int = 0  # holes that were said to be visited again
     again: int = 0  # holes that were
+    elsewhere: int = 0  # resumes on another port or at another pace, refused first
     safe_after_s: float = 0.0  # for a blow that takes desk or ticker away
 
     def check(self, holds: bool, otherwise: str) -> None:
@@ -84,7 +90,7 @@ def _strike(r: Round) -> None:
     """The first run, with the blow."""
     trace = ["--trace", r.blow.trace or "t.trace"]
     job = ["run", "job.drl", "--tick-hz", str(TICK_HZ), "--journal", "j", "--json", *trace]
-    desk = _start(r, dict(r.blow.plan), *job, "--pace", "real", "--port", "mapped:card")
+    desk = _start(r, dict(r.blow.plan), *job, *SITES[0])
     hit = [desk.pid]
     if r.blow.target is not None and r.blow.signal is not None:
         hit = _hit(r, desk)
@@ -156,8 +162,8 @@ def _wait_for_end(r: Round, desk: "subprocess.Popen[bytes]", family: list[int]) 
     for pid in left:
         os.kill(pid, signal.SIGKILL)
     desk.wait(PATIENCE_S)
-    if (r.folder / "card").exists():
-        r.check(read_map(r.folder / "card").outputs == 0, "outputs on after the end")
+    for card in filter(Path.exists, (r.folder / "card", r.folder / "other")):
+        r.check(read_map(card).outputs == 0, f"outputs of {card.name} on after the end")
 
 
 def _lives(pid: int) -> bool:
@@ -194,15 +200,33 @@ def _finished(r: Round) -> bool:
 
 
 def _go_on(r: Round) -> None:
-    """Resumes; where the first run was ended before it had a journal, begins."""
+    """Resumes, as it ran or elsewhere; where the first run was ended before it had a journal, begins."""
     begun = (r.folder / "j").exists() and (r.folder / "j").stat().st_size > 0
-    pace = r.rng.choice((["--pace", "free"], ["--pace", "real", "--port", "mapped:card"]))
+    site = r.rng.choice((None, *SITES))
+    options: tuple[str, ...] = SITES[0] if site is None and not begun else site or ()
     verb = ["resume", "j"] if begun else ["run", "job.drl", "--tick-hz", str(TICK_HZ), "--journal", "j"]
-    desk = _start(r, {}, *verb, *pace, "--json")
+    if begun and site not in (None, SITES[0]):
+        _be_refused(r, *verb, *options)
+        options += ("--elsewhere",)
+        r.elsewhere += 1
+    said_before = len((r.folder / "err").read_text())
+    desk = _start(r, {}, *verb, *options, "--json")
     _wait_for_end(r, desk, [desk.pid])
     r.resumes += 1
     _judge_run(r, desk.returncode)
     r.check(desk.returncode == 0, f"{' '.join(verb[:2])}: exit code {desk.returncode}: {_last_words(r)}")
+    first = (r.folder / "err").read_text()[said_before:].partition("\n")[0]
+    where = (options or SITES[0])[1].replace(":", f":{r.folder}/")
+    r.check(f"port {where}, pace " in first, f"its first line does not say {where}: {first!r}")
+
+
+def _be_refused(r: Round, *arguments: str) -> None:
+    """Another port or pace, and nobody said that it may be: nothing moves, and the journal stays as it is."""
+    before = (r.folder / "j").read_bytes(), _witnessed(r)
+    desk = _start(r, {}, *arguments, "--json")
+    _wait_for_end(r, desk, [desk.pid])
+    r.check(desk.returncode == 2, f"elsewhere: exit code {desk.returncode}, not refused: {_last_words(r)}")
+    r.check(before == ((r.folder / "j").read_bytes(), _witnessed(r)), "refused, and something was done")
 
 
 def _judge_holes(r: Round) -> None:
