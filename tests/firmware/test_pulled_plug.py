@@ -55,10 +55,12 @@ def test_a_pulled_plug_is_a_lost_port_and_a_new_line_moves_nothing_by_itself(hos
 
 
 def resume(folder: Path, device: str) -> tuple[dict[str, Any], str]:
-    """Until it is done: the outcome, and what was said. A computer too busy for its ticks may cut it off again."""
+    """Until it is done: the outcome, and what was said. The new line has another name, which --elsewhere allows.
+    A computer too busy for its ticks may cut it off again.
+    """
     said = ""
     for _ in range(MOST_RESUMES):
-        run = drillctl(folder, device, "resume", "j")
+        run = drillctl(folder, device, "resume", "j", "--elsewhere")
         out, err = run.communicate(timeout=RUN_S)
         said += err
         told = json.loads(out)

@@ -220,7 +220,8 @@ def test_a_first_line_that_says_something_else_is_refused(change: dict[str, Any]
         ("panel", [10**9, 1, 5.0, 5.0], ["--panel", "1000000000x1:5,5"]), ("skip_tools", [9], ["--skip-tools", "9"]),
         ("skip_tools", ["a"], ["--skip-tools", "a"]), ("machine", "nowhere", ["--machine", "nowhere"]),
         ("tables", "/nowhere", ["--tables", "/nowhere"]), ("drills", "/nowhere", ["--drills", "/nowhere"]),
-        ("align", "/nowhere", ["--align", "/nowhere"]), ("format", "feet", ["--format", "feet"]), ("after_end", "drilled", ["--after-end", "drilled"]),
+        ("align", "/nowhere", ["--align", "/nowhere"]), ("format", "feet", ["--format", "feet"]),
+        ("after_end", "drilled", ["--after-end", "drilled"]),
     ],
 )  # fmt: skip
 def test_options_in_a_journal_are_held_to_what_the_command_line_takes(
