@@ -60,7 +60,7 @@ class PacedLink:
         self._changes: list[np.ndarray] = []
         self._port = port
         self._unguarded = False
-        self._refused: list[str] | None = None
+        self._noticed: list[str] = []
         self._channel["tick_ns"] = 1_000_000_000 // machine.tick_hz
         now_ns = self._beat()
         self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
@@ -146,12 +146,10 @@ class PacedLink:
         return Trace.of_changes([*header, *overrun], self._signals, *columns, int(status["tick"]), trailer)
 
     def notices(self) -> list[str]:
-        """What was refused of real-time running, from when the ticker has said it: before its first tick."""
+        """What the ticker has said: before its first tick what was refused of real-time running; why a port is lost."""
         with suppress(BlockingIOError):
-            if self._refused is None:
-                lines = os.read(self._notices, 4096).decode().split("\n")[:-1]
-                self._refused = [f"not real-time: {line}" for line in lines]
-        return [*(self._refused or ()), *([UNGUARDED] if self._unguarded else ())]
+            self._noticed += os.read(self._notices, 4096).decode().splitlines()
+        return [*self._noticed, *([UNGUARDED] if self._unguarded else ())]
 
     def close(self) -> None:
         """Asks the ticker to leave; ends it where it does not; the guard follows it. The port is given back."""

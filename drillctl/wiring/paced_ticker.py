@@ -31,6 +31,7 @@ DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
 LOOK_NS = 20_000_000  # at rest the sensors are looked at so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
+LONGEST_NOTICE = 1000  # characters; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
 
 
@@ -59,8 +60,7 @@ class PacedTicker:
             signal.signal(number, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda number, frame: self.requests.own.post(Request.STOP))
         try:
-            os.write(self.notice_end, "".join(f"{notice}\n" for notice in become_punctual()).encode())
-            os.close(self.notice_end)
+            self._notice(*(f"not real-time: {reason}" for reason in become_punctual()))
             self._tick_on()
         finally:
             with suppress(OSError):  # then the guard tries too
@@ -85,9 +85,14 @@ class PacedTicker:
                 else:
                     self._stand(clock.begun_ns)
             except OSError as error:
+                self._notice(" ".join(str(error).split())[:LONGEST_NOTICE])
                 self._end_by(Fault.PORT_SLOW if isinstance(error, PortSlow) else Fault.PORT_LOST)
                 return
             self._publish()
+
+    def _notice(self, *sentences: str) -> None:
+        """For the operator, beside the status."""
+        os.write(self.notice_end, "".join(f"{sentence}\n" for sentence in sentences).encode())
 
     def _stand(self, now_ns: int) -> None:
         """A wake that is no tick: the inputs are looked at now and then. The time of real motors can't be stopped."""

@@ -115,9 +115,11 @@ def play_round(job: Job, folder: Path, message: int, greets: bool) -> Round:
     board = ResettingBoard(IdealPlant(job.machine))
     try:
         board.arm(message, greets)
-        told, _ = _drillctl(folder, board.device, "run", "short.drl", "--machine", "short.toml", "--journal", "j")
+        told, said = _drillctl(folder, board.device, "run", "short.drl", "--machine", "short.toml", "--journal", "j")
         made, r.messages, r.was_reset = board.plant.touches, board.messages, board.was_reset
         _judge_run(r, told, made)
+        reason = "greeted anew" if greets else "not as it was set"
+        r.check(reason in said or r.busy or not r.was_reset, f"the reason is not told: {said}")
         board.arm(0, greets=False)
         for _ in range(MOST_RESUMES):
             if told["holes_done"] == told["holes_total"]:
@@ -151,7 +153,7 @@ def _drillctl(folder: Path, device: str, *arguments: str) -> tuple[dict[str, Any
     call += ["--tools", "assume", "--json"]
     for _ in range(MOST_TRIES):
         done = subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=RUN_S, check=False)
-        if done.stdout:
-            break
-    assert done.stdout, done.stderr
-    return json.loads(done.stdout), done.stderr
+        told = json.loads(done.stdout or "{}")
+        if "holes_done" in told:
+            return told, done.stderr
+    raise AssertionError(f"refused: {done.stdout} {done.stderr}")

@@ -99,6 +99,8 @@ def test_a_port_that_goes_at_rest_is_a_fault_then(link: PacedLink, wires: Wires)
     wires.words[GONE] = 1
     until(link, lambda: link.status()["fault"] == Fault.PORT_LOST)
     assert wires.words[OUTPUTS] == 0
+    assert link.notices()[-1:] == ["unplugged"]
+    assert link.notices()[-1:] == ["unplugged"], "it stays told"
 
 
 def test_a_port_too_slow_for_a_moving_machine_is_a_fault_of_its_own(link: PacedLink, wires: Wires) -> None:
