@@ -46,7 +46,7 @@ def faults_page() -> str:
         words = FAULT_WORDS[spec.fault]
         kept = "kept" if spec.position_kept else "lost"
         if spec.reaction is Reaction.MACHINE:
-            kept = "lost where the outputs drop, kept where they hold"
+            kept = "lost where the outputs drop; where they hold, kept from states 0 and 1"
         parts += [
             f"## {spec.fault.value} {spec.fault.name}",
             "",

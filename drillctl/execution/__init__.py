@@ -9,6 +9,7 @@
     homing.py      initialisation, by the machine's table of steps
     guard.py       sensors, ranges, times
     stops.py       requests and faults: hold, stop, emergency stop, return
+    hot.py         what was switched on by hand and would burn a winding goes off
     report.py      writes the status record
     late.py        what a gap in time does
     loading.py     edited tables for a machine that rests

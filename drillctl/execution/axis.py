@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from drillctl.machine import AxisTable
+from drillctl.machine.hazards import opposite_halves
 from drillctl.ports import with_bits
 
 if TYPE_CHECKING:
@@ -22,12 +23,12 @@ class Axis:
 
     __slots__ = (
         "base", "bits", "braked", "clear_mask", "cold", "column", "columns_per_step", "cooling", "count", "counting",
-        "cut", "direction", "drive", "floor", "held", "high", "interval", "led", "length", "limits", "line", "low",
-        "made", "part", "position", "ramp", "resting", "seek_mask", "sense", "shown", "span", "state", "target",
-        "travelled", "up", "wait", "wires",
+        "cut", "direction", "drive", "floor", "forcing", "halves", "held", "high", "interval", "least", "led", "length",
+        "limits", "line", "low", "made", "most", "part", "position", "ramp", "reach", "resting", "seek_mask", "sense",
+        "shown", "span", "state", "target", "travelled", "up", "wait", "wires",
     )  # fmt: skip
 
-    def __init__(self, table: AxisTable, limits: tuple[int, int, int], up: int = 0):
+    def __init__(self, table: AxisTable, limits: tuple[int, int, int], reach: tuple[int, int] | None = None):
         self.ramp = table.ramp
         self.interval = table.ramp.interval
         self.columns_per_step = table.columns_per_step
@@ -35,12 +36,15 @@ class Axis:
         self.sense = -1 if table.invert else 1
         self.low, self.high, self.span = table.low_steps, table.high_steps, table.span_steps
         self.limits = limits  # input bits of the end sensors: index 1 for +, -1 for - (0 unused)
-        self.up = up  # where a head that is fed by a distance waits between holes
+        self.reach = reach or (self.low, self.high)  # where it can be sent: its range short of its limit sensors
+        self.up = max(0, self.reach[0])  # where a head that is fed by a distance waits between holes
         self.wires = sum(1 << bit for bit in table.wire_bits)
+        self.forcing, self.halves = _forcing(table), _halves(table)
         self.shown = _patterns(table, forcing=True)
         self.resting = _patterns(table, forcing=False)
         self.column = self.length - 1  # so that the first step forward puts the first column out
         self.position = self.target = self.base = self.made = self.travelled = 0
+        self.least = self.most = 0  # between these it has turned round since its phases were off, or its zero was taken
         self.state = self.count = self.part = self.floor = 0
         self.direction = 1
         self.wait = self.interval[0]
@@ -68,6 +72,7 @@ class Axis:
 
     def face(self, direction: int) -> None:
         """The direction of the steps to come. A drive's direction wire must stand before its first pulse."""
+        self.was_at(self.position, self.position)
         self.direction = direction
         if self.drive:
             self.bits = self.cold = self.resting[direction * self.sense][self.column]
@@ -121,17 +126,36 @@ class Axis:
         self.held = False
 
     def release(self) -> None:
-        """Stop and take the current off all phases."""
+        """Stop and take the current off all phases; from now on it can be pushed by hand, as far as it likes."""
         self.halt()
         self.bits = self.cold = 0
+        self.least = self.most = self.position
 
-    def set_wire(self, bit: int, on: int) -> None:
-        """One wire by hand, at rest: it stays so until the next column is put out."""
-        self.bits, self.cold = with_bits(self.bits, bit, on), with_bits(self.cold, bit, on)
+    def set_wire(self, bits: int, on: int) -> None:
+        """A wire by hand, at rest, or several: they stay so until the next column is put out."""
+        self.bits, self.cold = with_bits(self.bits, bits, on), with_bits(self.cold, bits, on)
 
     def zero(self) -> None:
         """This place is machine zero."""
-        self.position = self.target = self.base = 0
+        self.position = self.target = self.base = self.least = self.most = 0
+
+    def was_at(self, least: int, most: int) -> None:
+        """It has turned round between these places, both included."""
+        self.least, self.most = min(self.least, least), max(self.most, most)
+
+    def been(self) -> tuple[int, int]:
+        """The least and the greatest place that it was at since its phases were off."""
+        return min(self.least, self.position), max(self.most, self.position)
+
+    def in_reach(self, target: int) -> bool:
+        """Of a known place: whether it can be sent there. From beyond its reach it can be sent back towards it."""
+        low, high = self.reach
+        return min(low, self.position) <= target <= max(high, self.position)
+
+    def within_travel(self, target: int) -> bool:
+        """Of an unknown place: whether its travel may hold all places that it was at, and the target too."""
+        least, most = self.been()
+        return least <= target <= most or max(most, target) - min(least, target) <= self.span
 
     def cool(self) -> None:
         """At rest: the column's 5 V bits stay, forcing goes off; 24 V held would burn the winding."""
@@ -195,6 +219,17 @@ class Axis:
             self.cut = False
         if self.line is not None:
             self.line.rest()
+
+
+def _forcing(table: AxisTable) -> int:
+    """The bits of the forcing wires."""
+    return sum(1 << bit for wire, bit in zip(table.phase.wires, table.wire_bits, strict=True) if wire.forcing)
+
+
+def _halves(table: AxisTable) -> tuple[int, ...]:
+    """The bits of both halves of a winding, for each winding that has two."""
+    bits = dict(zip(table.phase.wire_names(), table.wire_bits, strict=True))
+    return tuple(1 << bits[one] | 1 << bits[other] for one, other in opposite_halves(table.motor))
 
 
 def _patterns(table: AxisTable, forcing: bool) -> tuple[tuple[int, ...], ...]:

@@ -72,12 +72,12 @@ def _target(axis: Axis, command: Command, index: int) -> int:
 
 
 def _refused(m: Controller, axis: Axis, target: int, absolute: int) -> int:
-    """Before initialisation only moves from here, within the length of the travel."""
+    """To where the axis can be sent. Before initialisation only moves from here, all together within the travel."""
     if m.position_known:
-        return Fault.NONE if axis.low <= target <= axis.high else Fault.SOFT_LIMIT
+        return Fault.NONE if axis.in_reach(target) else Fault.SOFT_LIMIT
     if absolute:
         return Fault.HOMING_REQUIRED
-    return Fault.NONE if abs(target - axis.position) <= axis.span else Fault.SOFT_LIMIT
+    return Fault.NONE if axis.within_travel(target) else Fault.SOFT_LIMIT
 
 
 def _start_line(m: Controller, command: Command) -> int:

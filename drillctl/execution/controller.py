@@ -21,7 +21,10 @@ class Controller:
     running   sequence of the command that was current in this tick, 0 = none
     served    the requests served in this tick, as bits; unseen: the same of a wake that was no tick
     tick_hz   ticks a second, for what is limited in seconds; set_rate changes it
+    hot_until the tick in which what was switched on by hand and would burn a winding goes off (hot.py), 0 for none
+    cut_off   1: that has happened, and no output was set since
     gap       whole periods by which the next tick begins too late, set by whoever paces; late: the same, applied
+    caught    the last gap stopped an axis that was too fast to be stopped without losing steps
     """
 
     def __init__(self, machine: Machine, queue: CommandQueue, requests: Mailbox, port: Driver):
@@ -30,7 +33,7 @@ class Controller:
         self.requests = requests
         self.port = port
         self.axes = tuple(
-            Axis(table, _limits(machine, index), max(0, machine.reach(index)[0]))
+            Axis(table, _limits(machine, index), machine.reach(index))
             for index, table in enumerate(machine.axes)
         )
         self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
@@ -49,7 +52,7 @@ class Controller:
         self.homing_row = 0
 
         self.tick = self.starved = self.moving = self.running = self.served = self.gap = self.late = 0
-        self.unseen = 0
+        self.unseen = self.hot_until = self.cut_off = 0
         self.inputs = self.sensors = 0
         self.image = SAFE_IMAGE
         self.switched = 0
@@ -57,7 +60,7 @@ class Controller:
         self.condition: int = Condition.READY
         self.epoch = 0
         self.fault = 0
-        self.fault_kept = self.return_wanted = False
+        self.fault_kept = self.return_wanted = self.caught = False
         self.position_known = False
 
         self.done = self.hole_begun = self.holes_done = self.tool = 0

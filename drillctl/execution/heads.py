@@ -68,7 +68,8 @@ def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:
     if not sensor:
         return (m.machine.drill_down_steps or axis.high) if direction == DOWN else axis.up
     if not m.position_known:
-        return axis.position + direction * axis.span
+        least, most = axis.been()
+        return max(most, least + axis.span) if direction == DOWN else min(least, most - axis.span)
     return axis.high if direction == DOWN else axis.low
 
 

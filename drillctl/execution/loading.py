@@ -10,7 +10,7 @@ from drillctl.machine import Machine
 KEPT = (
     "tick", "starved", "inputs", "sensors", "switched", "image", "epoch", "done", "hole_begun", "holes_done", "tool",
 )  # fmt: skip
-KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction")
+KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction", "least", "most")
 
 
 def loaded(machine: Machine, old: Controller) -> Controller:

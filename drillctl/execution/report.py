@@ -12,11 +12,12 @@ def report(m: Controller, status: np.void) -> None:
     """Overwrites a record of dtype kmd.STATUS with what the controller knows."""
     command = m.command
     for name in ("tick", "tick_hz", "starved", "epoch", "done", "hole_begun", "holes_done", "tool", "condition",
-                 "fault", "fault_kept", "position_known", "job", "moving"):  # fmt: skip
+                 "fault", "fault_kept", "position_known", "cut_off", "job", "moving"):  # fmt: skip
         status[name] = getattr(m, name)
     status["sensors"], status["image"] = m.sensors & TWO_CARDS, m.image & TWO_CARDS
     status["sequence"] = command.sequence if m.busy else 0
     status["opcode"] = command.opcode if m.busy else Op.IDLE
+    status["hot_ticks"] = max(0, m.hot_until - m.tick)
     status["queued"] = len(m.queue)
     for index, axis in enumerate(m.axes):
         status["position"][index] = axis.position

@@ -6,8 +6,10 @@ it is acknowledged. Requests come from tick, faults from guard, commands and hom
 
 from collections.abc import Callable, Mapping
 
+from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.homing import begin_homing, carry_homing
+from drillctl.execution.hot import output_set, rate_set
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
 from drillctl.kmd.queue import RequestBit, bit_and_value, pace_of
 from drillctl.ports import SAFE_IMAGE, with_bits
@@ -31,7 +33,7 @@ def raise_fault(m: Controller, fault: int) -> None:
     if first:
         m.fault = fault
         m.fault_kept = True
-    _keep_position(m, spec.position_kept or (holds and _on_whole_steps(m)))
+    _keep_position(m, spec.position_kept or (holds and _stops_dead_on_its_place(m)))
     _end_job(m)
     if holds:
         _latch_at_once(m, drop=False)
@@ -58,9 +60,16 @@ def _keep_position(m: Controller, kept: bool) -> None:
     m.fault_kept = m.fault_kept and m.position_known
 
 
-def _on_whole_steps(m: Controller) -> bool:
-    """A winding stopped between two columns of a step stands where no count of steps says."""
-    return not any(axis.part and not axis.drive for axis in m.axes)
+def _stops_dead_on_its_place(m: Controller) -> bool:
+    """Nothing is faster than a rotor can stop; and none stands between two columns of a step, where no count of steps
+    says where it is.
+    """
+    return not any(too_fast_to_stop(m, axis) or (axis.part and not axis.drive) for axis in m.axes)
+
+
+def too_fast_to_stop(m: Controller, axis: Axis) -> bool:
+    """Whether a rotor that is stopped dead now loses steps. One that is led is as fast as its leader."""
+    return abs(m.line.leader.state if axis.led else axis.state) > SURVIVES_STATE
 
 
 def _end_job(m: Controller) -> None:
@@ -145,6 +154,7 @@ def _set_output(m: Controller) -> None:
         if axis.wires & bit:
             axis.set_wire(bit, on)
             m.position_known = False
+    output_set(m)
 
 
 def _set_pace(m: Controller) -> None:
@@ -152,7 +162,9 @@ def _set_pace(m: Controller) -> None:
     no request at all: the trace has only those that took effect, so that a reader knows how long each tick was.
     """
     if _rests(m):
+        before_hz = m.tick_hz
         m.set_rate(pace_of(m.requests.hand))
+        rate_set(m, before_hz)
     else:
         m.served &= ~RequestBit.PACE.value
 
@@ -163,9 +175,12 @@ def _rests(m: Controller) -> bool:
 
 def _after_pause(m: Controller) -> None:
     """While the ticks stood still the rotors of a real machine stopped: those at speed start anew, or were lost."""
-    for axis in m.axes:
+    if m.late:  # the gap before this tick has stopped them already
+        m.position_known = m.position_known and not m.caught
+    fast = [too_fast_to_stop(m, axis) for axis in m.axes]
+    for index, axis in enumerate(m.axes):
         if axis.led or (axis.counting and axis.state):
-            m.position_known = m.position_known and abs(axis.state) <= SURVIVES_STATE
+            m.position_known = m.position_known and not fast[index]
             axis.start_again()
 
 

@@ -8,6 +8,7 @@ docs/SPEC.md, section 1, has the order to the letter. No container is built here
 from drillctl.execution.commands import finish, start_next
 from drillctl.execution.controller import Controller
 from drillctl.execution.guard import guard
+from drillctl.execution.hot import cut_off
 from drillctl.execution.late import apply_gap
 from drillctl.execution.stops import carry_on, serve
 from drillctl.kmd import Condition
@@ -25,6 +26,8 @@ def tick(m: Controller) -> None:
     m.unseen = 0
     if m.served:
         serve(m)
+    if m.hot_until and m.tick >= m.hot_until:
+        cut_off(m)
     if m.condition != LATCHED:
         guard(m)
     starved = m.condition == READY and not m.busy and not start_next(m) and m.job
@@ -45,10 +48,7 @@ def tick(m: Controller) -> None:
             moving += axis.interrupt()
     m.moving = moving
     if not moving:
-        if m.condition != READY:
-            carry_on(m)
-        elif m.busy:
-            finish(m)
+        _at_rest(m)
     _put_out(m)
     m.tick += 1
 
@@ -65,6 +65,13 @@ def spare(m: Controller) -> None:
     for axis in m.axes:
         image |= axis.cold
     m.port.flush(image)
+
+
+def _at_rest(m: Controller) -> None:
+    if m.condition != READY:
+        carry_on(m)
+    elif m.busy:
+        finish(m)
 
 
 def _put_out(m: Controller) -> None:

@@ -38,6 +38,8 @@ STATUS = np.dtype(
         ("fault", "u1"),
         ("fault_kept", "u1"),  # 1: the position was known and still is
         ("position_known", "u1"),
+        ("cut_off", "u1"),  # 1: what was switched on by hand and would burn a winding went off
+        ("hot_ticks", "<u4"),  # after which that will happen; 0: nothing is on that would
         ("job", "u1"),  # 1 from a program's first command to KMD_KONIEC
         ("moving", "u1"),  # axes that count
         ("queued", "<u2"),

@@ -34,13 +34,17 @@ def _dangers(table: PhaseTable, motor: Motor, patterns: list[frozenset[str]]) ->
     return [*_both_halves(motor, patterns), *_forcing_alone(table, patterns), *_bad_jumps(motor, patterns)]
 
 
+def opposite_halves(motor: Motor) -> list[tuple[str, str]]:
+    """The wires of each winding that has two halves: they pull against each other."""
+    angles = {angle % 360: name for name, angle in motor.windings}
+    return [(name, angles[angle + 180]) for angle, name in angles.items() if angle + 180 in angles]
+
+
 def _both_halves(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[str]:
     for number, on in enumerate(patterns, start=1):
-        angles = {angle % 360: name for name, angle in motor.windings if name in on}
-        for angle, name in angles.items():
-            other = angles.get(angle + 180)
-            if other is not None:
-                halves = " and ".join(sorted((name, other)))
+        for pair in opposite_halves(motor):
+            if on.issuperset(pair):
+                halves = " and ".join(sorted(pair))
                 yield f"column {number}: {halves} are both on: the halves of one winding cancel"
 
 

@@ -68,6 +68,8 @@ class MachineView:
     real_wanted: str = ""  # the port that the machine's file asks for (mode REAL) while a simulated one is in use
     at_work: bool = False  # a job, a jog or an initialisation is on its way
     local: bool = False  # some of its tables are neither the shipped ones nor named by the operator
+    hot_s: float = 0.0  # after which what was switched on by hand and would burn a winding goes off; 0: nothing is
+    cut_off: bool = False  # that has happened, and no output was set since
     paused: bool = False  # ticks come only as they are granted (panel/handwork.py)
 
 

@@ -28,23 +28,25 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "check the work range, the scale and the limit sensors in the machine's file, then initialise again",
     ),
     Fault.SOFT_LIMIT: FaultWords(
-        "a command's target lies outside the configured work range; nothing was moved",
-        "correct the command or the working base; the position is as it was",
+        "a command's target lies where its axis can't be sent: outside its range, at a limit sensor, or farther "
+        "than its travel is long; the command moved nothing",
+        "correct the command or the working base; before initialisation all moves together must fit into the travel",
     ),
     Fault.HOMING_REQUIRED: FaultWords(
-        "an absolute move was asked for before the position was known; nothing was moved",
+        "a move to a place was asked for while the position was not known; that command moved nothing",
         "initialise first (KMD_INICJALIZACJA)",
     ),
     Fault.HOMING_NOT_FOUND: FaultWords(
-        "initialisation did not find a limit sensor, or did not come clear of it",
+        "initialisation, or the way home after a fault, did not find a limit sensor or did not come clear of it",
         "check the sensor, its wiring and its polarity, and that the carriage moves freely",
     ),
     Fault.DRILL_NOT_DOWN: FaultWords(
-        "the head passed its whole range without its lower sensor answering (Zmax passed)",
+        "the head came to rest without its lower sensor answering: at the end of its range (Zmax passed), or the "
+        "sensor had answered for a moment only",
         "look for a blunt drill, a jammed head or a dirty lower sensor",
     ),
     Fault.HEAD_NOT_UP: FaultWords(
-        "the head did not reach its upper sensor",
+        "the head came to rest without its upper sensor answering",
         "free the head, check the upper sensor, then initialise again",
     ),
     Fault.DRILLING_TIME: FaultWords(
@@ -60,7 +62,7 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "check what should have switched it, or give KMD_CZEKAJ_WE more ticks",
     ),
     Fault.LINE_MISMATCH: FaultWords(
-        "axes with different columns_per_step can't be linked in one line; nothing was moved",
+        "axes with different columns_per_step can't be linked in one line; the command moved nothing",
         "move them one after the other, or give them the same columns_per_step",
     ),
     Fault.BAD_COMMAND: FaultWords(
@@ -72,7 +74,7 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "clear the danger, acknowledge, and initialise where the position was lost",
     ),
     Fault.LATE_TICK: FaultWords(
-        "the ticks stood still for more than a quarter of a second: the computer was busy elsewhere",
+        "the ticks stood still for more than a quarter of a second: the computer was busy elsewhere, or suspended",
         "grant real-time scheduling or free the computer (drillctl latency), acknowledge; initialise where lost",
     ),
     Fault.PORT_LOST: FaultWords(
@@ -80,12 +82,13 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         "cut the motors' supply, check cable, card and the card's own supply, then start anew and initialise",
     ),
     Fault.HEARTBEAT_LOST: FaultWords(
-        "the program above the queue fell silent while the machine was moving; the outputs were switched off",
-        "see why it died or hung, then resume the job from its journal",
+        "the program above the queue ended or fell silent; the outputs were switched off",
+        "see why it ended or hung, then initialise; a job with a journal can be resumed",
     ),
     Fault.TICKER_LOST: FaultWords(
-        "the process that runs the ticks died or stood still; the guard has made the outputs safe",
-        "see why it died, then resume the job from its journal",
+        "the process that runs the ticks ended or stood still; the outputs were made safe where the port still "
+        "answers",
+        "see why it ended, then initialise; a job with a journal can be resumed",
     ),
     Fault.PORT_SLOW: FaultWords(
         "the port takes outputs more slowly than the ticks make them; the motors may have missed some",

@@ -38,6 +38,7 @@ class Plant:
         self._in_board = False
         for index in range(len(self.rotors)):
             self._carry(index)
+        self.touches = 0  # a bit that is in the board from the beginning did not come down to it
 
     def drive(self, image: int) -> None:
         """An output image stands at the card, for a tick. Called once a tick, changed or not."""

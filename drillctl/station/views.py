@@ -63,6 +63,8 @@ def machine_view(
         late_worst_ms=int(status["late_worst_ns"]) / 1e6,
         fault=fault_report(code, bool(status["fault_kept"])) if code else None,
         notices=tuple(link.notices()),
+        hot_s=int(status["hot_ticks"]) / machine.tick_hz,
+        cut_off=bool(status["cut_off"]),
         paused=link.gate.paused,
     )
     return _gone(view) if link.lost() else view

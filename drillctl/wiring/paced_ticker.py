@@ -78,6 +78,8 @@ class PacedTicker:
                     m = self.ticker.controller
                     harmless = min(axis.interval[0] for axis in m.axes)  # a gap so short is no news to any motor
                     m.gap = gap if gap > harmless else 0
+                    if m.gap and self.ticker.plant is None:
+                        self.requests.own.post(Request.PAUSE)  # real motors have stood still for so long
                     self.ticker.late(clock.late, clock.worst_ns)
                     self._go_on()
                     self.ticker.advance(1)
@@ -108,7 +110,7 @@ class PacedTicker:
         if self.ticker.waits:
             return False
         takes = self.ticker.controller.condition != Condition.LATCHED
-        asked = self.requests.waiting or self.gate.left > 0
+        asked = self.requests.waiting or self.gate.left > 0 or self.ticker.controller.hot_until > 0
         return not self.ticker.over() or asked or (takes and len(self.queue) > 0)
 
     def _follow_rate(self, clock: PacedClock) -> None:

@@ -86,9 +86,10 @@ class Ticker:
 
     @property
     def waits(self) -> bool:
-        """The gate is shut. What was asked, and a machine that brakes or returns, are never kept waiting."""
+        """The gate is shut. What was asked, a machine that brakes or returns, and what would burn don't wait for it."""
         shut = self.gate.paused and not self.gate.left
-        return shut and not self.requests.waiting and self.controller.condition == Condition.READY
+        waits = shut and not self.requests.waiting and self.controller.condition == Condition.READY
+        return waits and not self.controller.hot_until
 
     @property
     def resting(self) -> bool:

@@ -157,3 +157,37 @@ def test_two_engines_in_two_processes_give_the_same_bytes(tmp_path: Path) -> Non
         return [done.stdout, *(file.read_bytes() for file in files)]
 
     assert told("tick", "a") == told("fast", "b") == told("fast", "c")
+
+
+@pytest.mark.parametrize("name", ["pcb-drill", "eight-axis", "cnc-shield"])
+@seed(725)
+@settings(max_examples=8, deadline=None)
+@given(data=st.data())
+def test_wherever_the_machine_is_found_both_see_the_same_holes(name: str, data: st.DataObject) -> None:
+    """Also with the bit in the board: it has not come down to it, so that is no hole."""
+    machine = LIBRARY.machine(name)
+    surface = machine.board_surface[machine.drill_axes[0]]
+    assert surface is not None
+    found = []
+    for axis in machine.axes:
+        near = st.integers(surface - 3, min(surface + 40, axis.high_steps))
+        found.append(replace(axis, start_steps=data.draw(near if axis.name[0] == "z" else st.integers(0, 300))))
+    machine = replace(machine, axes=tuple(found))
+    head = machine.axes[machine.drill_axes[0]]
+    moves = [f"KMD_RUCHd {head.name}={-data.draw(st.integers(0, 60))}", f"KMD_RUCHd {head.name}=3", "KMD_GOTOdXdY 20 9"]
+    known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\nKMD_GOTO_X_Y 9 9\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA\n", ""]))
+    fast = check(machine, "\n".join([*data.draw(st.permutations(moves)), known]), {}, 10**9)
+    if head.start_steps >= surface and not known:
+        assert all(touch[1] == 0 for touch in fast.touched)
+
+
+def test_a_head_that_begins_in_the_board_has_drilled_nothing() -> None:
+    plain = LIBRARY.machine("pcb-drill")
+    surface = plain.board_surface[2]
+    assert surface is not None
+    machine = replace(plain, axes=(*plain.axes[:2], replace(plain.axes[2], start_steps=surface + 20)))
+    for ticker in (Ticker.simulated(machine), FastTicker.ideal(machine)):
+        ticker.queue.put(parse_program("KMD_RUCHd x=5\nKMD_RUCHd z=-3\nKMD_RUCHd x=5", names_of(machine)))
+        while not ticker.over() or not ticker.controller.tick:
+            ticker.turn(ticker.over)
+        assert ticker.touched == []

@@ -1,11 +1,15 @@
 """What keeps the machine inside itself: targets, sensors, counts, each without the others (docs/SPEC.md, 1.4, 1.9)."""
 
+from dataclasses import replace
+
 import pytest
 
 from drillctl.kmd import Condition, Fault, Request
+from drillctl.machine import Machine
 from tests.support.bench import Bench, shipped
 
 X_LOW, X_HIGH, X_SPAN = -10, 16535, 16545
+X_REACH = 16528  # the last step before the far limit sensor answers
 
 
 def bench() -> Bench:
@@ -24,10 +28,15 @@ def refusal(b: Bench, text: str) -> Fault:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        (f"KMD_RUCH x={X_LOW}", Fault.NONE),
-        (f"KMD_RUCH x={X_LOW - 1}", Fault.SOFT_LIMIT),
-        (f"KMD_RUCH x={X_HIGH}", Fault.NONE),
-        (f"KMD_RUCH x={X_HIGH + 1}", Fault.SOFT_LIMIT),
+        (f"KMD_RUCH x={X_LOW}", Fault.SOFT_LIMIT),
+        ("KMD_RUCH x=-1", Fault.SOFT_LIMIT),
+        ("KMD_RUCH x=0", Fault.NONE),
+        (f"KMD_RUCH x={X_REACH}", Fault.NONE),
+        (f"KMD_RUCH x={X_REACH + 1}", Fault.SOFT_LIMIT),
+        (f"KMD_RUCHd x={X_REACH + 1}", Fault.SOFT_LIMIT),
+        (f"KMD_LINIA x={X_REACH + 1} y=5", Fault.SOFT_LIMIT),
+        ("KMD_RUCHd x=5 y=5 z=790", Fault.SOFT_LIMIT),
+        (f"KMD_RUCH x={X_HIGH}", Fault.SOFT_LIMIT),
         (f"KMD_RUCHd x={X_HIGH + 1}", Fault.SOFT_LIMIT),
         ("KMD_GOTO_X_Y 5 99999", Fault.SOFT_LIMIT),
         ("KMD_LINIA x=5 y=99999", Fault.SOFT_LIMIT),
@@ -54,6 +63,81 @@ def test_targets_are_checked_when_popped_and_all_before_any_axis_starts(text: st
 )
 def test_before_homing_only_moves_from_here_within_the_travel(text: str, fault: Fault) -> None:
     assert refusal(bench(), text) == fault
+
+
+def test_from_beyond_its_reach_an_axis_is_sent_towards_it_and_no_farther() -> None:
+    """Initialised, the head stands at 0, where its upper sensor holds; 12 is the first step that it is sent to."""
+    b = bench().ready()
+    for text, place in (("KMD_RUCHd z=1", 1), ("KMD_RUCH z=1", 1), ("KMD_RUCH z=100", 100), ("KMD_RUCH z=12", 12)):
+        b.queue(text).finish()
+        assert (b.m.fault, b.positions()[2]) == (Fault.NONE, place)
+    for text in ("KMD_RUCH z=11", "KMD_RUCH z=0", "KMD_RUCHd z=-1", "KMD_LINIA x=3 z=0", "KMD_RUCHd x=1 z=-12"):
+        assert refusal(b, text) == Fault.SOFT_LIMIT
+        assert b.m.position_known
+        b.ask(Request.ACK).tick()
+
+
+@pytest.mark.parametrize("form", ["KMD_RUCHd x={}", "KMD_GOTOdXdY {} 0", "KMD_LINIAd x={} y=1"])
+@pytest.mark.parametrize(
+    ("ways", "fault"),
+    [
+        ((6000, 6000, 6000), Fault.SOFT_LIMIT),
+        ((-6000, -6000, -6000), Fault.SOFT_LIMIT),
+        ((6000, -6000, 6000, -6000), Fault.NONE),
+        ((-6000, X_SPAN - 1, -X_SPAN), Fault.NONE),
+        ((6000, -12000, -6000), Fault.SOFT_LIMIT),
+    ],
+)
+def test_moves_from_an_unknown_place_are_within_the_travel_all_together(
+    form: str, ways: tuple[int, ...], fault: Fault
+) -> None:
+    """Whichever way and in whatever command: no travel holds what is farther apart than it is long."""
+    b = Bench(without_limits())
+    for way in ways[:-1]:
+        b.queue(form.format(way)).finish()
+        assert b.m.fault == Fault.NONE
+    assert refusal(b, form.format(ways[-1])) == fault
+
+
+def test_the_sum_begins_anew_where_the_phases_were_off() -> None:
+    b = Bench(without_limits())
+    for end in ("KMD_FAZY_WYL x", "KMD_FAZY_WYL", "KMD_CZEKAJ 1"):
+        b.queue(f"KMD_RUCHd x=10000; {end}").finish()
+        assert b.m.fault == Fault.NONE
+    b.ask(Request.ESTOP).tick().ask(Request.ACK).tick()
+    b.queue("KMD_RUCHd x=10000").finish()
+    assert b.m.fault == Fault.NONE
+    assert refusal(b, "KMD_RUCHd x=10000") == Fault.SOFT_LIMIT
+
+
+def test_what_was_moved_before_a_stop_counts_and_what_was_not_does_not() -> None:
+    b = Bench(without_limits()).queue(f"KMD_RUCHd x={X_SPAN}").tick(200).ask(Request.STOP)
+    b.finish()
+    there = b.positions()[0]
+    assert 0 < there < 220
+    assert refusal(b, f"KMD_RUCHd x={X_SPAN - there + 1}") == Fault.SOFT_LIMIT
+    b.ask(Request.ACK).tick()
+    assert refusal(b, f"KMD_RUCHd x={X_SPAN - there}") == Fault.NONE
+
+
+def test_a_head_that_does_not_find_its_sensor_does_not_look_farther_each_time() -> None:
+    b = bench()
+    b.card.stuck_low = b.input_bit("z_bottom")
+    made = []
+    for _ in range(3):
+        b.queue("KMD_WIERTLO_DOL").finish()
+        assert b.m.fault == Fault.DRILL_NOT_DOWN
+        made.append(b.m.axes[2].made)
+        b.ask(Request.ACK).tick()
+    assert made == [b.m.axes[2].span] * 3
+
+
+def without_limits() -> Machine:
+    """Where only the sum of all moves says how far an axis may go."""
+    plain = shipped("pcb-drill")
+    states = len(plain.axes[0].ramp.interval)
+    quick = [replace(axis, ramp=replace(axis.ramp, interval=(2, *[1] * (states - 1)))) for axis in plain.axes]
+    return replace(plain, sensors=(), homing=(), axes=tuple(quick))
 
 
 @pytest.mark.parametrize("name", ["boiler-drum", "eight-axis"])
@@ -113,9 +197,10 @@ def test_from_an_active_limit_one_may_move_away_and_no_step_further() -> None:
 def test_an_axis_that_stays_or_leaves_is_not_stopped_by_its_limit(line: str) -> None:
     b = bench().ready()
     b.card.stuck_high = b.input_bit("y_max")
+    b.m.axes[1].reach = (-3, 11804)
     b.queue(f"KMD_RUCHd x=50 y=0; {line}")
     b.finish()
-    assert b.m.fault == (Fault.NONE if b.positions()[1] >= -10 else Fault.SOFT_LIMIT)
+    assert b.m.fault == Fault.NONE
     assert b.positions()[0] == 59
 
 

@@ -130,16 +130,44 @@ def test_an_emergency_stop_drops_everything_in_its_tick(start: int) -> None:
 
 
 @pytest.mark.parametrize("start", [1, 7, 30, 60, 150])
-def test_a_machine_that_holds_stops_its_pulses_and_keeps_current_and_position(start: int) -> None:
-    b = ready("boiler-drum").queue("KMD_LINIA x=200 y=100").tick(start)
+@pytest.mark.parametrize("move", ["KMD_LINIA x=200 y=100", "KMD_GOTO_X_Y 200 3", "KMD_RUCHd x=0 y=150"])
+def test_a_machine_that_holds_stops_its_pulses_and_keeps_its_place_from_states_0_and_1(start: int, move: str) -> None:
+    b = ready("boiler-drum").queue(move).tick(start)
     place, current = b.positions(), b.images[-1]
+    slow = all(abs(axis.state) <= 1 for axis in b.m.axes)
+    assert slow == (start < 30), "the ramp of this machine rises a state with each step"
     b.ask(Request.ESTOP).tick(50)
     assert set(b.images[-50:]) == {current}
-    assert (b.positions(), b.m.position_known, b.m.fault_kept) == (place, True, True)
+    assert (b.positions(), b.m.position_known, b.m.fault_kept) == (place, slow, slow)
     b.ask(Request.ACK).tick().queue("KMD_GOTO_X_Y 0 0")
     b.finish()
-    assert b.positions() == [0, 0]
+    assert (b.positions(), b.m.fault) == (([0, 0], Fault.NONE) if slow else (place, Fault.HOMING_REQUIRED))
     assert not any(b.ticker.lost_steps())
+
+
+def test_a_gap_that_stops_a_follower_is_judged_by_the_speed_of_its_leader() -> None:
+    """The leader's own ramp is too gentle to be stopped by it; the follower's is not."""
+    machine = shipped("pcb-drill")
+    x, y, z = machine.axes
+    patient = replace(x, ramp=replace(x.ramp, interval=(400, *x.ramp.interval[1:])))
+    b = Bench(replace(machine, axes=(patient, y, z)))
+    b.m.position_known = True
+    b.queue("KMD_LINIAd x=300 y=200").until(lambda: b.m.axes[0].state == 3)
+    b.m.gap = 200
+    b.tick()
+    assert (b.m.fault, b.m.position_known) == (Fault.LATE_TICK, False)
+
+
+@pytest.mark.parametrize(("state", "kept"), [(0, True), (1, True), (2, False), (3, False)])
+def test_a_real_machine_stopped_by_a_gap_keeps_its_position_from_states_0_and_1(state: int, kept: bool) -> None:
+    """A short gap, which is no fault; whoever paces real motors tells of it by PAUSE."""
+    b = ready("pcb-drill").queue("KMD_RUCHd x=300 y=2")
+    b.until(lambda: b.m.axes[0].state == state and b.m.moving)
+    b.m.gap = 10
+    b.ask(Request.PAUSE).tick()
+    assert (b.m.fault, b.m.position_known) == (Fault.NONE, kept)
+    b.finish()
+    assert b.positions()[:2] == [300, 2]
 
 
 def test_a_machine_that_holds_between_the_columns_of_a_step_has_lost_its_place() -> None:
@@ -152,7 +180,8 @@ def test_a_machine_that_holds_between_the_columns_of_a_step_has_lost_its_place()
 def test_a_drive_that_is_halted_in_its_pulse_has_made_the_step() -> None:
     b = Bench(replace(shipped("eight-axis"), emergency_stop="hold")).ready().queue("KMD_RUCHd x=20")
     x = b.m.axes[0]
-    b.until(lambda: x.part == 1 and x.position > 3)
+    b.until(lambda: x.part == 1 and x.position > 0)
+    assert x.state == 1
     b.ask(Request.ESTOP).tick(3)
     assert b.m.position_known
     assert b.ticker.places()[0] == x.position

@@ -17,6 +17,7 @@ from drillctl.wiring.fast_ticker import FastTicker
 from drillctl.wiring.sampler import Sampler, signals
 from drillctl.wiring.ticker import Ticker
 
+OF_BOOKS = ("ramp", "line", "least", "most")  # not compared as they stand: ``been`` says what matters of the last two
 Disturbances = Mapping[int, int]  # by tick: requests as bits of the mailbox, or below 0 a gap of so many periods
 
 
@@ -68,7 +69,8 @@ def remembered(ticker: Ticker) -> dict[str, Any]:
     told |= {f"command.{slot}": getattr(m.command, slot) for slot in m.command.__slots__}
     told |= {f"line.{slot}": getattr(m.line, slot) for slot in ("lead_reach", "reach", "error", "joins")}
     for number, axis in enumerate(m.axes):
-        told |= {f"{number}.{slot}": getattr(axis, slot) for slot in Axis.__slots__ if slot not in ("ramp", "line")}
+        told |= {f"{number}.{slot}": getattr(axis, slot) for slot in Axis.__slots__ if slot not in OF_BOOKS}
+        told[f"{number}.been"] = axis.been()
         told[f"{number}.led by"] = axis.line is not None
         told[f"{number}.rotor"] = {k: v for k, v in vars(plant.rotors[number]).items() if k != "equilibrium"}
         told[f"{number}.sensors"] = [dict(vars(sensor)) for sensor in plant.carriages[number].sensors]

@@ -101,7 +101,18 @@ def test_a_coil_costs_the_position_and_is_asked_about(yes: bool) -> None:
     press(drawn, "down", "down", "right", " ")
     assert shell.asked == ["x.24a is a motor's wire: the position will be lost. Switch x.24a on?"]
     assert hands.done == ([("set_output", 2, True)] if yes else [])
-    assert ("forcing burns a winding" in text_of(drawn)) == yes
+
+
+def test_what_would_burn_a_winding_is_said_with_its_time_and_that_it_went_off() -> None:
+    drawn, _hands = screen()
+    for now, told in (
+        (replace(VIEW, hot_s=0.8), "this burns a winding at rest: it goes off by itself in 0.8 s"),
+        (replace(VIEW, cut_off=True), "what would have burned a winding went off after a second"),
+    ):
+        drawn.refresh(now)
+        assert told in text_of(drawn)
+    drawn.refresh(VIEW)
+    assert "winding" not in text_of(drawn)
 
 
 def test_a_real_machine_is_asked_about_for_every_output() -> None:

@@ -134,6 +134,26 @@ def test_an_output_set_by_hand_is_one_tick_and_stays(link: PacedLink, wires: Wir
     assert link.status()["tick"] == 3 and wires.words[OUTPUTS] == 1 << COIL
 
 
+def test_forcing_set_by_hand_goes_off_at_rest_and_the_trace_replays(
+    link: PacedLink, wires: Wires, tmp_path: Path
+) -> None:
+    """Nothing else is to be done meanwhile: the ticks that it takes are counted all the same."""
+    forced = FORCING & -FORCING
+    assert link.set_output(forced.bit_length() - 1, 1)
+    until(link, lambda: link.status()["hot_ticks"])
+    assert wires.words[OUTPUTS] == forced
+    until(link, lambda: link.status()["cut_off"])
+    assert wires.words[OUTPUTS] == 0
+    ticks = MACHINE.tick_hz + 1
+    assert link.status()["tick"] == ticks
+    rest(link, 0.1)
+    assert link.status()["tick"] == ticks, "and no further ones"
+    trace = link.trace(header(MACHINE, parse_program("", names_of(MACHINE))))
+    assert trace is not None
+    write_text(trace, tmp_path / "t.trace")
+    assert not replay(tmp_path / "t.trace", LIBRARY).failed(same_tables_wanted=True)
+
+
 def test_single_ticks_spare_the_windings_and_replay(link: PacedLink, wires: Wires, tmp_path: Path) -> None:
     """The gate is shut at speed: that costs the position. Then tick by tick each step starts from rest."""
     program = parse_program("KMD_RUCHd x=30", names_of(MACHINE))

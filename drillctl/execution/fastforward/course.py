@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.journey import Journey
-from drillctl.execution.fastforward.strokes import COUNTERS, MOTION, REMEMBERED, Place, Stroke
+from drillctl.execution.fastforward.strokes import COUNTERS, MOTION, POSITION, REMEMBERED, Place, Stroke
 from drillctl.execution.fastforward.world import World
 from drillctl.trace.tapes import LAP, Count, Reel, Tape
 
@@ -70,6 +70,8 @@ class Stroked:
             axis = m.axes[head]
             for slot, value in zip(REMEMBERED, place.axes[number], strict=True):
                 setattr(axis, slot, value)
+            turned_at = [each.motion(number)[POSITION] for each in (self.begin, *(kind.after for kind in self.kinds))]
+            axis.was_at(min(turned_at), max(turned_at))
             for counter, name in enumerate(COUNTERS):
                 grown = sum(n * kind.grown[number][counter] for n, kind in zip(times, self.kinds, strict=True))
                 setattr(axis, name, getattr(axis, name) + grown)

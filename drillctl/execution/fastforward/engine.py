@@ -35,7 +35,7 @@ class Engine:
         """Whether a command would be taken in the next tick, and nothing else is going on."""
         m = self._m
         ready = m.condition == Condition.READY and not m.fault
-        return ready and not (m.busy or m.moving or m.gap or m.unseen or m.requests.waiting)
+        return ready and not (m.busy or m.moving or m.gap or m.unseen or m.hot_until or m.requests.waiting)
 
     def _sees(self) -> bool:
         """Whether the plant is where the controller has it, and both are of the common kind."""
@@ -88,7 +88,7 @@ class Engine:
 
     def recording(self, command: NDArray[np.void]) -> Recording | None:
         """To be told of the ticks of a command, dtype RECORD (1,), where it is a stroke of the heads alone."""
-        if not is_stroke(command, self._strokes.heads).all():
+        if not (self._m.position_known and is_stroke(command, self._strokes.heads).all()):
             return None
         return Recording(self._m, self._world, self._strokes, signatures(command)[0])
 

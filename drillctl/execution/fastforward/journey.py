@@ -124,6 +124,7 @@ class Journey:
     def leave(self, longest: Count) -> None:
         """The axis as it stands after the last command; ``longest`` (n,) are the commands' ticks."""
         axis = self.axis
+        axis.was_at(int(self.position.min()), int(self.position.max()))
         axis.cool()
         if not self.sent.any():
             return

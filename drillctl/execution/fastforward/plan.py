@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.course import Course, Stroked
 from drillctl.execution.fastforward.journey import Journey
@@ -32,7 +33,7 @@ StrideOf = Callable[[int, int, int], Stride]  # by axis, direction and floor
 
 def foresee(m: Controller, world: World, strokes: Strokes, stride: StrideOf, commands: Records) -> Course | None:
     """The course of as many commands, dtype kmd.RECORD (n,), as can be foreseen; None where that is none."""
-    stroked = _stroked(commands, strokes.heads)
+    stroked = _stroked(commands, strokes.heads) & m.position_known  # else it matters where a head was before
     commands = commands[: _beginning(_of_a_kind(m, commands, stroked, strokes.heads))]
     heads = strokes.heads if stroked.any() else ()
     journeys = [
@@ -96,16 +97,30 @@ def _journey(m: Controller, index: int, strides: Callable[[int, int], Stride], c
 
 def _clear(m: Controller, world: World, index: int, journey: Journey) -> Rows:
     """Nothing would be refused, and no sensor answers on the way or is already met."""
-    axis, target = m.axes[index], journey.position[1:]
-    absolute = journey.absolute & journey.sent
-    within = (axis.low <= target) & (target <= axis.high)
-    allowed = within if m.position_known else ~absolute & (np.abs(journey.steps) <= axis.span)
+    axis, absolute = m.axes[index], journey.absolute & journey.sent
+    allowed = _in_reach(axis, journey) if m.position_known else ~absolute & _within_travel(axis, journey)
     travel = axis.travelled + (journey.position - axis.position) * axis.columns_per_step
     low, high = world.free(index)
     met = (world.inputs ^ m.polarity) & (axis.limits[1] | axis.limits[-1])
     free = (low < travel * axis.sense) & (travel * axis.sense < high) & (met == 0)
     clear: Rows = (allowed | ~journey.sent) & ((free[1:] & free[:-1]) | (journey.steps == 0))
     return clear
+
+
+def _in_reach(axis: Axis, journey: Journey) -> Rows:
+    """Axis.in_reach for every command."""
+    (low, high), before, target = axis.reach, journey.position[:-1], journey.position[1:]
+    within: Rows = (np.minimum(low, before) <= target) & (target <= np.maximum(high, before))
+    return within
+
+
+def _within_travel(axis: Axis, journey: Journey) -> Rows:
+    """Axis.within_travel for every command: each adds to where the axis was."""
+    before, target = journey.position[:-1], journey.position[1:]
+    least = np.minimum(axis.least, np.minimum.accumulate(before))
+    most = np.maximum(axis.most, np.maximum.accumulate(before))
+    within: Rows = np.maximum(most, target) - np.minimum(least, target) <= axis.span
+    return within | ((least <= target) & (target <= most))
 
 
 def _known(strokes: Strokes, commands: Records, rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], list[Stroke]]:

@@ -16,8 +16,10 @@ from drillctl.trace.tapes import Reel
 
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
 MOTION = ("column", "position", "state")
-TABLES = ("ramp", "interval", "shown", "resting", "limits", "line")
-REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES))
+POSITION = MOTION.index("position")
+TABLES = ("ramp", "interval", "shown", "resting", "limits", "line", "reach", "forcing", "halves")
+BEEN = ("least", "most")  # strokes are foreseen from known places alone, where nothing depends on these
+REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES, *BEEN))
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,11 +41,13 @@ class Signals(urwid.Widget):
         self._cursor = self._top = 0
         self._columns = 80
         self._said: tuple[str, str] = ("body", "")
+        self._limited = ""
         self.refresh(console.view())
 
     def refresh(self, view: MachineView) -> None:
         """Redrawn only if something is new. Another machine has other signals."""
         signals = tuple(self._desk.signals())
+        self._limit(view)
         if signals != self._signals:
             self._signals = signals
             self._cursor = min(self._cursor, len(signals) - 1)
@@ -103,8 +105,6 @@ class Signals(urwid.Widget):
     def _switch(self, signal: SignalView) -> None:
         if problems := self._desk.set_output(signal.bit, not signal.on):
             self._say("warning", _("refused: {why}").format(why="; ".join(map(told, problems))))
-        elif signal.forcing and not signal.on:
-            self._say("warning", _("forcing burns a winding at rest: switch it off again soon"))
         else:
             self._say("body", "")
 
@@ -115,6 +115,16 @@ class Signals(urwid.Widget):
     def _say(self, attribute: str, text: str) -> None:
         self._said = (attribute, text)
         self._invalidate()
+
+    def _limit(self, view: MachineView) -> None:
+        """What the machine does by itself about outputs that would burn a winding."""
+        limited = _("what would have burned a winding went off after a second") if view.cut_off else ""
+        if view.hot_s:
+            told = _("this burns a winding at rest: it goes off by itself in {seconds:.1f} s")
+            limited = told.format(seconds=view.hot_s)
+        if limited != self._limited:
+            self._limited = limited
+            self._invalidate()
 
     def _scroll(self, room: int, lines: int) -> None:
         """The cursor's line and the heading above it are seen."""
@@ -127,4 +137,8 @@ class Signals(urwid.Widget):
         """What the cursor is on, what was answered, and how much there is above and below."""
         above, below = self._top, max(0, lines - self._top - room)
         more = _("{above} lines above, {below} below").format(above=above, below=below) if above or below else ""
-        return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._said]]
+        return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._told()]]
+
+    def _told(self) -> tuple[str, str]:
+        """What was answered, unless a winding is in danger."""
+        return ("warning", self._limited) if self._limited else self._said
