@@ -83,7 +83,8 @@ class Console:
     def view(self) -> Any:
         axis = SimpleNamespace(name="x", column=3, state=1, position_steps=7)
         return SimpleNamespace(
-            machine="drill", paused=self.paused, tick=41, command="KMD_CZEKAJ 5", axes=(axis,), position_known=True
+            machine="drill", paused=self.paused, tick=41, command="KMD_CZEKAJ 5", axes=(axis,), position_known=True,
+            hot_s=0.0, cut_off=False,
         )
 
     def choose_machine(self, name: str) -> Problems:

@@ -148,7 +148,7 @@ def test_forcing_set_by_hand_goes_off_at_rest_and_the_trace_replays(
     assert link.status()["tick"] == ticks
     rest(link, 0.1)
     assert link.status()["tick"] == ticks, "and no further ones"
-    trace = link.trace(header(MACHINE, parse_program("", names_of(MACHINE))))
+    trace = link.trace(header(MACHINE, parse_program("KMD_KONIEC", names_of(MACHINE))))
     assert trace is not None
     write_text(trace, tmp_path / "t.trace")
     assert not replay(tmp_path / "t.trace", LIBRARY).failed(same_tables_wanted=True)
