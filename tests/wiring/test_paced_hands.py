@@ -138,17 +138,19 @@ def test_forcing_set_by_hand_goes_off_at_rest_and_the_trace_replays(
     link: PacedLink, wires: Wires, tmp_path: Path
 ) -> None:
     """Nothing else is to be done meanwhile: the ticks that it takes are counted all the same."""
-    forced = FORCING & -FORCING
+    forced, program = FORCING & -FORCING, parse_program("KMD_KONIEC", names_of(MACHINE))
+    link.queue.put(program)
+    until(link, lambda: link.status()["done"] == 1)
     assert link.set_output(forced.bit_length() - 1, 1)
     until(link, lambda: link.status()["hot_ticks"])
     assert wires.words[OUTPUTS] == forced
     until(link, lambda: link.status()["cut_off"])
     assert wires.words[OUTPUTS] == 0
-    ticks = MACHINE.tick_hz + 1
+    ticks = 1 + MACHINE.tick_hz + 1
     assert link.status()["tick"] == ticks
     rest(link, 0.1)
     assert link.status()["tick"] == ticks, "and no further ones"
-    trace = link.trace(header(MACHINE, parse_program("KMD_KONIEC", names_of(MACHINE))))
+    trace = link.trace(header(MACHINE, program))
     assert trace is not None
     write_text(trace, tmp_path / "t.trace")
     assert not replay(tmp_path / "t.trace", LIBRARY).failed(same_tables_wanted=True)
