@@ -35,11 +35,11 @@ BOARD = "M48\nMETRIC\nT1C0.800\n%\nG90\nG05\nT1\nX0.02Y0.02\nX0.06Y0.02\nX0.06Y0
 CHANGES = {  # of mega-28byj48: near to its sensors, and short strokes
     "start = 10190": "start = 6",
     "start = 7642": "start = 6",
-    "start = 0": "start = 5",
+    "start = 0": "start = 18",
     "edge = -100\nhysteresis = 100": "edge = -4\nhysteresis = 2",
-    "edge = 25\nhysteresis = 100": "edge = 2\nhysteresis = 2",
-    "down = 4076": "down = 12",
-    "z = 2547": "z = 8",
+    "edge = 25\nhysteresis = 100": "edge = 8\nhysteresis = 8",  # a board answers some ticks late
+    "down = 4076": "down = 30",
+    "z = 2547": "z = 24",
     "spin_up_s = 2 ": "spin_up_s = 0.02 ",
 }
 OUTPUT_PORTS, INPUT_PORT = (2, 3, 4), 5  # of a Mega: bits 0..23, and inputs 0..7
