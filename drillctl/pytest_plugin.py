@@ -2,19 +2,25 @@
 
 A trace is replayed with the tables at hand; the test fails at the first tick that differs. Only files that begin
 with the magic line are collected. ``--drillctl-rewrite`` records goldens anew on the simulated machine.
+
+Rule: every pytest run on the computer loads this module, so the rooms it needs, and numpy with them, are imported
+only once a file was found that begins as a trace does.
 """
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from drillctl.machine import Library, TableError
-from drillctl.trace import TraceError, is_segments, is_trace
+from drillctl.inputs import read_start
 from drillctl.wording import LINES, one_line, visible
 
-FORMS = {".trace": is_trace, ".seg": is_segments}
+SUFFIXES = (".trace", ".seg")
+START = b"drillctl-"  # of both forms; which one, and whether it is one at all, the trace room knows
 NO_TRACES = pytest.ExitCode.NO_TESTS_COLLECTED
+COUNT = pytest.StashKey[int]()  # traces that were collected, here or by the workers of pytest-xdist
+TO_CONTROLLER = "drillctl_traces"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -30,19 +36,60 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """A folder of tables that is not there is refused, as on the command line."""
+    tables = config.getoption("--drillctl-tables")
+    if tables is not None and not tables.is_dir():
+        raise pytest.UsageError(f"--drillctl-tables {tables}: no such folder")
+
+
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "TraceFile | None":
     """Traces by their first line; other files that happen to be called so are left alone."""
-    if file_path.suffix in FORMS and FORMS[file_path.suffix](file_path):
+    if file_path.suffix in SUFFIXES and _is_trace(file_path):
         return TraceFile.from_parent(parent, path=file_path)
     return None
 
 
+def _is_trace(file: Path) -> bool:
+    try:
+        if read_start(file, len(START)) != START:
+            return False
+    except OSError:  # a pipe, a folder, a file that may not be read: nobody said that it is a trace
+        return False
+    from drillctl.trace import is_segments, is_trace
+
+    return is_segments(file) if file.suffix == ".seg" else is_trace(file)
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Counts the traces that are to run in this process."""
+    session.config.stash[COUNT] = sum(isinstance(item, TraceItem) for item in session.items)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any, error: object) -> None:
+    """With pytest-xdist the workers collect; each tells the controller, as it ends, how many traces it found."""
+    told = getattr(node, "workeroutput", {}).get(TO_CONTROLLER, 0)
+    node.config.stash[COUNT] = max(node.config.stash.get(COUNT, 0), told)
+
+
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """With --drillctl-require-traces, a run without any trace has failed."""
-    if not session.config.getoption("--drillctl-require-traces"):
-        return
-    if not any(isinstance(item, TraceItem) for item in session.items) and session.exitstatus == pytest.ExitCode.OK:
+    config = session.config
+    if hasattr(config, "workeroutput"):
+        config.workeroutput[TO_CONTROLLER] = config.stash.get(COUNT, 0)
+    elif session.exitstatus == pytest.ExitCode.OK and _lacks_traces(config):
         session.exitstatus = NO_TRACES
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    """Why a run whose tests all passed has failed."""
+    if _lacks_traces(config):
+        terminalreporter.write_line("drillctl: no trace was collected (--drillctl-require-traces)", red=True)
+
+
+def _lacks_traces(config: pytest.Config) -> bool:
+    return bool(config.getoption("--drillctl-require-traces")) and not config.stash.get(COUNT, 0)
 
 
 class TraceFile(pytest.File):
@@ -62,6 +109,7 @@ class TraceItem(pytest.Item):
 
     def runtest(self) -> None:
         """Raises TraceMismatch at the first tick that differs."""
+        from drillctl.machine import Library
         from drillctl.wiring.replay import record_again, replay
 
         option = self.config.getoption
@@ -71,10 +119,14 @@ class TraceItem(pytest.Item):
             return
         verdict = replay(self.path, library)
         if verdict.failed(bool(option("--drillctl-same-tables"))):
-            raise TraceMismatch(f"{self.path.name}: {verdict.remark()}\n{verdict.message()}")
+            first = f"{self.path.name}: {verdict.headline()}"
+            raise TraceMismatch(f"{first}\n{verdict.message()}\n  run       {verdict.remark()}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """A dozen plain lines, without a Python traceback, for what is the trace's or the tables' fault."""
+        from drillctl.machine import TableError
+        from drillctl.trace import TraceError
+
         if isinstance(excinfo.value, TraceMismatch | TraceError | TableError):
             return visible(str(excinfo.value), LINES)
         return str(super().repr_failure(excinfo))

@@ -1,7 +1,7 @@
 """Many processes on one question: rows come back in the order of its machines, whoever was quicker.
 
 Rule: nothing here changes a byte of the answer. On this computer by its cores; on a cluster through joblib's dask
-backend, an extra (``pip install 'drillctl[cluster]'``). Called by sweep.py.
+backend, an extra (``pip install '.[cluster]'`` in a clone). Called by sweep.py.
 """
 
 import os
@@ -49,7 +49,7 @@ def on_cluster(question: Question, chunks: list[range], address: str) -> Rows:
         from distributed import Client
         from joblib import Parallel, delayed, parallel_config
     except ImportError as error:
-        raise LabError("--cluster needs dask and joblib: pip install 'drillctl[cluster]'") from error
+        raise LabError("--cluster needs dask and joblib: pip install 'dask[distributed]' joblib") from error
     try:
         make: Any = Client  # distributed has no type hints, and need not be installed
         client = make(address, timeout=CONNECT_S)

@@ -133,7 +133,7 @@ def read_line_map(file: str, wiring: Wiring) -> LineMap:
 def missing() -> str:
     """Why there are no GPIO lines here, or nothing."""
     if find_spec("gpiod") is None:
-        return "the package gpiod is not installed: pip install 'drillctl[gpio]'"
+        return "the package gpiod is not installed: pip install gpiod"
     return "" if list(Path("/dev").glob("gpiochip*")) else "no /dev/gpiochip: this computer has no GPIO lines"
 
 

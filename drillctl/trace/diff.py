@@ -152,12 +152,12 @@ def _differing_bits(expected: Trace, actual: Trace, tick: int, name: str) -> tup
 
 
 def _bit_lines(difference: Difference, names: Sequence[str]) -> list[str]:
-    """One line: which bits differ, by number and name, and what each should be."""
+    """One line: which bits differ, by name, or by number where there is none, and what each should be."""
     if not difference.bits:
         return []
     expected = int(difference.expected, 16)
-    labels = (f"{bit} {names[bit]}" if bit < len(names) else str(bit) for bit in difference.bits)
-    wanted = (expected >> bit & 1 for bit in difference.bits)
+    labels = [names[bit] if bit < len(names) and names[bit] else f"bit {bit}" for bit in difference.bits]
+    wanted = ["on" if expected >> bit & 1 else "off" for bit in difference.bits]
     bits = ", ".join(f"{label} should be {value}" for label, value in zip(labels, wanted, strict=True))
     return [f"  bits      {bits}"]
 

@@ -1,4 +1,4 @@
-"""Pictures of numbers as PNG or SVG, drawn by matplotlib, which is an extra: ``pip install 'drillctl[plot]'``.
+"""Pictures of numbers as PNG or SVG, drawn by matplotlib, which is an extra: ``pip install '.[plot]'`` in a clone.
 
 Rule: a function of a record; the same record gives the same bytes: no date, no random names. charts.py draws the same
 in characters. Called by the verbs that draw.
@@ -35,7 +35,7 @@ def check_format(suffix: str) -> str:
     if kind not in FORMATS:
         raise PictureRefused(f"a picture is a .png or a .svg, not {suffix or 'a file without suffix'!r}")
     if find_spec("matplotlib") is None:
-        reason = f"{kind.upper()} needs matplotlib: pip install 'drillctl[plot]'; without --out it is drawn here"
+        reason = f"{kind.upper()} needs matplotlib: pip install 'matplotlib>=3.8'; without --out it is drawn here"
         raise PictureRefused(reason)
     return kind
 

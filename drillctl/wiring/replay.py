@@ -15,6 +15,7 @@ from drillctl.trace import Difference, Segments, Trace, TraceError, first_differ
 from drillctl.wiring.fast_ticker import TICK, FastTicker
 from drillctl.wiring.outputs import Output
 from drillctl.wiring.recorded import Player, check_tick, header_value, machine_of, playback, same_tables
+from drillctl.wiring.sampler import wire_names
 from drillctl.wiring.ticker import Ticker
 from drillctl.wiring.trace_files import read_record, read_trace, takes_segments, write_record
 
@@ -36,6 +37,14 @@ class Verdict:
         """The behaviour differs, or (where that was asked for) the tables do."""
         return self.difference is not None or (same_tables_wanted and not self.same_tables)
 
+    def headline(self) -> str:
+        """What is wrong, in a line: where the runs part, in which command; or that the tables are others."""
+        found = self.difference
+        if found is None:
+            return "recorded with other tables"
+        command = _command_line(self.recorded, found.command)
+        return f"differs at tick {found.tick}, " + (f"in command {command}" if command else "between commands")
+
     def remark(self) -> str:
         """How many ticks, on what, from where on, and whether the tables were others."""
         since = f", judged from tick {self.from_tick} on" if self.from_tick else ""
@@ -46,7 +55,7 @@ class Verdict:
         """The first difference, in a dozen lines."""
         if self.difference is None:
             return "the tables are not those of the recording (--same-tables)"
-        return render(self.difference)
+        return render(self.difference, wire_names(self.machine))
 
 
 def replay(file: Path, library: Library, engine: str | None = None, from_tick: int = 0) -> Verdict:
@@ -112,6 +121,13 @@ def _actual(recorded: Trace, machine: Machine, file: Path, engine: str | None, f
             return actual
     _run(Player(ticker, recorded, machine, file), recorded.end)
     return _trace_of(ticker, recorded)
+
+
+def _command_line(recorded: Trace, shown: str) -> str:
+    """A command as its trace shows it (``6:KMD_GOTOdXdY``) with its arguments: ``6 KMD_GOTOdXdY 30 0``; none: empty."""
+    number, _, name = shown.partition(":")
+    lines = (value for key, value in recorded.header if key == "command")
+    return next((line for line in lines if line.startswith(f"{number} ")), f"{number} {name}" if name else "")
 
 
 def _same_changes(first: Trace, second: Trace, name: str) -> bool:

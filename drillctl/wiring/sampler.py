@@ -140,6 +140,21 @@ def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list
     return found
 
 
+def wire_names(machine: Machine) -> dict[str, list[str]]:
+    """The bits of each card's output word by name, from bit 0: ``x.2a`` as the phase table calls the wire, an output as
+    the machine's file does; empty where nothing is connected.
+    """
+    names = {f"out.{card}": [""] * CARD_BITS for card in range(machine.cards)}
+    wires = [
+        (f"{axis.name}.{wire}", bit)
+        for axis in machine.axes
+        for wire, bit in zip(axis.phase.wire_names(), axis.wire_bits, strict=True)
+    ]
+    for name, bit in (*wires, *machine.outputs):
+        names[f"out.{bit // CARD_BITS}"][bit % CARD_BITS] = name
+    return names
+
+
 def vcd_layout(machine: Machine) -> list[VcdVar]:
     """Scopes of the VCD form: an axis's wires as its phase table names them, then sensors, kmd, and all that any plant
     has.

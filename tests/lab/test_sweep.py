@@ -262,7 +262,7 @@ def test_the_verb_refuses(
 
 @pytest.mark.long
 def test_a_cluster_of_two_workers_gives_the_same_bytes(whole: bytes, tmp_path: Path) -> None:
-    distributed = pytest.importorskip("distributed", reason="dask is an extra: pip install 'drillctl[cluster]'")
+    distributed = pytest.importorskip("distributed", reason="dask is an extra: pip install '.[cluster]'")
     pytest.importorskip("joblib")
     settings = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None, "local_directory": str(tmp_path)}
     with distributed.LocalCluster(**settings) as cluster:
@@ -271,7 +271,7 @@ def test_a_cluster_of_two_workers_gives_the_same_bytes(whole: bytes, tmp_path: P
 
 
 def test_nobody_at_the_cluster_s_address_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("distributed", reason="dask is an extra: pip install 'drillctl[cluster]'")
+    pytest.importorskip("distributed", reason="dask is an extra: pip install '.[cluster]'")
     monkeypatch.setattr("drillctl.lab.crowd.CONNECT_S", 0.5)
     with pytest.raises(LabError, match="no dask scheduler answers there"):
         answered(ASKED, tmp_path / "r.csv", Crew(cluster="tcp://127.0.0.1:9"))

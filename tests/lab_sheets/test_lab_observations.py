@@ -1,6 +1,6 @@
 """What the sheets let a student see is there to be seen: losses where they say so, none where they say none.
 
-The figures are those of docs/lab/README.md, "Figures to expect"; each run is made in the sheet's own folder.
+The figures are those of docs/lab/INSTRUCTOR.md, "Figures to expect"; each run is made in the sheet's own folder.
 """
 
 import csv

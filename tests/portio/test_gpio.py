@@ -142,5 +142,5 @@ def test_a_chip_that_cannot_be_had_is_refused(
 
 def test_without_the_package_it_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(gpiod_lines, "find_spec", lambda name: None)
-    with pytest.raises(PortRefused, match=r"pip install 'drillctl\[gpio\]'"):
+    with pytest.raises(PortRefused, match=r"pip install gpiod"):
         open_gpio(written(tmp_path, GOOD), WIRING)

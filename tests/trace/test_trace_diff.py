@@ -97,7 +97,7 @@ RENDERED = """\
 first difference at tick 10: out.0
   expected  0x00000005
   actual    0x00000027
-  bits      1 x.1b should be 0, 5 should be 0
+  bits      x.1b should be off, bit 5 should be off
   command   1:KMD_GOTOdXdY
   changes around it (- expected only, + actual only, 3 before and after):
            0 out.0 0x00000000

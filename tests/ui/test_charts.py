@@ -95,7 +95,7 @@ def test_curves_have_as_many_values_as_places() -> None:
 
 @pytest.mark.parametrize(("suffix", "begin"), [(".png", b"\x89PNG"), (".SVG", b"<?xml")])
 def test_files_are_the_same_bytes_each_time(suffix: str, begin: bytes) -> None:
-    pytest.importorskip("matplotlib", reason="matplotlib is an extra: pip install 'drillctl[plot]'")
+    pytest.importorskip("matplotlib", reason="matplotlib is an extra: pip install '.[plot]'")
     first, second = (picture_bytes(picture(RAMP, to_scale=True), check_format(suffix)) for _ in range(2))
     assert first == second and first.startswith(begin)
 
@@ -107,5 +107,5 @@ def test_another_kind_of_file_is_refused() -> None:
 
 def test_without_matplotlib_it_is_said_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(PictureRefused, match=r"pip install 'drillctl\[plot\]'"):
+    with pytest.raises(PictureRefused, match=r"pip install 'matplotlib"):
         check_format(".png")

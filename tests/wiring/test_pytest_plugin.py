@@ -33,7 +33,7 @@ def spoil(repository: Path) -> Path:
     found = re.search(r"^6 out\.0 0x(.{8})$", text, re.M)
     assert found
     trace = repository / "bad.trace"
-    trace.write_text(text.replace(found[0], f"6 out.0 0x{int(found[1], 16) ^ 0x10:08x}"))
+    trace.write_text(text.replace(found[0], f"6 out.0 0x{int(found[1], 16) ^ 0x4:08x}"))
     return trace
 
 
@@ -50,7 +50,9 @@ def test_a_difference_fails_with_a_plain_message_also_in_junit(repository: Path)
     assert done.returncode == 1
     failure = ElementTree.parse(repository / "out.xml").find(".//failure")
     assert failure is not None and failure.text is not None
-    assert "KMD_GOTOdXdY" in failure.text and "tick 6" in failure.text
+    first = failure.text.splitlines()[0]
+    assert first == "bad.trace: differs at tick 6, in command 1 KMD_GOTOdXdY 30 -12"
+    assert re.search(r"^  bits      x\.2a should be off$", failure.text, re.M), failure.text
     assert "Traceback" not in done.stdout and failure.text.isascii()
 
 
@@ -82,6 +84,30 @@ def test_required_traces_must_be_there(repository: Path) -> None:
     (repository / "good.trace").unlink()
     assert run_pytest(repository).returncode == 0
     assert run_pytest(repository, "--drillctl-require-traces").returncode == COLLECTED_NOTHING
+
+
+def test_required_traces_are_seen_through_workers_and_their_lack_is_said(repository: Path) -> None:
+    pytest.importorskip("xdist")
+    (repository / "test_other.py").write_text("def test_other():\n    assert True\n")
+    assert run_pytest(repository, "-n", "2", "--drillctl-require-traces").returncode == 0
+    (repository / "good.trace").unlink()
+    done = run_pytest(repository, "-n", "2", "--drillctl-require-traces")
+    assert done.returncode == COLLECTED_NOTHING and "no trace was collected" in done.stdout
+
+
+def test_a_folder_of_tables_that_is_not_there_is_refused(repository: Path) -> None:
+    done = run_pytest(repository, "--drillctl-tables", "nowhere")
+    assert done.returncode == pytest.ExitCode.USAGE_ERROR and "nowhere: no such folder" in done.stderr
+
+
+def test_a_pytest_run_without_traces_imports_no_room_of_ours(tmp_path: Path) -> None:
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    (tmp_path / "other.trace").write_text("strace of something\n")
+    heavy = "[name for name in sys.modules if name.split('.')[0] in ('numpy', 'msgspec', 'urwid')]"
+    rooms = "[name for name in sys.modules if name in ('drillctl.machine', 'drillctl.trace', 'drillctl.wiring')]"
+    (tmp_path / "test_other.py").write_text(f"import sys\n\ndef test_other():\n    print({heavy}, {rooms})\n")
+    done = run_pytest(tmp_path, "-s")
+    assert done.returncode == 0 and "[] []" in done.stdout, done.stdout
 
 
 def test_tables_of_ones_own_and_same_tables(repository: Path) -> None:
