@@ -23,7 +23,7 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "Run":
     from drillctl.wiring.terminal_keys import HELP, TerminalKeys
 
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
-    with ProgressView(streams.bar(sys.stderr)) as view:
+    with ProgressView(streams.bar(sys.stderr), by_clock=paced) as view:
         if not asks and not (paced and _watched(arguments)):
             return session.run(view.show)
         if paced:

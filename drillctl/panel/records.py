@@ -7,7 +7,7 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """A job on its way. ``seconds_left`` is machine time, None while nobody can tell."""
+    """A job on its way. ``seconds_left`` is machine time (a bar makes of it the wait), None while nobody can tell."""
 
     holes_done: int
     holes_total: int

@@ -4,6 +4,7 @@ Rule: writes to one stream, never to standard output. Called by the run verb for
 """
 
 import time
+from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
@@ -18,10 +19,15 @@ BAR = "drilling {bar} {n_fmt}/{total_fmt}{postfix}"
 
 
 class ProgressView:
-    """Shows Progress records as they come. Use as a context manager, so that the bar is closed on every way out."""
+    """Shows Progress records as they come. Use as a context manager, so that the bar is closed on every way out.
 
-    def __init__(self, stream: TextIO):
-        self._stream = stream
+    ``by_clock``: a second of the machine is a second of the person. Of a free run the time left is foreseen from how
+    fast it has been so far.
+    """
+
+    def __init__(self, stream: TextIO, by_clock: bool = True):
+        self._stream, self._by_clock = stream, by_clock
+        self._first: tuple[float, Progress] | None = None  # when it came, and what it said
         self._on_terminal = stream.isatty()
         self._bar: tqdm[NoReturn] | None = None
         self._due_s = 0.0 if self._on_terminal else time.monotonic() + PLAIN_EVERY_S
@@ -39,13 +45,25 @@ class ProgressView:
     def show(self, progress: Progress) -> None:
         """The newest record; drawn as often as a person can read it."""
         now_s = time.monotonic()
+        self._first = self._first or (now_s, progress)
         if now_s < self._due_s:
             return
         self._due_s = now_s + (DRAWN_EVERY_S if self._on_terminal else PLAIN_EVERY_S)
+        progress = replace(progress, seconds_left=self._wait_s(progress, now_s))
         if self._on_terminal:
             self._draw(progress)
         else:
             print(_line(progress), file=self._stream, flush=True)
+
+    def _wait_s(self, progress: Progress, now_s: float) -> float | None:
+        """How long the person will still wait; None while nobody can tell."""
+        if self._by_clock or self._first is None:
+            return progress.seconds_left
+        began_s, first = self._first
+        done, left = progress.machine_seconds - first.machine_seconds, progress.seconds_left
+        if left is None:  # not foreseen: by the holes
+            done, left = progress.holes_done - first.holes_done, progress.holes_total - progress.holes_done
+        return (now_s - began_s) * left / done if done > 0 else None
 
     def _draw(self, progress: Progress) -> None:
         from tqdm import tqdm

@@ -69,6 +69,23 @@ def test_on_a_terminal_progress_is_a_bar_with_the_time_left() -> None:
     assert "2:05 left" in stream.getvalue() and "tool 2" in stream.getvalue()
 
 
+def test_the_time_left_of_a_free_run_is_the_wait_and_machine_time_stands_beside_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now_s = [1000.0]
+    monkeypatch.setattr("drillctl.ui.progress.time.monotonic", lambda: now_s[0])
+    stream = Terminal()
+    with ProgressView(stream, by_clock=False) as view:
+        view.show(Progress(0, 50, 2, 0, 0.0, 4000.0))
+        assert "left" not in stream.getvalue(), "nobody knows yet how fast it is"
+        now_s[0] += 5.0
+        view.show(Progress(10, 50, 2, 500_000, 1000.0, 3000.0))
+        now_s[0] += 5.0
+        view.show(Progress(40, 50, 2, 2_000_000, 4000.0, None))
+    told = stream.getvalue()
+    assert "machine time 16:40, 0:15 left" in told and "machine time 1:06:40, 0:02 left" in told
+
+
 def test_a_board_is_drawn_to_scale_with_y_upwards() -> None:
     rows = board_rows(np.array([[0.0, 0.0], [30.0, 0.0], [0.0, 10.0]]), 20, 10)
     assert all(len(row) == 20 for row in rows) and len(rows) <= 4
