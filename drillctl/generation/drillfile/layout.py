@@ -21,7 +21,7 @@ SMALLEST_MM, SMALLEST_DIAMETERS = 10.0, 12.0
 LARGEST_MM = 300.0
 # Below these it is odd whatever was declared: drills of 2 mm and more hold a board or a connector.
 CROWDED_DIAMETERS, WIDE_DRILL_MM = 5.5, 2.0
-TOUCHING_DIAMETERS = 1.5
+TOUCHING_DIAMETERS = 1.0
 PILED_HOLES, PILED_SHARE, PILED_DIAMETERS = 20, 0.5, 12.0  # slots drawn as hits may cross, on a wide board
 WIDEST_DRILL_MM = 10.0  # wider tools are openings that are milled
 
