@@ -21,6 +21,8 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     to = f"OUT.kmd: a queue; OUT.trace, OUT.seg: a trace as text, in segments; {' '.join(EXCELLON)}: an Excellon file"
     verb.add_argument("--to", type=Path, required=True, metavar="OUT", help=to)
     verb.add_argument("--style", default="mm,decimal", metavar="F", help="of the Excellon file; default: %(default)s")
+    part = "of a trace in segments: its first N ticks alone"
+    verb.add_argument("--to-tick", type=options.up_to(10**12), metavar="N", help=part)
     options.add_machine(verb)
     jobs.add_job(verb)
     verb.set_defaults(call=call)
@@ -62,7 +64,7 @@ def _trace(arguments: argparse.Namespace) -> int:
     from drillctl.wiring.replay import in_form_of
     from drillctl.wiring.trace_files import read_trace, write_record
 
-    trace = read_trace(arguments.file)
+    trace = read_trace(arguments.file, arguments.to_tick)
     machine = machine_of(trace, arguments.file, options.library(arguments))
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         assert output is not None

@@ -12,6 +12,11 @@ from drillctl.cli import streams
 from drillctl.wording import json_text
 
 REFUSED = 2
+# What no reader has turned into an error of its own.
+_WORDS = (
+    (MemoryError, "not enough memory for what was asked; give it a smaller file, or a part of it"),
+    (RecursionError, "what was given is nested too deeply"),
+)
 _PLACE = re.compile(r".*?:(\d+)(?::\d+)?: ")  # FILE:LINE: or FILE:LINE:COLUMN:
 
 
@@ -61,6 +66,7 @@ def _codes() -> list[tuple[type[Exception], str]]:
         (OutputError, "output"), (DrillFileError, "drill-file"), (PlacingError, "placing"),
         (AlignmentError, "alignment"), (PortError, "port"), (JournalError, "journal"), (LatencyError, "latency"),
         (LabError, "lab"), (PictureRefused, "picture"), (ScreenError, "screen"),
+        (MemoryError, "memory"), (RecursionError, "nesting"),
     ]  # fmt: skip
 
 
@@ -68,7 +74,7 @@ def _text(error: Exception) -> str:
     """A line a problem."""
     if isinstance(error, OSError) and error.filename is not None:
         return f"{_name(error.filename)}: {error.strerror}"
-    return str(error)
+    return next((words for kind, words in _WORDS if isinstance(error, kind)), str(error))
 
 
 def _object(error: Exception, code: str) -> dict[str, Any]:

@@ -7,9 +7,8 @@ low bytes apart from high ones: a job repeats itself, and zlib sees it then. Cal
 import os
 import struct
 import zlib
-from collections.abc import Iterator
 from dataclasses import replace
-from io import BytesIO, StringIO
+from io import StringIO
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 from drillctl.inputs import read_bytes, read_start
 from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Trace
-from drillctl.trace.segments import OUTPUT, Segments
+from drillctl.trace.segments import MOST_TICKS, OUTPUT, Segments
 from drillctl.trace.tapes import Tape
 from drillctl.trace.text import write_text
 from drillctl.trace.values import Values
@@ -26,10 +25,12 @@ from drillctl.trace.values import Values
 MAGIC = b"drillctl-segments 1\n"
 LEVEL = 6
 LARGEST_FILE_BYTES = 1 << 28
-LARGEST_BYTES = 1 << 31  # unpacked; what claims more is no file of ours
+ROOM_BYTES, ROOM_TIMES = 1 << 25, 16  # unpacked: so much, and so many times the file's size
+ROOM_ROWS, ROWS_A_BYTE = 1_000_000, 4  # of all columns: so many, and so many for each byte of the file
 COUNT = struct.Struct("<Q")
 SUMS = struct.Struct("<QIBBB")  # ticks, CRC-32 of the images, bits of an image, tapes, 1: commands without numbers
 INDEXES = (np.dtype("<u1"), np.dtype("<u2"), np.dtype("<u4"))
+BITS = (32, 64)
 NUMBERED = "command"
 Pairs = tuple[tuple[str, str], ...]
 
@@ -40,7 +41,7 @@ def is_segments(path: str | os.PathLike[str]) -> bool:
 
 
 def segment_bytes(segments: Segments) -> bytes:
-    """The whole file."""
+    """The whole file. Raises ValueError for a run that ``read_segments`` would find too large."""
     bits = segments.reel.dtype.itemsize * 8
     bare = _bare(segments.header)
     sums = SUMS.pack(segments.end, segments.checksum, bits, len(segments.tapes), bare is not None)
@@ -51,7 +52,10 @@ def segment_bytes(segments: Segments) -> bytes:
     for signal in segments.rest.signals:
         blocks += [_column(np.diff(column, prepend=0)) for column in segments.rest.changes_of(signal.name)]
     packed = b"".join(COUNT.pack(len(block)) + block for block in blocks)
-    return MAGIC + zlib.compress(packed, LEVEL)
+    file = MAGIC + zlib.compress(packed, LEVEL)
+    if len(packed) > room_bytes(len(file)) or segments.end > MOST_TICKS:
+        raise ValueError(f"{segments.end} ticks are more than segments hold; keep a part of the run, or a .trace")
+    return file
 
 
 def read_segments(path: str | os.PathLike[str]) -> Segments:
@@ -60,27 +64,59 @@ def read_segments(path: str | os.PathLike[str]) -> Segments:
     if not data.startswith(MAGIC):
         raise TraceError(str(path), None, f"not segments: the first line must be {MAGIC.decode().strip()!r}")
     try:
-        return _unpacked(_blocks(data[len(MAGIC) :]))
-    except (zlib.error, struct.error, ValueError, IndexError, TraceError, UnicodeDecodeError) as error:
+        return _unpacked(_Blocks(data))
+    except (zlib.error, struct.error, ValueError, IndexError, TypeError, OverflowError, TraceError) as error:
         raise TraceError(str(path), None, f"damaged ({error}); record it again") from error
 
 
-def _blocks(data: bytes) -> Iterator[bytes]:
+class _Blocks:
+    """The blocks of a file, one after the other. Raises ValueError where there is none, or no room for what it has."""
+
+    def __init__(self, data: bytes):
+        self._data, self._at = _inflated(data), 0
+        self._rows_left = ROOM_ROWS + ROWS_A_BYTE * len(data)
+
+    def __next__(self) -> bytes:
+        begin = self._at + COUNT.size
+        self._at = begin + COUNT.unpack_from(self._data, self._at)[0]
+        if self._at > len(self._data):
+            raise ValueError("cut short")
+        return self._data[begin : self._at]
+
+    def column(self) -> Values:
+        """The next block, as a column."""
+        block = next(self)
+        self._rows_left -= COUNT.unpack_from(block)[0]
+        if self._rows_left < 0:
+            raise ValueError("more rows than a file of its size has")
+        return _uncolumn(block)
+
+
+def _inflated(data: bytes) -> bytes:
+    """What follows the first line. Raises ValueError where it is more than ``room_bytes``."""
     unpacker = zlib.decompressobj()
-    file = BytesIO(unpacker.decompress(data, LARGEST_BYTES))
+    found = unpacker.decompress(data[len(MAGIC) :], room_bytes(len(data)))
     if not unpacker.eof:
-        raise ValueError("cut short, or too large")
-    while length := file.read(COUNT.size):
-        yield file.read(COUNT.unpack(length)[0])
+        raise ValueError("cut short, or more than a file of its size has")
+    return found
 
 
-def _unpacked(blocks: Iterator[bytes]) -> Segments:
+def room_bytes(file_bytes: int) -> int:
+    """How much a file of this size may unpack to."""
+    return ROOM_BYTES + ROOM_TIMES * file_bytes
+
+
+def _unpacked(blocks: _Blocks) -> Segments:
     end, checksum, bits, tape_count, bare = SUMS.unpack(next(blocks))
+    if end > MOST_TICKS:
+        raise ValueError(f"{end} ticks; a trace in segments has at most {MOST_TICKS}")
+    if bits not in BITS or not tape_count:
+        raise ValueError("no images of 32 or 64 bits")
     head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
     reel = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
-    tapes = [Tape(_uncolumn(next(blocks)), _uncolumn(next(blocks))) for _ in range(tape_count)]
+    tapes = [Tape(blocks.column(), blocks.column()) for _ in range(tape_count)]
     kept = [signal for signal in head.signals if not OUTPUT.fullmatch(signal.name)]
-    changes = [(_uncolumn(next(blocks)).cumsum(), _uncolumn(next(blocks)).cumsum()) for _ in kept]
+    changes = [(blocks.column().cumsum(), blocks.column().cumsum()) for _ in kept]
     rows = [np.full(len(ticks), number) for number, (ticks, _) in enumerate(changes)]
     columns = [np.concatenate(column) for column in ([t for t, _ in changes], rows, [v for _, v in changes])]
     rest = Trace.of_changes(head.header, kept, columns[0], columns[1], columns[2], end, head.trailer)
@@ -93,8 +129,9 @@ def _unpacked(blocks: Iterator[bytes]) -> Segments:
 
 
 def _check(tape: Tape, end: int, words: int) -> None:
-    inside = (tape.start >= 0) & (tape.ticks > 0) & (tape.start + tape.ticks <= words)
-    if not inside.all() or int(tape.ticks.sum()) != end:
+    inside = (tape.start >= 0) & (tape.start <= words) & (tape.ticks > 0) & (tape.ticks <= words - tape.start)
+    same_length = len(tape.start) == len(tape.ticks)
+    if not same_length or not inside.all() or int(tape.ticks.sum()) != end:
         raise ValueError("a tape runs off its reel")
 
 

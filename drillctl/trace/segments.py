@@ -18,6 +18,8 @@ from drillctl.trace.tapes import Images, Tape, images
 from drillctl.trace.values import WIDEST_BITS, Values
 
 OUTPUT = re.compile(r"out\.(\d+)")
+MOST_TICKS = 100_000_000  # of a run that is kept in segments, or run again: two days at 500 Hz
+MOST_CHANGES = 4_000_000  # of a trace that is made of them in memory
 CHUNK_TICKS = 1 << 20  # of the image array at once, where the whole of it is gone through
 WORD = (1 << WIDEST_BITS) - 1
 
@@ -72,16 +74,31 @@ class Segments:
             found = zlib.crc32(np.ascontiguousarray(part, part.dtype.newbyteorder("<")).data, found)
         return found
 
+    @cached_property
+    def change_count(self) -> int:
+        """How many changes ``trace`` has, counted without making them."""
+        return len(self.rest.ticks) + sum(len(ticks) for _, ticks, _ in self._output_changes())
+
     def trace(self) -> Trace:
-        """Every change of every signal."""
+        """Every change of every signal, ``change_count`` of them: see that there is room for them first."""
         numbers = {signal.name: number for number, signal in enumerate(self.signals)}
-        rows = [self._changes(int(match[1]), number) for name, number in numbers.items()
-                if (match := OUTPUT.fullmatch(name))]  # fmt: skip
-        for signal in self.rest.signals:
-            ticks, values = self.rest.changes_of(signal.name)
-            rows.append((ticks, np.full(len(ticks), numbers[signal.name]), values))
+        rows = [(ticks, np.full(len(ticks), numbers[name], np.int32), values)
+                for name, ticks, values in self._output_changes()]  # fmt: skip
+        own = np.array([numbers[signal.name] for signal in self.rest.signals], np.int32)
+        rows.append((self.rest.ticks, own[self.rest.signal], self.rest.values))
         when, which, values = (np.concatenate(column) for column in zip(*rows, strict=True))
-        return Trace.of_changes(self.rest.header, self.signals, when, which, values, self.end, self.rest.trailer)
+        order = np.lexsort((which, when))
+        kept = when[order], which[order], values[order]
+        return Trace(self.rest.header, self.signals, *kept, self.end, self.rest.trailer)
+
+    def up_to(self, end: int) -> "Segments":
+        """The first ``end`` ticks of the run."""
+        if end >= self.end:
+            return self
+        rows = self.rest.ticks < end
+        columns = self.rest.ticks[rows], self.rest.signal[rows], self.rest.values[rows]
+        rest = Trace(self.rest.header, self.rest.signals, *columns, end, self.rest.trailer)
+        return Segments(rest, self.signals, self.reel, tuple(tape.up_to(end) for tape in self.tapes))
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
@@ -96,17 +113,19 @@ class Segments:
         for first in range(0, self.end, CHUNK_TICKS):
             yield self.images(first, min(first + CHUNK_TICKS, self.end))
 
-    def _changes(self, card: int, number: int) -> tuple[Values, Values, Values]:
-        """Ticks, signal and words at which a card's outputs change."""
-        ticks, words, first, before = [], [], 0, -1
+    def _output_changes(self) -> Iterator[tuple[str, Values, Values]]:
+        """Outputs by name, each with the ticks at which it changes and its words from there on, a chunk at a time."""
+        cards = {signal.name: int(match[1]) for signal in self.signals if (match := OUTPUT.fullmatch(signal.name))}
+        first, before = 0, dict.fromkeys(cards, -1)
         for part in self._parts():
-            word = ((part >> np.array(WIDEST_BITS * card, part.dtype)) & np.array(WORD, part.dtype)).astype(np.int64)
-            changes = np.flatnonzero(np.diff(word, prepend=before))
-            ticks.append(first + changes)
-            words.append(word[changes])
-            first, before = first + len(part), int(word[-1])
-        all_ticks = np.concatenate([np.zeros(0, np.int64), *ticks])
-        return all_ticks, np.full(len(all_ticks), number), np.concatenate([np.zeros(0, np.int64), *words])
+            for name, card in cards.items():
+                word = (part >> np.array(WIDEST_BITS * card, part.dtype)) & np.array(WORD, part.dtype)
+                changed = np.flatnonzero(word[1:] != word[:-1]) + 1
+                if int(word[0]) != before[name]:
+                    changed = np.append(0, changed)
+                yield name, first + changed, word[changed].astype(np.int64)
+                before[name] = int(word[-1])
+            first += len(part)
 
 
 def without_outputs(trace: Trace) -> Trace:

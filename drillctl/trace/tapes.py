@@ -99,6 +99,13 @@ class Tape:
         """Whether nothing is ever on."""
         return not self.start.any()
 
+    def up_to(self, end: int) -> "Tape":
+        """Its first ``end`` ticks."""
+        kept = int(np.searchsorted(self.ends(), end)) + 1
+        ticks = self.ticks[:kept].copy()
+        ticks[-1] -= int(ticks.sum()) - end
+        return Tape(self.start[:kept], ticks)
+
     def ends(self) -> Count:
         """The tick behind each slice, (k,)."""
         return np.cumsum(self.ticks)

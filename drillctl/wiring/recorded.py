@@ -20,11 +20,11 @@ from drillctl.plant import PlantChoice
 from drillctl.portio.playback import PlaybackCard
 from drillctl.ports import CARD_BITS
 from drillctl.trace import Trace, TraceError
+from drillctl.trace.segments import MOST_TICKS
 from drillctl.wiring.link import Header
 from drillctl.wiring.sampler import HAND_WORDS, REQUEST_WORDS
 from drillctl.wiring.ticker import Ticker
 
-MOST_TICKS = 100_000_000
 BY_HAND = (Request.OUTPUT, Request.PACE)  # have a value, in a signal of their own
 
 

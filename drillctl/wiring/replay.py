@@ -17,7 +17,7 @@ from drillctl.wiring.outputs import Output
 from drillctl.wiring.recorded import Player, check_tick, header_value, machine_of, playback, same_tables
 from drillctl.wiring.sampler import wire_names
 from drillctl.wiring.ticker import Ticker
-from drillctl.wiring.trace_files import read_record, read_trace, takes_segments, write_record
+from drillctl.wiring.trace_files import read_record, read_trace, takes_segments, whole_trace, write_record
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def replay(file: Path, library: Library, engine: str | None = None, from_tick: i
     same = same_tables(head, machine, file)
     if isinstance(kept, Segments) and engine != TICK and taped_again(head, machine, file).like(kept):
         return Verdict(machine, head, head, None, same, from_tick)
-    recorded = kept.trace() if isinstance(kept, Segments) else kept
+    recorded = whole_trace(kept, file) if isinstance(kept, Segments) else kept
     actual = _actual(recorded, machine, file, engine, from_tick)
     return Verdict(machine, recorded, actual, first_difference(recorded, actual, from_tick=from_tick), same, from_tick)
 
@@ -80,7 +80,7 @@ def in_form_of(file: Path, trace: Trace, machine: Machine) -> Trace | Segments:
     if not takes_segments(file, machine.cards):
         return trace
     taped = taped_again(trace, machine, file)
-    return taped if taped.trace() == trace else Segments.of_trace(trace)
+    return taped if taped.change_count == len(trace.ticks) and taped.trace() == trace else Segments.of_trace(trace)
 
 
 def taped_again(recorded: Trace, machine: Machine, file: Path) -> Segments:

@@ -7,6 +7,9 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.journal import Account, Head, Journal, check_same, head_of
@@ -15,8 +18,9 @@ from drillctl.inputs import real_path
 from drillctl.lab import forecast
 from drillctl.machine import Machine
 from drillctl.scratch import KEPT_IN_FOLDERS, Folder, sweep
+from drillctl.trace.segments import MOST_TICKS
 from drillctl.wiring.desk import Desk, Operator, Run, ToolChange, Watcher
-from drillctl.wiring.machinery import Running, files_of, is_soon_over, start
+from drillctl.wiring.machinery import FREE, Running, files_of, is_soon_over, pace_of, start
 from drillctl.wiring.site import site_of
 
 
@@ -43,8 +47,7 @@ class Session:
 
     def run(self, watcher: Watcher) -> Run:
         """Raises JournalError or PortError before anything moves."""
-        wanted = self.job.work and not is_soon_over(self.running)
-        foreseen = forecast(self.job.program, self.job.machine).ticks if wanted else None
+        foreseen = self._foreseen()
         done_before = self.known.holes_done if isinstance(self.known, Account) else 0
         with ExitStack() as opened:
             journal = None
@@ -57,6 +60,20 @@ class Session:
                 tool_change=self.tool_change, operator=self.operator,
             )  # fmt: skip
             return desk.run()
+
+    def _foreseen(self) -> NDArray[np.int64] | None:
+        """The ticks of each command, where somebody waits for them. Raises JobError for a run that is to be kept in a
+        trace and has more ticks than one has room for.
+        """
+        kept = self.running.traced and pace_of(self.running) == FREE
+        if not kept and (not self.job.work or is_soon_over(self.running)):
+            return None
+        told = forecast(self.job.program, self.job.machine)
+        if kept and told.total_ticks > MOST_TICKS:
+            reason = f"{told.total_ticks} ticks; a trace has room for {MOST_TICKS}"
+            hint = "record a part of the job, or run it without --trace and --vcd"
+            raise JobError([f"{self.job.name}: {reason}; {hint}"])
+        return None if is_soon_over(self.running) or not self.job.work else told.ticks
 
 
 @dataclass(frozen=True, eq=False)

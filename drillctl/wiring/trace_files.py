@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from drillctl.machine import Machine
 from drillctl.trace import Segments, Trace, TraceError, is_segments, read_segments, read_text, segment_bytes, write_text
+from drillctl.trace.segments import MOST_CHANGES
 from drillctl.trace.values import is_plain
 from drillctl.wiring.outputs import Output, OutputError
 
@@ -23,10 +24,24 @@ def read_record(file: Path) -> Trace | Segments:
     return _read(file, read_segments) if _read(file, is_segments) else _read(file, read_text)
 
 
-def read_trace(file: Path) -> Trace:
-    """The same with every change. Raises as ``read_record``."""
+def read_trace(file: Path, to_tick: int | None = None) -> Trace:
+    """The same with every change; of segments the first ``to_tick`` ticks alone, where that is said. Raises as
+    ``read_record``, and for segments that hold more changes than there is room for.
+    """
     record = read_record(file)
-    return record.trace() if isinstance(record, Segments) else record
+    if not isinstance(record, Segments):
+        return record
+    return whole_trace(record if to_tick is None else record.up_to(to_tick), file)
+
+
+def whole_trace(segments: Segments, file: Path) -> Trace:
+    """Every change. Raises TraceError where these are more than MOST_CHANGES, which is known before they are made."""
+    if segments.change_count > MOST_CHANGES:
+        part = segments.end * MOST_CHANGES // segments.change_count // 2
+        reason = f"{segments.change_count} changes in {segments.end} ticks; there is room for {MOST_CHANGES}"
+        hint = f"look at a part: drillctl convert {file.name} --to part.trace --to-tick {part}"
+        raise TraceError(str(file), None, f"{reason}; {hint}")
+    return segments.trace()
 
 
 def takes_segments(file: Path, cards: int) -> bool:
@@ -52,9 +67,13 @@ def write_record(record: Trace | Segments, output: Output) -> None:
     """In the form that the file's name asks for. Raises OutputError."""
     if output.path.suffix.lower() == SEGMENTS:
         segments = record if isinstance(record, Segments) else Segments.of_trace(record)
-        output.write_bytes(segment_bytes(segments))
+        try:
+            data = segment_bytes(segments)
+        except ValueError as error:
+            raise OutputError(f"{output.path}: {error}") from error
+        output.write_bytes(data)
     else:
-        trace = record.trace() if isinstance(record, Segments) else record
+        trace = whole_trace(record, output.path) if isinstance(record, Segments) else record
         output.write(lambda file: write_text(trace, file))
 
 

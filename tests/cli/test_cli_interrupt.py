@@ -22,7 +22,7 @@ from drillctl.wiring.ticker import Ticker
 
 Started = Callable[..., "subprocess.Popen[str]"]
 SIGNALS = pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-LONG = "KMD_CZEKAJ 2000000000\n" * 50
+LONG = "KMD_CZEKAJ 40000000\n" * 2
 PACING = "KMD_RUCHd x=4000\nKMD_RUCHd x=-4000\n" * 5000
 
 

@@ -1,5 +1,6 @@
 """What the operator gets wrong: exit 2, a clear line each on standard error, nothing printed, nothing made."""
 
+import errno
 import json
 import os
 import subprocess
@@ -215,3 +216,23 @@ def test_an_output_goes_through_a_link_and_replaces_what_was_there(drillctl: Dri
         assert drillctl("run", "hole.kmd", "--holes", "h.csv").returncode == 0
         assert (folder / "h.csv").is_symlink() and [f.name for f in (folder / "kept").iterdir()] == ["holes.csv"]
         assert (folder / "kept" / "holes.csv").read_text().startswith("tool,diameter_mm,x_mm,y_mm\n")
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (MemoryError(), "not enough memory"),
+        (RecursionError("maximum recursion depth exceeded"), "nested too deeply"),
+        (OSError(errno.EIO, "Input/output error", "board.drl"), "board.drl: Input/output error"),
+    ],
+)
+def test_what_no_reader_has_caught_is_a_line_too(
+    error: Exception, reason: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fails(_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("drillctl.generation.drillfile.read", fails)
+    assert main(["inspect", "board.drl"]) == 2
+    out, err = capsys.readouterr()
+    assert not out and reason in err and err.count("\n") == 1 and "Traceback" not in err

@@ -1,5 +1,7 @@
 """The segment form: nothing is lost on the way to a file and back; an image at any tick; damage is refused."""
 
+import tracemalloc
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +19,7 @@ from drillctl.trace import (
     read_segments,
     segment_bytes,
 )
+from drillctl.trace.segment_file import COUNT, MAGIC, SUMS
 from drillctl.trace.tapes import LAP, Reel, Tape, images
 
 SIGNALS = (
@@ -27,6 +30,7 @@ SIGNALS = (
     Signal("kmd", "command", False, names=("-", "KMD_CZEKAJ", "KMD_KONIEC")),
     Signal("fault", "name", False, names=("-", "RANGE")),
 )
+HEAD = b"drillctl-trace 1\nsignal out.0 >\n\nend 0\n"
 MOST = (1 << 32, 1 << 32, 1 << 32, 1 << 32, 1, 2)
 
 
@@ -108,3 +112,44 @@ def test_an_image_that_was_changed_is_noticed(tmp_path: Path) -> None:
     (tmp_path / "a.seg").write_bytes(segment_bytes(other))
     with pytest.raises(TraceError, match="checksum"):
         read_segments(tmp_path / "a.seg")
+
+
+def packed(end: int, blocks: list[bytes]) -> bytes:
+    """A file of these blocks, behind its sums: one tape."""
+    whole = [SUMS.pack(end, 0, 32, 1, 0), *blocks]
+    return MAGIC + zlib.compress(b"".join(COUNT.pack(len(block)) + block for block in whole))
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (packed(10, [bytes(400_000_000)]), "more than a file of its size has"),
+        (packed(10, [HEAD, b"", bytes(4), COUNT.pack(1 << 40) + COUNT.pack(1) + bytes(8)]), "more rows"),
+        (packed(10**12, []), "at most 100000000"),
+        (packed(10, []), "damaged"),
+        (MAGIC + zlib.compress(COUNT.pack((1 << 63) + 5) + b"x"), "cut short"),
+        (MAGIC + zlib.compress(COUNT.pack((1 << 64) - 1) + b"x"), "cut short"),
+        (packed(10, [COUNT.pack(2)] * 9), "damaged"),
+    ],
+    ids=["unpacks to 400 MB", "2**40 rows", "10**12 ticks", "no blocks", "2**63 bytes", "2**64 bytes", "no head"],
+)
+def test_what_claims_too_much_is_refused_before_it_is_made(data: bytes, reason: str, tmp_path: Path) -> None:
+    (tmp_path / "a.seg").write_bytes(data)
+    tracemalloc.start()
+    with pytest.raises(TraceError, match=reason):
+        read_segments(tmp_path / "a.seg")
+    _, peak_bytes = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak_bytes < 100_000_000 + 10 * len(data)
+
+
+@settings(max_examples=40, deadline=None)
+@given(trace=traces(), data=st.data())
+def test_the_first_ticks_are_those_of_the_whole_run(trace: Trace, data: st.DataObject) -> None:
+    segments = Segments.of_trace(trace)
+    assert segments.change_count == len(trace.ticks)
+    end = data.draw(st.integers(1, trace.end))
+    rows = trace.ticks < end
+    part = segments.up_to(end).trace()
+    assert part.end == end and np.array_equal(part.ticks, trace.ticks[rows])
+    assert np.array_equal(part.values, trace.values[rows]) and np.array_equal(part.signal, trace.signal[rows])

@@ -102,3 +102,32 @@ def test_a_machine_of_three_cards_is_told_before_it_moves(tmp_path: Path, capsys
 def test_the_fast_engine_says_where_it_may_not(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", SQUARE, "--engine", "fast", "--vcd", str(tmp_path / "a.vcd")]) == 2
     assert "--engine fast foresees the ideal plant" in capsys.readouterr().err
+
+
+def test_more_changes_than_there_is_room_for_are_refused_and_a_part_is_made(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The command that the refusal names works, and what it makes can be replayed."""
+    file, whole, part = tmp_path / "a.seg", tmp_path / "a.trace", tmp_path / "part.trace"
+    run(SQUARE, "--trace", str(file))
+    monkeypatch.setattr("drillctl.wiring.trace_files.MOST_CHANGES", 1000)
+    assert main(["convert", str(file), "--to", str(whole)]) == main(["scope", str(file)]) == 2
+    told = capsys.readouterr().err
+    assert not whole.exists() and "changes in" in told and "there is room for 1000" in told
+    to_tick = told.partition("--to-tick ")[2].split()[0]
+    assert main(["convert", str(file), "--to", str(part), "--to-tick", to_tick]) == 0
+    assert part.read_text().splitlines()[-1] == f"end {to_tick}"
+    assert main(["replay", str(part)]) == main(["replay", str(file)]) == 0
+
+
+@pytest.mark.parametrize("kept", ["--trace=a.trace", "--trace=a.seg", "--vcd=a.vcd"])
+def test_a_run_of_more_ticks_than_a_trace_holds_is_refused_before_it_moves(
+    kept: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("wait.kmd").write_text("KMD_CZEKAJ 2147483647\n")
+    assert main(["run", "wait.kmd", kept]) == 2
+    out, err = capsys.readouterr()
+    assert not out and "wait.kmd: 2147483648 ticks; a trace has room for 100000000" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["wait.kmd"]
+    assert main(["run", "wait.kmd"]) == 0

@@ -33,16 +33,17 @@ TAR_MAGIC_AT = 257  # POSIX ustar header
 # Bytes no text line holds; 0x1A (DOS end of file) and the tape's 0x00 and 0x7F leader are cut before.
 CONTROLS = bytes({*range(0x20), 0x7F} - set(b"\t\n\v\f\r"))
 
-# Every pattern begins at a line's start, so comments are passed over. Excellon has no Z, no spindle, no asterisks.
+# Every pattern begins at a line's start, so comments are passed over; what runs over line ends gives nothing back
+# (`*+`), else thousands of empty lines take hours. Excellon has no Z, no spindle, no asterisks.
 LANGUAGES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("sieb-meyer-not-drill", re.compile(r"\A\s*%%\d{3,4}\b")),
     # a table of sizes: T01 0.024
     (
         "tool-report-not-drill",
-        re.compile(r"\A(?:\s*(?:;.*)?\n)*[ \t]*T\d+[ \t]+\d*\.?\d+ ?(?:mm|in|inch|mils?)?\s", re.I),
+        re.compile(r"\A(?:[ \t\r\f\v]*+(?:;.*+)?\n)*+[ \t]*T\d+[ \t]+\d*\.?\d+ ?(?:mm|in|inch|mils?)?\s", re.I),
     ),
     ("tool-report-not-drill", re.compile(r"^[^;\n]*(?:NC ?Drill File Report|Hole Size +.*Hole Count)", re.I | re.M)),
-    ("not-a-drill-file", re.compile(r"\A\s*0\s*\n\s*(?:SECTION|HEADER)\b")),
+    ("not-a-drill-file", re.compile(r"\A\s*+0[^\S\n]*+\n\s*+(?:SECTION|HEADER)\b")),
     ("hpgl-not-drill", re.compile(r"\A\s*(?:\x1b\S*)?(?:IN|DF|PG|SP\d|PU|PD|PA)(?:\s*;|-?\d)")),
     (
         "gerber-not-drill",
