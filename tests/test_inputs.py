@@ -157,6 +157,7 @@ ELSEWHERE = {
     "lab.results": "the results that it writes",
     "portio.mapped": "the card's file, which it writes",
     "portio.pcl720": "a device",
+    "scratch": "temporary files that it makes, and the folders they lie in",
     "trace.target": "what it writes",
     "wiring.outputs": "what it writes",
 }

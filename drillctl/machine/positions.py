@@ -5,8 +5,9 @@ tables and arrays; what stands in strings and comments is passed over. tomllib i
 """
 
 import re
-import tomllib
 from collections.abc import Callable, Iterator
+
+from drillctl.inputs import toml_of
 
 Place = tuple[str | int, ...]  # of a value in a file, such as ("axis", 0, "range", 1)
 ItemWalk = Callable[[int], Iterator[tuple[Place, int]]]
@@ -106,7 +107,7 @@ class _Walk:
         self._at = found.end()
         self._skip_blank()
         written = found[0]
-        return str(tomllib.loads(f"key = {written}")["key"]) if written[0] in "\"'" else written
+        return str(toml_of(f"key = {written}")["key"]) if written[0] in "\"'" else written
 
     def _resolved(self, keys: Place) -> Place:
         """A header's place: within an array of tables it means the last row so far."""
