@@ -20,7 +20,7 @@ from .layout import LARGEST_MM, Layout
 from .machine import Machine
 from .model import DEFAULT_DIGITS, MM_PER_UNIT, FormatChoice
 from .sample import Sample
-from .score import COMMON_DIGITS, Digits, board, common, drills, same_places
+from .score import COMMON_DIGITS, Digits, board, common, drills, same_places, usual
 
 ZEROS = ("none", "leading", "trailing")
 SURE = 0.97  # below this confidence the guess is announced as one
@@ -135,14 +135,14 @@ def _rule_is_broken(rule: Question, units: str) -> bool:
 def _scored(question: Question) -> list[FormatChoice]:
     """Every candidate with its score, best first; of those that give the same board, the best."""
     best: dict[tuple[str, bytes], FormatChoice] = {}
-    layouts: dict[tuple[str, bytes], float] = {}
+    layouts: dict[tuple[str, bytes], Layout] = {}
     for choice in _candidates(question):
         key = choice.units, np.round(question.sample.xy_mm(choice), 6).tobytes()
         if key not in layouts:
-            layouts[key] = board(question.sample.layout(choice))
-        score = layouts[key] + _score(choice, question)
+            layouts[key] = question.sample.layout(choice)
+        score = round(board(layouts[key]) + usual(choice, layouts[key]) + _score(choice, question), 3)
         if key not in best or score > best[key].score:
-            best[key] = replace(choice, score=round(score, 3))
+            best[key] = replace(choice, score=score)
     return sorted(best.values(), key=lambda choice: -choice.score)
 
 

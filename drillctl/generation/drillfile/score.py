@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .layout import Layout
-from .model import Floats, FormatChoice, Integers
+from .model import DEFAULT_DIGITS, Floats, FormatChoice, Integers
 
 SAMPLE_HOLES = 600
 
@@ -35,8 +35,9 @@ PITCH_MM, PITCH_SPREAD = 2.2, 2.0
 DRILL_MM, DRILL_SPREAD = 0.8, 1.9
 # A board has a drill below the one, and one above the other.
 WIDEST_OF_ALL_MM, FINEST_OF_ALL_MM, ABSURD_DRILLS_WEIGHT = 7.0, 0.15, 6.0
-BOARD_DRILLS, BOARD_DRILLS_SPREAD = 50.0, 3.0  # longer side in diameters of the widest drill
+BOARD_DRILLS, BOARD_DRILLS_SPREAD = 50.0, 4.0  # longer side in diameters of the widest drill
 FEW_PLACES = 20
+USUAL_WEIGHT = 1.5
 TAIL = 4.0  # Student's degrees of freedom: how soon an odd value stops being held against a format
 
 GRID_WEIGHT = 1.5
@@ -112,7 +113,7 @@ class Digits:
             return -DROPPED_WEIGHT
         begins, ends = self.begins, self.ends(digits[0])
         if zeros == "leading":
-            return -DROPPED_WEIGHT * begins - (0.0 if ends else NO_ZERO_AT_END)
+            return -DROPPED_WEIGHT * begins - (0.0 if self.ends() else NO_ZERO_AT_END)
         return -DROPPED_WEIGHT * ends - (0.0 if begins else min(NO_ZERO_IN_FRONT_MOST, NO_ZERO_IN_FRONT * self.count))
 
     def fits(self, digits: tuple[int, int]) -> float:
@@ -126,6 +127,12 @@ def common(choice: FormatChoice) -> float:
     if choice.digits is None:
         return DECIMAL_AMONG_WHOLE
     return COMMON_DIGITS[choice.units].get(choice.digits, -5.0)
+
+
+def usual(choice: FormatChoice, layout: Layout) -> float:
+    """That few places, which say little of the board, have the unit's default digits."""
+    few = FEW_PLACES / (layout.places + FEW_PLACES)
+    return USUAL_WEIGHT * few * few if choice.digits == DEFAULT_DIGITS[choice.units] else 0.0
 
 
 def same_places(choice: FormatChoice, places: int) -> float:
