@@ -33,6 +33,7 @@ from drillctl.generation.recipe import Recipe
 from drillctl.generation.wishes import Wishes
 from drillctl.machine import Library, TableError, shipped_tables
 from drillctl.machine.source import Source
+from drillctl.panel.jobs import Site
 from drillctl.portio.gpiod_lines import read_line_map
 from drillctl.portio.mapped import read_map
 from drillctl.ports import PortRefused, Wiring
@@ -49,6 +50,7 @@ MOST_SHOWN = 500  # bytes of an input that is printed
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 LIBRARY = Library((shipped_tables(),))
 MACHINE = LIBRARY.machine("pcb-drill")
+SITE = Site("simulated", "free", "ideal")
 WIRING = Wiring(580, 0x2A0, (0b111,), 0, 0b11)
 
 DRILL_SEEDS = (
@@ -128,7 +130,7 @@ def _line_map(file: Path) -> object:
 
 def _journal(file: Path) -> object:
     account = read_journal(file)
-    return account.open, Recipe.of_options(account.head.options, file)
+    return account.holes_begun, Recipe.of_options(account.head.options, file)
 
 
 def _segments(rng: Random, material: Material) -> bytes:
@@ -157,7 +159,7 @@ def _journal_seed() -> bytes:
     job = load_job(EXAMPLES / "blinker.drl", MACHINE, recipe.wishes(MACHINE))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "journal"
-        with closing(Journal(file, head_of(EXAMPLES / "blinker.drl", job, recipe.options()))) as journal:
+        with closing(Journal(file, head_of(EXAMPLES / "blinker.drl", job, recipe.options()), SITE)) as journal:
             for hole in (1, 2):
                 journal.begun(hole)
                 journal.done([hole])

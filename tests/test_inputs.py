@@ -152,7 +152,7 @@ def test_a_loop_of_links_has_a_real_path(tmp_path: Path) -> None:
 # What opens files by itself, and why it may.
 ELSEWHERE = {
     "cli.streams": "standard streams",
-    "generation.journal": "the journal that it writes, and the folder it lies in",
+    "generation.journal.writer": "the journal that it writes, and the folder it lies in",
     "kmd.channel": "the mapped file between our own processes",
     "lab.results": "the results that it writes",
     "portio.mapped": "the card's file, which it writes",
