@@ -19,7 +19,7 @@ SAMPLE_HOLES = 600
 # How common a format is where nothing is declared (logarithms; the first is the CNC-7 default).
 COMMON_DIGITS: dict[str, dict[tuple[int, int], float]] = {
     "inch": {
-        (2, 4): 0.0, (2, 3): -2.5, (2, 5): -2.5, (3, 3): -3.0, (3, 5): -3.5, (1, 4): -4.0, (3, 4): -4.0,
+        (2, 4): 0.0, (2, 3): -2.5, (2, 5): -2.0, (3, 3): -3.0, (3, 5): -3.5, (1, 4): -4.0, (3, 4): -4.0,
         (2, 6): -4.5, (4, 4): -5.0, (2, 2): -5.0,
     },
     "mm": {
