@@ -106,7 +106,7 @@ def test_header_and_body_with_two_diameters() -> None:
 
 
 def test_two_diameters_in_the_body_are_told() -> None:
-    found = read_text("M71\n%\nT1C0.8\nX1.0Y1.0\nT1C3.2\nX9.0Y9.0\nM30\n")
+    found = read_text("M71\n%\nT1C0.8\nX1.0Y1.0\nT1C3.2\nX90.0Y90.0\nM30\n")
     assert [found.tools[tool].diameter_mm for tool in found.hole_tool] == [0.8, 3.2]
     assert codes(found) == ["tool-size-changes"]
 
