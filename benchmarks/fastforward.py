@@ -24,15 +24,15 @@ from time import process_time
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.fastforward import Course
+from drillctl.execution.fastforward import Batch
 from drillctl.generation.job import names_of
 from drillctl.kmd import RECORD, Op, to_text
 from drillctl.machine import Library, Machine, shipped_tables
+from drillctl.replay.replay import replay
+from drillctl.ticker.fast_ticker import FastTicker
+from drillctl.ticker.ticker import Ticker
 from drillctl.trace import segment_bytes
-from drillctl.trace.tapes import Images, Reel, images
-from drillctl.wiring.fast_ticker import FastTicker
-from drillctl.wiring.replay import replay
-from drillctl.wiring.ticker import Ticker
+from drillctl.trace.tapes import ImagePool, Images, images
 
 RUNS = 7
 HOLES = 10_000
@@ -83,7 +83,7 @@ def program(places_mm: NDArray[np.float64]) -> NDArray[np.void]:
     return records
 
 
-def longest_course(machine: Machine, commands: NDArray[np.void]) -> tuple[Course, Reel]:
+def longest_course(machine: Machine, commands: NDArray[np.void]) -> tuple[Batch, ImagePool]:
     """What is foreseen of a program once its strokes are known: nearly all."""
     ticker = FastTicker.ideal(machine, capacity=len(commands))
     ticker.queue.put(commands)
@@ -91,13 +91,13 @@ def longest_course(machine: Machine, commands: NDArray[np.void]) -> tuple[Course
     return course, ticker.engine.reel
 
 
-def trace(course: Course, reel: Reel, out: Images) -> Images:
+def trace(course: Batch, reel: ImagePool, out: Images) -> Images:
     """The image of every tick."""
     tapes = course.tapes(reel)
     return images(reel.images, tapes, out)
 
 
-def events(course: Course, reel: Reel, out: Images) -> tuple[NDArray[np.intp], Images]:
+def events(course: Batch, reel: ImagePool, out: Images) -> tuple[NDArray[np.intp], Images]:
     """Ticks and images at which the outputs change."""
     trace(course, reel, out)
     ticks = np.flatnonzero(out[1:] != out[:-1]) + 1

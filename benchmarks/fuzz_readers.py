@@ -23,26 +23,26 @@ from pathlib import Path
 from types import FrameType
 
 from benchmarks.fuzz_makers import EXTREMES, Material, Random, packed_input, text_input
+from drillctl.console.recent_jobs import RecentJobs
 from drillctl.generation import alignment, measured
 from drillctl.generation.drillfile import DrillFileError, read, summary
 from drillctl.generation.drills import read_drills
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import load_job
-from drillctl.generation.journal import Journal, JournalError, head_of, read_journal
 from drillctl.generation.recipe import Recipe
 from drillctl.generation.wishes import Wishes
+from drillctl.jobs.journal import Journal, JournalError, head_of, read_journal
 from drillctl.machine import Library, TableError, shipped_tables
 from drillctl.machine.source import Source
-from drillctl.panel.jobs import Site
 from drillctl.portio.gpiod_lines import read_line_map
 from drillctl.portio.mapped import read_map
-from drillctl.ports import PortRefused, Wiring
-from drillctl.station.recent import RecentJobs
+from drillctl.ports import PortLayout, PortRefused
+from drillctl.replay.replay import taped_again
+from drillctl.replay.stimuli import machine_of, playback, program_of
+from drillctl.replay.trace_files import read_record, read_trace
 from drillctl.trace import Trace, TraceError, segment_bytes
 from drillctl.trace.segment_file import MAGIC
-from drillctl.wiring.recorded import machine_of, playback, program_of
-from drillctl.wiring.replay import taped_again
-from drillctl.wiring.trace_files import read_record, read_trace
+from drillctl.viewmodel.jobs import Site
 
 SECONDS = 2.0
 GIVEN_UP_S = 5 * SECONDS
@@ -51,7 +51,7 @@ EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 LIBRARY = Library((shipped_tables(),))
 MACHINE = LIBRARY.machine("pcb-drill")
 SITE = Site("simulated", "free", "ideal")
-WIRING = Wiring(580, 0x2A0, (0b111,), 0, 0b11)
+WIRING = PortLayout(580, 0x2A0, (0b111,), 0, 0b11)
 
 DRILL_SEEDS = (
     b"M48\n;FILE_FORMAT=4:4\nMETRIC,LZ\nT1F00S00C0.8\nT2C1.0\n%\nT01\nX0001Y00125\nY002\nX5G85Y6\nT2\nX01\nM30\n",

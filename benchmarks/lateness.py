@@ -24,12 +24,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.lab.latency import measure, pace
-from drillctl.lab.wakes import WakeLog, quantile_us
+from drillctl.lab.wakeups import WakeLog, quantile_us
 from drillctl.machine import Library, Machine, shipped_tables
-from drillctl.panel.latency import LatencyReport
-from drillctl.wiring.children import Child
-from drillctl.wiring.realtime import PRIORITY, become_punctual
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.processes import Child
+from drillctl.ticker.realtime import PRIORITY, become_punctual
+from drillctl.ticker.ticker import Ticker
+from drillctl.viewmodel.latency import LatencyReport
 
 HZ, FAST_HZ = 500, 2000
 RUNS, CONTROL_RUNS, FAST_RUNS = 7, 3, 5

@@ -17,15 +17,15 @@ import numpy as np
 
 from drillctl.generation.job import load_job
 from drillctl.generation.wishes import Wishes
-from drillctl.lab.broken import BROKEN, direct_start
+from drillctl.jobs.runner import JobRunner
 from drillctl.lab.moves import move
+from drillctl.lab.tables import BROKEN, direct_start
 from drillctl.lab.trials import Trial, errors_full_steps, lost
 from drillctl.machine import AxisTable, Dynamics, Library, shipped_tables
 from drillctl.plant import PlantChoice
 from drillctl.plant.dynamic.plant import DynamicPlant
-from drillctl.wiring.desk import Desk
-from drillctl.wiring.link import LocalLink
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.link import LocalLink
+from drillctl.ticker.ticker import Ticker
 
 MACHINES = ("pcb-drill", "pcb-drill-ramp-lab")
 LONG_COLUMNS, SHORT_COLUMNS, LONGEST_COLUMNS = 900, 300, 1500
@@ -137,7 +137,7 @@ def whole_board() -> None:
     for hz in BOARD_HZ:
         machine = Library((shipped_tables(),)).machine("pcb-drill").at_rate(hz)
         link = LocalLink(Ticker.simulated(machine, plant_choice=PlantChoice("dynamic")))
-        told = Desk(load_job(BOARD, machine, Wishes()), link, lambda progress: None).run().outcome
+        told = JobRunner(load_job(BOARD, machine, Wishes()), link, lambda progress: None).run().outcome
         lost_steps = " ".join(f"{name} {steps}" for name, steps in (told.lost_steps or {}).items())
         fault = told.fault.name if told.fault else NEVER
         lines.append([f"{hz} Hz", f"{told.holes_done} of {told.holes_total}", lost_steps, fault])

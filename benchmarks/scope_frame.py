@@ -14,20 +14,20 @@ from time import process_time
 import numpy as np
 import urwid
 
+from drillctl.console.machine_console import MachineConsole
+from drillctl.console.scope import RunScope
+from drillctl.console.scope_runs import ScopeRuns
 from drillctl.generation.job import names_of
 from drillctl.kmd import parse_program
 from drillctl.machine import Library, shipped_tables
-from drillctl.station.scope import RunScope
-from drillctl.station.scopebench import ScopeBench
-from drillctl.station.station import Station
+from drillctl.ticker.launch import RunSettings
+from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Trace
-from drillctl.ui.lines import boxed
 from drillctl.ui.models.rows import Rows
 from drillctl.ui.models.viewport import Viewport
 from drillctl.ui.screens.scope import Scope
 from drillctl.ui.screens.scope_view import Layout, Look, scope_lines
-from drillctl.wiring.machinery import Running
-from drillctl.wiring.ticker import Ticker
+from drillctl.ui.widgets.lines import boxed
 
 LONG_TICKS = 2_000_000
 SIZES = ((80, 20), (160, 46))
@@ -77,10 +77,10 @@ def frame_ms(scope: RunScope, level: int, columns: int, rows: int) -> float:
 
 def following_share(columns: int, rows: int) -> float:
     """The share of a core that the desk's process takes while two motors turn and the scope follows."""
-    station = Station(LIBRARY, LIBRARY.machine("pcb-drill"), Running(pace="real"))
+    station = MachineConsole(LIBRARY, LIBRARY.machine("pcb-drill"), RunSettings(pace="real"))
     try:
         station.run_queue("KMD_RUCHd x=9000 y=9000\n")
-        scope = Scope(station, Nobody(), ScopeBench(LIBRARY, station))
+        scope = Scope(station, Nobody(), ScopeRuns(LIBRARY, station))
         spent, began = process_time(), time.monotonic()
         for frame in range(FRAMES):
             station.turn()

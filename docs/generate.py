@@ -4,7 +4,7 @@ from pathlib import Path
 
 from drillctl.kmd import COMMANDS, FAULTS, Reaction
 from drillctl.kmd.commands import Spec
-from drillctl.panel import FAULT_WORDS
+from drillctl.viewmodel import FAULT_WORDS
 
 ROW = "| {} | `{}` | {} |"
 DOCS = Path(__file__).resolve().parent
@@ -36,7 +36,7 @@ def _usage(spec: Spec) -> str:
 
 
 def faults_page() -> str:
-    parts = [MADE.format("drillctl/kmd/faults.py and drillctl/panel/words.py"), "", "# Faults", ""]
+    parts = [MADE.format("drillctl/kmd/faults.py and drillctl/viewmodel/fault_texts.py"), "", "# Faults", ""]
     parts += [
         "A fault stops the job, empties the queue, and stays until it is acknowledged.",
         "*Position kept* holds where the position was known.",

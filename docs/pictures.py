@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from docs.screen_svg import drawn
-from drillctl.ui import words
+from drillctl.language import words
 from tests.support.labels import menu, word
 from tests.support.terminal import Act, Terminal
 

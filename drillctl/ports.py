@@ -51,7 +51,7 @@ class PortSlow(PortLost):
 
 
 @dataclass(frozen=True, slots=True)
-class Wiring:
+class PortLayout:
     """What a driver must know of a machine, in port images: bits set where something is connected.
 
     axis_outputs   by axis: the output bits of its wires

@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
-from drillctl.inputs import read_start
-from drillctl.wording import LINES, one_line, visible
+from drillctl.files.inputs import read_start
+from drillctl.language import LINES, one_line, visible
 
 SUFFIXES = (".trace", ".seg")
 START = b"drillctl-"  # of both forms; which one, and whether it is one at all, the trace room knows
@@ -28,12 +28,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("drillctl", "traces of drilling machines")
     group.addoption("--drillctl-rewrite", action="store_true", help="record every golden trace anew, then pass")
     group.addoption("--drillctl-tables", metavar="DIR", type=Path, help="look for tables here first")
-    group.addoption(
-        "--drillctl-same-tables", action="store_true", help="a trace recorded with other tables fails"
-    )
-    group.addoption(
-        "--drillctl-require-traces", action="store_true", help="exit non-zero when no trace was collected"
-    )
+    group.addoption("--drillctl-same-tables", action="store_true", help="a trace recorded with other tables fails")
+    group.addoption("--drillctl-require-traces", action="store_true", help="exit non-zero when no trace was collected")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -110,7 +106,7 @@ class TraceItem(pytest.Item):
     def runtest(self) -> None:
         """Raises TraceMismatch at the first tick that differs."""
         from drillctl.machine import Library
-        from drillctl.wiring.replay import record_again, replay
+        from drillctl.replay.replay import record_again, replay
 
         option = self.config.getoption
         library = Library.standard(option("--drillctl-tables"))
@@ -134,4 +130,3 @@ class TraceItem(pytest.Item):
     def reportinfo(self) -> tuple[Path, int, str]:
         """Where the test stands."""
         return self.path, 0, f"trace {one_line(self.path.name)}"
-

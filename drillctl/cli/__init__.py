@@ -39,7 +39,7 @@ from drillctl.cli import (
 from drillctl.cli.examples import EXAMPLES
 from drillctl.cli.parsing import Parser
 from drillctl.cli.refusals import REFUSED, refuse
-from drillctl.wiring.interrupts import caught, exit_code, leave
+from drillctl.jobs.interrupts import caught, exit_code, leave
 
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope, plot, sweep, tune)

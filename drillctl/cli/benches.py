@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import urwid
 
+    from drillctl.console.machine_console import MachineConsole
     from drillctl.machine import Library
-    from drillctl.panel.console import Console
-    from drillctl.panel.scope import ScopeSource
-    from drillctl.panel.tables import Kind
-    from drillctl.station.station import Station
     from drillctl.ui.app import Maker
-    from drillctl.ui.shell import Shell
+    from drillctl.ui.screens.shell import Shell
+    from drillctl.viewmodel.console import Console
+    from drillctl.viewmodel.scope import ScopeSource
+    from drillctl.viewmodel.tables import Kind
 
 
-class Benches:
+class ScreenMakers:
     """Makers of screens (ui.app.Maker). ``run`` is what the scope shows first; None: the machine's own run."""
 
-    def __init__(self, library: "Library", station: "Station", plain: bool, run: "ScopeSource | None" = None):
+    def __init__(self, library: "Library", station: "MachineConsole", plain: bool, run: "ScopeSource | None" = None):
         self._library, self._station, self._plain, self._run = library, station, plain, run
 
     def makers(self) -> "dict[str, Maker]":
@@ -38,36 +38,36 @@ class Benches:
 
     def _tables(self, kind: "Kind") -> "Maker":
         def made(console: "Console", shell: "Shell") -> "urwid.Widget":
+            from drillctl.console.tables import TableFiles
             from drillctl.machine.library import user_tables
-            from drillctl.station.workbench import Workbench
             from drillctl.ui.screens.table_list import TableList
 
-            bench = Workbench(self._library, user_tables(), lambda: self._station.machine)
+            bench = TableFiles(self._library, user_tables(), lambda: self._station.machine)
             return TableList(console, shell, bench, kind, self._plain)
 
         return made
 
     def _queue_editor(self, console: "Console", shell: "Shell") -> "urwid.Widget":
-        from drillctl.station.handbench import HandBench
-        from drillctl.station.queuebench import QueueBench
+        from drillctl.console.queues import QueueFiles
+        from drillctl.console.signals import MachineSignals
         from drillctl.ui.screens.queue_editor import QueueEditor
 
-        return QueueEditor(console, shell, QueueBench(lambda: self._station.machine), HandBench(self._station))
+        return QueueEditor(console, shell, QueueFiles(lambda: self._station.machine), MachineSignals(self._station))
 
     def _port(self, console: "Console", shell: "Shell") -> "urwid.Widget":
-        from drillctl.station.portbench import PortBench
+        from drillctl.console.port import MachinePort
         from drillctl.ui.screens.port import PortScreen
 
-        return PortScreen(console, shell, PortBench(self._station))
+        return PortScreen(console, shell, MachinePort(self._station))
 
     def _signals(self, console: "Console", shell: "Shell") -> "urwid.Widget":
-        from drillctl.station.handbench import HandBench
+        from drillctl.console.signals import MachineSignals
         from drillctl.ui.screens.signals import Signals
 
-        return Signals(console, shell, HandBench(self._station))
+        return Signals(console, shell, MachineSignals(self._station))
 
     def _scope(self, console: "Console", shell: "Shell") -> "urwid.Widget":
-        from drillctl.station.scopebench import ScopeBench
+        from drillctl.console.scope_runs import ScopeRuns
         from drillctl.ui.screens.scope import Scope
 
-        return Scope(console, shell, ScopeBench(self._library, self._station), self._plain, self._run)
+        return Scope(console, shell, ScopeRuns(self._library, self._station), self._plain, self._run)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from drillctl.cli import jobs, options
-from drillctl.wording import known_words
+from drillctl.language import known_words
 
 QUEUE = ".kmd"
 TRACES = (".trace", ".seg")
@@ -30,7 +30,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """The whole text is made first; then the file is written, or nothing is."""
-    from drillctl.wiring.outputs import reserved
+    from drillctl.files.outputs import reserved
 
     ending = _ending(arguments.to)
     if ending in TRACES:
@@ -49,7 +49,7 @@ def _ending(out: Path) -> str:
 
     Raises OutputError for the ending of something else.
     """
-    from drillctl.wiring.outputs import OutputError
+    from drillctl.files.outputs import OutputError
 
     ending, known = out.suffix.lower(), (QUEUE, *TRACES, *EXCELLON)
     if ending and ending not in known:
@@ -59,10 +59,10 @@ def _ending(out: Path) -> str:
 
 def _trace(arguments: argparse.Namespace) -> int:
     """Segments as small as the tables at hand let them be."""
-    from drillctl.wiring.outputs import reserved
-    from drillctl.wiring.recorded import machine_of
-    from drillctl.wiring.replay import in_form_of
-    from drillctl.wiring.trace_files import read_trace, write_record
+    from drillctl.files.outputs import reserved
+    from drillctl.replay.replay import in_form_of
+    from drillctl.replay.stimuli import machine_of
+    from drillctl.replay.trace_files import read_trace, write_record
 
     trace = read_trace(arguments.file, arguments.to_tick)
     machine = machine_of(trace, arguments.file, options.library(arguments))

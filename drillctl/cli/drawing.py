@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from drillctl.cli import streams
 
 if TYPE_CHECKING:
-    from drillctl.panel.picture import Picture
+    from drillctl.viewmodel.picture import Picture
 
 ROWS = 14  # of a chart in characters
 
@@ -21,8 +21,8 @@ def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[
 
     Raises OutputError and PictureRefused before anything is reckoned.
     """
-    from drillctl.ui.plotted import check_format, picture_bytes
-    from drillctl.wiring.outputs import reserved
+    from drillctl.files.outputs import reserved
+    from drillctl.ui.terminal.image_file import check_format, picture_bytes
 
     kind = check_format(file.suffix) if file is not None else ""
     with reserved([file], inputs) as (output,):
@@ -39,7 +39,7 @@ def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[
 
 
 def _print(picture: "Picture") -> None:
-    from drillctl.ui.charts import Look, picture_lines
+    from drillctl.ui.terminal.charts import Look, picture_lines
 
     columns = shutil.get_terminal_size((100, 30)).columns
     plain = not (sys.stdout.encoding or "").lower().startswith("utf")

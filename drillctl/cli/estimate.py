@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from drillctl.cli import jobs, options
-from drillctl.wording import json_text
+from drillctl.language import json_text
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -20,8 +20,8 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Everything that ``run`` would refuse is refused here too; a job that would end in a fault is told so (exit 1)."""
-    from drillctl.ui.summary import estimate_lines
-    from drillctl.wiring.estimate import estimate
+    from drillctl.jobs.estimate import estimate
+    from drillctl.ui.terminal.reports import estimate_lines
 
     machine = options.machine(arguments)
     told = estimate(jobs.load(arguments.job, jobs.recipe(arguments), machine), arguments.engine)

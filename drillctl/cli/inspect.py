@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs
-from drillctl.wording import json_text
+from drillctl.language import json_text
 
 if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile
@@ -26,7 +26,7 @@ def call(arguments: argparse.Namespace) -> int:
     """Prints the summary; a refused file is an error (exit 2)."""
     from drillctl.generation.drillfile import DrillFileError, read, summary
     from drillctl.generation.job import refusal
-    from drillctl.ui.drilling import inspect_lines
+    from drillctl.ui.terminal.reports import inspect_lines
 
     try:
         drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
@@ -45,7 +45,7 @@ def _drawing(drill_file: "DrillFile") -> list[str]:
     """The board as wide as the terminal, and at most half as high; nothing where braille can't be shown."""
     import numpy as np
 
-    from drillctl.ui.board import board_rows
+    from drillctl.ui.widgets.board import board_rows
 
     if "utf" not in (sys.stdout.encoding or "").lower():
         return []

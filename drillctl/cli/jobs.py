@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.files.inputs import real_path
 from drillctl.generation.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
-from drillctl.inputs import real_path
 
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment

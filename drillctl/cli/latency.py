@@ -6,8 +6,8 @@ Nothing is driven: an idle machine on the simulated card is ticked in a process 
 import argparse
 
 from drillctl.cli import options, streams
-from drillctl.wiring.interrupts import caught, exit_code
-from drillctl.wording import json_text
+from drillctl.jobs.interrupts import caught, exit_code
+from drillctl.language import json_text
 
 LONGEST_S = 3600
 FASTEST_HZ = 20_000
@@ -25,7 +25,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """Ctrl-C ends it early, with what was measured (exit 130)."""
     from drillctl.lab.latency import LatencyError, a_moment, measure
-    from drillctl.ui.latency import latency_lines
+    from drillctl.ui.terminal.reports import latency_lines
 
     machine = options.library(argparse.Namespace(tables=None)).machine(options.DEFAULT_MACHINE)
     machine = machine.at_rate(arguments.hz or machine.tick_hz)

@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING
 from drillctl.cli import streams
 
 if TYPE_CHECKING:
-    from drillctl.wiring.desk import Run
-    from drillctl.wiring.session import Session
+    from drillctl.jobs.runner import JobResult
+    from drillctl.jobs.session import Session
 
 
-def operated(session: "Session", arguments: argparse.Namespace) -> "Run":
+def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
     """Runs it, with the progress on standard error, and with keys where somebody sits at a terminal.
 
     Raises JobError where tools are to be asked for and nobody does; what ``Session.run`` raises.
     """
-    from drillctl.ui.progress import ProgressView
-    from drillctl.ui.tools import ToolPrompt
-    from drillctl.wiring.machinery import REAL, pace_of
-    from drillctl.wiring.terminal_keys import HELP, TerminalKeys
+    from drillctl.jobs.keys import HELP, TerminalKeys
+    from drillctl.ticker.launch import REAL, pace_of
+    from drillctl.ui.terminal.progress import ProgressView, ToolPrompt
 
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
     with ProgressView(streams.bar(sys.stderr), by_clock=paced) as view:
@@ -36,8 +35,8 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "Run":
 def _asks(arguments: argparse.Namespace, spec: str) -> bool:
     """Whether a tool change waits for the operator."""
     from drillctl.generation.errors import JobError
+    from drillctl.jobs.keys import has_keys
     from drillctl.portio.registry import select
-    from drillctl.wiring.terminal_keys import has_keys
 
     port, _ = select(spec)
     asks = (arguments.tools or ("ask" if port.real else "assume")) == "ask"
@@ -48,6 +47,6 @@ def _asks(arguments: argparse.Namespace, spec: str) -> bool:
 
 def _watched(arguments: argparse.Namespace) -> bool:
     """Whether a person started it, and not a program that reads its JSON."""
-    from drillctl.wiring.terminal_keys import has_keys
+    from drillctl.jobs.keys import has_keys
 
     return not arguments.json and sys.stderr.isatty() and has_keys(sys.stdin)

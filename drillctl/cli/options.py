@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
-from drillctl.panel.words import local_tables
-from drillctl.wording import json_text
+from drillctl.language import json_text
+from drillctl.viewmodel.fault_texts import local_tables
 
 if TYPE_CHECKING:
+    from drillctl.files.outputs import Output
+    from drillctl.jobs.runner import JobResult
     from drillctl.machine import Library, Machine
     from drillctl.plant import PlantChoice
-    from drillctl.wiring.desk import Run
-    from drillctl.wiring.machinery import Running
-    from drillctl.wiring.outputs import Output
+    from drillctl.ticker.launch import RunSettings
 
 DEFAULT_MACHINE = "pcb-drill"
 
@@ -155,17 +155,17 @@ def _seed(text: str) -> int:
 
 def port(arguments: argparse.Namespace, machine: "Machine") -> str:
     """As asked for, else as the machine's mode has it. Raises PortRefused for a mode that can't be had."""
-    from drillctl.wiring.machinery import port_of_mode
+    from drillctl.ticker.launch import port_of_mode
 
     return arguments.port or port_of_mode(machine)
 
 
-def running(arguments: argparse.Namespace, port: str, traced: bool = False, derived: bool = False) -> "Running":
+def running(arguments: argparse.Namespace, port: str, traced: bool = False, derived: bool = False) -> "RunSettings":
     """On this port, at which pace, before which plant."""
     from drillctl.plant import IDEAL_PLANT
-    from drillctl.wiring.machinery import Running
+    from drillctl.ticker.launch import RunSettings
 
-    return Running(port, arguments.pace, traced, derived, plant(arguments) or IDEAL_PLANT)
+    return RunSettings(port, arguments.pace, traced, derived, plant(arguments) or IDEAL_PLANT)
 
 
 def plant(arguments: argparse.Namespace) -> "PlantChoice | None":
@@ -192,23 +192,23 @@ def add_results(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
 
 
-def write_holes(done: "Run", output: "Output | None") -> None:
+def write_holes(done: "JobResult", output: "Output | None") -> None:
     """The holes CSV (docs/SPEC.md, section 3), where one was asked for."""
     if output is not None:
         output.write(lambda file: file.writelines(_holes_csv(done)))
 
 
-def _holes_csv(done: "Run") -> "Iterator[str]":
+def _holes_csv(done: "JobResult") -> "Iterator[str]":
     yield "tool,diameter_mm,x_mm,y_mm\n"
     for hole in done.holes:
         diameter = "" if hole.diameter_mm is None else f"{hole.diameter_mm:.4f}"
         yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}\n"
 
 
-def told(done: "Run", as_json: bool, problems: Sequence[str] = ()) -> int:
+def told(done: "JobResult", as_json: bool, problems: Sequence[str] = ()) -> int:
     """Prints how a run ended, and what of it could not be kept; returns its exit code."""
-    from drillctl.ui.summary import summary_lines
-    from drillctl.wiring.interrupts import exit_code
+    from drillctl.jobs.interrupts import exit_code
+    from drillctl.ui.terminal.reports import summary_lines
 
     for notice in done.notices:
         print(f"drillctl: {notice}", file=sys.stderr)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from drillctl.cli.refusals import UsageRefused
-from drillctl.wording import known_words, nearest, one_line
+from drillctl.language import known_words, nearest, one_line
 
 
 class Parser(argparse.ArgumentParser):

@@ -3,7 +3,7 @@
 import argparse
 from typing import TYPE_CHECKING
 
-from drillctl.wording import json_text
+from drillctl.language import json_text
 
 if TYPE_CHECKING:
     from drillctl.portio.registry import Port

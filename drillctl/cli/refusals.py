@@ -9,7 +9,7 @@ import sys
 from typing import Any
 
 from drillctl.cli import streams
-from drillctl.wording import json_text
+from drillctl.language import json_text
 
 REFUSED = 2
 # What no reader has turned into an error of its own.
@@ -48,18 +48,18 @@ def _code(error: Exception) -> str | None:
 
 def _codes() -> list[tuple[type[Exception], str]]:
     from drillctl.cli.screen import ScreenError
+    from drillctl.files.outputs import OutputError
     from drillctl.generation.drillfile import DrillFileError
     from drillctl.generation.errors import JobError
-    from drillctl.generation.journal import JournalError
     from drillctl.generation.measured import AlignmentError
     from drillctl.generation.placing import PlacingError
+    from drillctl.jobs.journal import JournalError
     from drillctl.lab.errors import LabError
     from drillctl.lab.latency import LatencyError
     from drillctl.machine import TableError
     from drillctl.ports import PortError
     from drillctl.trace import TraceError
-    from drillctl.ui.plotted import PictureRefused
-    from drillctl.wiring.outputs import OutputError
+    from drillctl.ui.terminal.image_file import PictureRefused
 
     return [
         (UsageRefused, "usage"), (JobError, "job"), (TableError, "table"), (TraceError, "trace"),

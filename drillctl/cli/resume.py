@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from drillctl.cli import operating, options
 
 if TYPE_CHECKING:
-    from drillctl.generation.journal import Account
-    from drillctl.wiring.machinery import Running
-    from drillctl.wiring.session import Session
+    from drillctl.jobs.journal import Account
+    from drillctl.jobs.session import Session
+    from drillctl.ticker.launch import RunSettings
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -32,8 +32,8 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """The job is made again and must be the same; holes cut off in the middle are drilled again, and named."""
-    from drillctl.generation.journal import read_journal
-    from drillctl.wiring.outputs import reserved, unwritten
+    from drillctl.files.outputs import reserved, unwritten
+    from drillctl.jobs.journal import read_journal
 
     file = arguments.journal or _newest()
     account = read_journal(file)
@@ -47,7 +47,7 @@ def call(arguments: argparse.Namespace) -> int:
 
 def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
     from drillctl.generation.recipe import Recipe
-    from drillctl.wiring.session import Session, rest_of
+    from drillctl.jobs.session import Session, rest_of
 
     recipe = Recipe.of_options(account.head.options, file)
     tables = recipe.tables and Path(recipe.tables)
@@ -56,10 +56,10 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     return Session(left, _running(file, account, arguments), file, account)
 
 
-def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "Running":
+def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "RunSettings":
     """As the job ran, or as asked for. Raises JobError where that is elsewhere, and nobody said that it may be."""
     from drillctl.generation.errors import JobError
-    from drillctl.wiring.site import Asked, moved, running_at, site_of
+    from drillctl.jobs.site import Asked, moved, running_at, site_of
 
     asked = Asked(arguments.port, arguments.pace, options.plant(arguments))
     running = running_at(account.site, asked)
@@ -71,8 +71,8 @@ def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "
 
 def _newest() -> Path:
     from drillctl.generation.errors import JobError
-    from drillctl.generation.journal.folder import newest_unfinished
-    from drillctl.wiring.session import journals
+    from drillctl.jobs.journal.folder import newest_unfinished
+    from drillctl.jobs.session import journals
 
     found = newest_unfinished(journals())
     if found is None:
@@ -82,7 +82,7 @@ def _newest() -> Path:
 
 def _tell(account: "Account", session: "Session") -> None:
     """Where it goes on, and what the journal says, before anything moves."""
-    from drillctl.wiring.site import site_of
+    from drillctl.jobs.site import site_of
 
     file, left, here = session.journal, session.job, site_of(session.running)
     where = f"as it ran: {here}" if here == account.site else f"elsewhere: {here}; it ran on {account.site}"

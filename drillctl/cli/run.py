@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from drillctl.cli import jobs, operating, options
 
 if TYPE_CHECKING:
+    from drillctl.files.outputs import Output
     from drillctl.generation.job import Job
-    from drillctl.wiring.desk import Run
-    from drillctl.wiring.outputs import Output
-    from drillctl.wiring.session import Session
+    from drillctl.jobs.runner import JobResult
+    from drillctl.jobs.session import Session
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -34,11 +34,11 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Everything is checked and every output reserved before the first tick."""
+    from drillctl.files.outputs import reserved, unwritten
+    from drillctl.jobs.session import Session
     from drillctl.machine import machine_hazards
-    from drillctl.wiring.machinery import pace_of
-    from drillctl.wiring.outputs import reserved, unwritten
-    from drillctl.wiring.session import Session
-    from drillctl.wiring.trace_files import machine_named, takes_segments
+    from drillctl.replay.trace_files import machine_named, takes_segments
+    from drillctl.ticker.launch import pace_of
 
     machine = options.machine(arguments)
     port = options.port(arguments, machine)
@@ -71,14 +71,14 @@ def call(arguments: argparse.Namespace) -> int:
 
 def _tell(session: "Session") -> None:
     """Where it runs, and where its journal is kept: the first line of what it says."""
-    from drillctl.wiring.site import site_of
+    from drillctl.jobs.site import site_of
 
     kept = f"; journal {session.journal}" if session.journal else ""
     print(f"drillctl: {site_of(session.running)}{kept}", file=sys.stderr)
 
 
-def _write_trace(job: "Job", done: "Run", trace: "Output | None") -> None:
-    from drillctl.wiring.trace_files import machine_named, write_record
+def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:
+    from drillctl.replay.trace_files import machine_named, write_record
 
     kept = done.trace
     if trace is not None and kept is not None:
@@ -86,9 +86,9 @@ def _write_trace(job: "Job", done: "Run", trace: "Output | None") -> None:
         write_record(kept.with_header([("machine", named), *kept.header[1:]]), trace)
 
 
-def _write_vcd(job: "Job", done: "Run", vcd: "Output | None") -> None:
+def _write_vcd(job: "Job", done: "JobResult", vcd: "Output | None") -> None:
+    from drillctl.ticker.sampler import vcd_layout
     from drillctl.trace import Segments, write_vcd
-    from drillctl.wiring.sampler import vcd_layout
 
     kept = done.trace
     if vcd is not None and kept is not None:

@@ -18,7 +18,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """A trace that can't be read is refused before anything is drawn or started."""
     screen.check_terminal()
-    from drillctl.station.tracefile import TraceFile
+    from drillctl.console.scope_runs import TraceFile
 
     run = TraceFile(arguments.trace, options.library(arguments), arguments.from_tick)
     return screen.work(arguments, run)

@@ -6,10 +6,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options
-from drillctl.cli.benches import Benches
+from drillctl.cli.benches import ScreenMakers
 
 if TYPE_CHECKING:
-    from drillctl.panel.scope import ScopeSource
+    from drillctl.viewmodel.scope import ScopeSource
 
 
 class ScreenError(Exception):
@@ -49,23 +49,23 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
 
     run  is what the scope shows, which then is the screen in front
     """
+    from drillctl.console.machine_console import MachineConsole
+    from drillctl.jobs.interrupts import remembered
+    from drillctl.language import words
     from drillctl.machine.library import tell_nobody
-    from drillctl.station.station import Station
-    from drillctl.ui import words
+    from drillctl.ticker.launch import SIMULATED
     from drillctl.ui.app import App
-    from drillctl.wiring.interrupts import remembered
-    from drillctl.wiring.machinery import SIMULATED
 
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
     words.use(arguments.lang or words.language_of(), plain)
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
     library = replace(options.library(arguments), tell=tell_nobody)  # the second line says it
     running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace)
-    station = Station(
+    station = MachineConsole(
         library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)
     )
     try:
-        app = App(station, arguments.theme, plain, Benches(library, station, plain, run).makers())
+        app = App(station, arguments.theme, plain, ScreenMakers(library, station, plain, run).makers())
         if run is not None:
             app.show("scope")
         with remembered() as interrupts:

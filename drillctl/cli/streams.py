@@ -2,7 +2,7 @@
 
 Rule: what can't be told on standard error stops nothing, since a machine may be moving; what can't be told on standard
 output is no success. Whatever is written, the reader's terminal only prints it: every character that it would obey is
-escaped here, once, for all verbs (``drillctl.wording``). Used by the command line and by the verbs that run a machine.
+escaped here, once, for all verbs (``drillctl.language``). Used by the command line and by the verbs that run a machine.
 """
 
 import io
@@ -10,7 +10,7 @@ import os
 import sys
 from typing import TYPE_CHECKING, TextIO, cast
 
-from drillctl.wording import LINES, visible
+from drillctl.language import LINES, visible
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer

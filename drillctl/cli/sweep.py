@@ -11,8 +11,7 @@ from drillctl.cli import drawing, options, streams
 
 if TYPE_CHECKING:
     from drillctl.lab.question import Question
-    from drillctl.lab.results import Results
-    from drillctl.lab.sweep import Crew
+    from drillctl.lab.sweep import Results, WorkerPool
     from drillctl.machine import Library, Machine
 
 VALUES = "N,N,... or FROM:TO:STEP"
@@ -45,17 +44,16 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """The question is checked whole before the first machine is tried."""
-    from drillctl.lab.crowd import cores
-    from drillctl.lab.results import Results
-    from drillctl.lab.sweep import Crew
+    from drillctl.lab.sweep import Results, WorkerPool
     from drillctl.lab.sweep_picture import losing, sweep_picture
+    from drillctl.lab.workers import cores
 
     library = options.library(arguments)
     machine = library.machine(arguments.machine)
     question = _question(arguments, machine, library)
     with drawing.drawn(arguments.picture, (arguments.out,)) as draw:
         with Results(arguments.out, question) as results:
-            _work(question, results, Crew(arguments.workers or cores(), arguments.cluster))
+            _work(question, results, WorkerPool(arguments.workers or cores(), arguments.cluster))
         draw(sweep_picture(question, losing(arguments.out), machine.name))
     return 0
 
@@ -68,7 +66,7 @@ def _add_luck(verb: argparse.ArgumentParser) -> None:
 
 
 def _question(arguments: argparse.Namespace, machine: "Machine", library: "Library") -> "Question":
-    from drillctl.lab.numbers import numbers, whole_numbers
+    from drillctl.cli.number_lists import numbers, whole_numbers
     from drillctl.lab.question import FASTEST_HZ, LONGEST_STEPS, SLOWEST_HZ, Question
     from drillctl.lab.tables import axis_of, phases, ramps
 
@@ -88,13 +86,13 @@ def _question(arguments: argparse.Namespace, machine: "Machine", library: "Libra
 
 
 def _varied(text: str) -> tuple[str, tuple[float, ...]]:
-    from drillctl.lab.numbers import numbers
+    from drillctl.cli.number_lists import numbers
 
     name, _, values = text.partition("=")
     return name, numbers(values, f"--vary {name}", 0.001, 1000)
 
 
-def _work(question: "Question", results: "Results", crew: "Crew") -> None:
+def _work(question: "Question", results: "Results", crew: "WorkerPool") -> None:
     """With a bar on a terminal."""
     from tqdm import tqdm
 

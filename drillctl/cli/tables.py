@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options
-from drillctl.wording import json_text
+from drillctl.language import json_text
 
 MACHINES = "Lists the machines that can be driven: name, interrupt frequency, axes, description."
 CHECK = "Checks table files. One that can't be used is refused with its line, a dangerous one is warned about."

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from drillctl.cli import options
 
 if TYPE_CHECKING:
-    from drillctl.wiring.outputs import Output
+    from drillctl.files.outputs import Output
 
 LEAST_MARGIN, GREATEST_MARGIN = 1.0, 5.0
 FASTEST_HZ = 20_000
@@ -36,10 +36,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """The table is named and its place looked at before the search, and written after the proof."""
-    from drillctl.lab.ramp_text import evidence_lines, ramp_text
     from drillctl.lab.ramp_trials import Bench
     from drillctl.lab.tables import axis_of, check_name
-    from drillctl.lab.tune import tune
+    from drillctl.lab.tune import evidence_lines, ramp_text, tune
     from drillctl.machine.library import user_tables
 
     machine = options.library(arguments).machine(arguments.machine)
@@ -59,7 +58,7 @@ def call(arguments: argparse.Namespace) -> int:
 @contextmanager
 def _new(out: Path) -> "Iterator[Output]":
     """A place for a file that is not there yet, in a folder made where need be. Raises OutputError, OSError."""
-    from drillctl.wiring.outputs import OutputError, reserved
+    from drillctl.files.outputs import OutputError, reserved
 
     if os.path.lexists(out):
         raise OutputError(f"{out}: is there already; give another --name or --out")

@@ -18,8 +18,8 @@ May import kmd, ports and machine.
 """
 
 from drillctl.execution.controller import Controller
-from drillctl.execution.loading import loaded
 from drillctl.execution.report import report
+from drillctl.execution.table_loading import loaded
 from drillctl.execution.tick import look, spare, tick
 
 __all__ = ["Controller", "loaded", "look", "report", "spare", "tick"]

@@ -190,9 +190,7 @@ class Axis:
         if self.held or self.cut:
             after = state - direction if state else 0
         else:
-            after = self.ramp.after_step(
-                state, direction, to_go, not self.braked and self.interval[state] > self.floor
-            )
+            after = self.ramp.after_step(state, direction, to_go, not self.braked and self.interval[state] > self.floor)
         self.state = after
         if after == 0:
             self._at_state_zero(to_go)

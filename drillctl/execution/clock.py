@@ -8,6 +8,10 @@ Handed to the ticker's loop, which asks it before each tick.
 import time
 from collections.abc import Callable
 
+from drillctl.execution.controller import Controller
+from drillctl.execution.stops import hold, raise_fault, too_fast_to_stop
+from drillctl.kmd import Fault
+
 
 class PacedClock:
     """Of the newest tick: ``begun_ns``, and ``late_ns`` after its deadline. Of all: ``late`` counts those that began
@@ -45,3 +49,22 @@ class PacedClock:
             return 0
         self.late += 1
         return late_ns // self.period_ns
+
+
+HOLD_MS = 50
+FAULT_MS = 250
+
+
+def apply_gap(m: Controller) -> None:
+    """The gap before this tick: every axis that it stopped starts anew; a long one holds, a longer one is a fault."""
+    gap_ticks, m.gap = m.late, 0
+    stopped = [axis for axis in m.axes if (axis.counting or axis.led) and gap_ticks > axis.interval[0]]
+    m.caught = any(too_fast_to_stop(m, axis) for axis in stopped)
+    for axis in stopped:
+        axis.start_again()
+    gap_ms = gap_ticks * 1000 // m.tick_hz
+    if gap_ms > FAULT_MS and (m.busy or m.moving):
+        m.position_known = m.position_known and not m.caught
+        raise_fault(m, Fault.LATE_TICK)
+    elif gap_ms > HOLD_MS:
+        hold(m)

@@ -33,8 +33,7 @@ class Controller:
         self.requests = requests
         self.port = port
         self.axes = tuple(
-            Axis(table, _limits(machine, index), machine.reach(index))
-            for index, table in enumerate(machine.axes)
+            Axis(table, _limits(machine, index), machine.reach(index)) for index, table in enumerate(machine.axes)
         )
         self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
         self.line = Line(self.axes)

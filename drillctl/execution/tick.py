@@ -5,11 +5,11 @@
 docs/SPEC.md, section 1, has the order to the letter. No container is built here, nothing grows.
 """
 
+from drillctl.execution.clock import apply_gap
 from drillctl.execution.commands import finish, start_next
 from drillctl.execution.controller import Controller
-from drillctl.execution.guard import guard
 from drillctl.execution.hot import cut_off
-from drillctl.execution.late import apply_gap
+from drillctl.execution.limit_checks import guard
 from drillctl.execution.stops import carry_on, serve
 from drillctl.kmd import Condition
 

@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from drillctl.files.inputs import read_bytes
 from drillctl.generation.measured import MAX_BYTES, AlignmentError, Millimetres, parse
 from drillctl.generation.placing import Affine
-from drillctl.inputs import read_bytes
 
 COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
 SHORT_SPAN_MM = 10.0  # 0.1 mm of error over this length is half a degree of turn

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.files.inputs import read_bytes
 from drillctl.generation.errors import JobError
 from drillctl.generation.placing import Affine
 from drillctl.generation.program import board_program
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import Group, WorkList, build
-from drillctl.inputs import read_bytes
 from drillctl.kmd import KmdError, Names, parse_program, to_text
+from drillctl.language import one_line
 from drillctl.machine import Machine
-from drillctl.wording import one_line
 
 if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile, DrillFileError

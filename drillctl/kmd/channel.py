@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.files.scratch import make_file
 from drillctl.kmd.commands import RECORD, Command
 from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, Requests, hand_of, pace_of, request_of
 from drillctl.kmd.status import STATUS
-from drillctl.scratch import make_file
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
 MOST_READS = 1000

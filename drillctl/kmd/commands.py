@@ -61,7 +61,7 @@ class Flag(IntFlag):
     LINKED = 2  # all axes along one straight line
 
 
-class Form(IntEnum):
+class ArgumentForm(IntEnum):
     """What may stand behind a command's name in text."""
 
     NOTHING = 0
@@ -79,7 +79,7 @@ class Spec:
 
     name: str
     op: Op
-    form: Form
+    form: ArgumentForm
     usage: str
     meaning: str
     flags: Flag = Flag.NONE
@@ -90,36 +90,40 @@ _BASE = Flag.ABSOLUTE
 _LINE = Flag.LINKED
 _HEADS, _PLACES = "[axis ...]", "axis=steps ..."
 _ALL = (
-    Spec("KMD_GOTOdXdY", Op.GOTO_DXDY, Form.XY, "dX dY", "move X and Y by so many steps from here"),
-    Spec("KMD_GOTO_X_Y", Op.GOTO_X_Y, Form.XY, "X Y", "move X and Y to a place from the working base", _BASE),
-    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, Form.AXES, _HEADS, "lower the head to its lower sensor"),
-    Spec("KMD_WIERTLO_GORA", Op.WIERTLO_GORA, Form.AXES, _HEADS, "raise the head to its upper sensor"),
+    Spec("KMD_GOTOdXdY", Op.GOTO_DXDY, ArgumentForm.XY, "dX dY", "move X and Y by so many steps from here"),
+    Spec("KMD_GOTO_X_Y", Op.GOTO_X_Y, ArgumentForm.XY, "X Y", "move X and Y to a place from the working base", _BASE),
+    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, ArgumentForm.AXES, _HEADS, "lower the head to its lower sensor"),
+    Spec("KMD_WIERTLO_GORA", Op.WIERTLO_GORA, ArgumentForm.AXES, _HEADS, "raise the head to its upper sensor"),
     Spec(
-        "KMD_INICJALIZACJA", Op.INICJALIZACJA, Form.NOTHING, "",
+        "KMD_INICJALIZACJA", Op.INICJALIZACJA, ArgumentForm.NOTHING, "",
         "head up, then to X=0, Y=0 as the limit sensors set it; the position is known from here on",
     ),
-    Spec("KMD_BAZA", Op.BAZA, Form.AXES, _HEADS, "take this place as working base, in X and Y or the axes named"),
-    Spec("KMD_RUCH", Op.RUCH, Form.MOVES, _PLACES, "move the named axes to a place from the working base", _BASE),
-    Spec("KMD_RUCHd", Op.RUCH_D, Form.MOVES, _PLACES, "move the named axes by so many steps from here"),
-    Spec("KMD_LINIA", Op.LINIA, Form.MOVES, _PLACES, "as KMD_RUCH, along one straight line", _BASE | _LINE),
-    Spec("KMD_LINIAd", Op.LINIA_D, Form.MOVES, _PLACES, "as KMD_RUCHd, along one straight line", _LINE),
     Spec(
-        "KMD_PREDKOSC", Op.PREDKOSC, Form.NUMBER, "ticks",
+        "KMD_BAZA", Op.BAZA, ArgumentForm.AXES, _HEADS, "take this place as working base, in X and Y or the axes named"
+    ),
+    Spec(
+        "KMD_RUCH", Op.RUCH, ArgumentForm.MOVES, _PLACES, "move the named axes to a place from the working base", _BASE
+    ),
+    Spec("KMD_RUCHd", Op.RUCH_D, ArgumentForm.MOVES, _PLACES, "move the named axes by so many steps from here"),
+    Spec("KMD_LINIA", Op.LINIA, ArgumentForm.MOVES, _PLACES, "as KMD_RUCH, along one straight line", _BASE | _LINE),
+    Spec("KMD_LINIAd", Op.LINIA_D, ArgumentForm.MOVES, _PLACES, "as KMD_RUCHd, along one straight line", _LINE),
+    Spec(
+        "KMD_PREDKOSC", Op.PREDKOSC, ArgumentForm.NUMBER, "ticks",
         "moves that follow step no faster than every so many ticks; 0: full speed",
     ),
-    Spec("KMD_CZEKAJ", Op.CZEKAJ, Form.NUMBER, "ticks", "wait"),
-    Spec("KMD_WYJSCIE", Op.WYJSCIE, Form.OUTPUT, "output 0|1", "switch an output of the machine"),
+    Spec("KMD_CZEKAJ", Op.CZEKAJ, ArgumentForm.NUMBER, "ticks", "wait"),
+    Spec("KMD_WYJSCIE", Op.WYJSCIE, ArgumentForm.OUTPUT, "output 0|1", "switch an output of the machine"),
     Spec(
-        "KMD_CZEKAJ_WE", Op.CZEKAJ_WE, Form.INPUT, "input 0|1 timeout",
+        "KMD_CZEKAJ_WE", Op.CZEKAJ_WE, ArgumentForm.INPUT, "input 0|1 timeout",
         "wait until a sensor is reached (1) or clear (0), at most so many ticks",
     ),
-    Spec("KMD_WRZECIONO", Op.WRZECIONO, Form.NUMBER, "rpm", "spindle on at a speed, 0: off"),
-    Spec("KMD_NARZEDZIE", Op.NARZEDZIE, Form.NUMBER, "tool", "the tool of this number is wanted"),
+    Spec("KMD_WRZECIONO", Op.WRZECIONO, ArgumentForm.NUMBER, "rpm", "spindle on at a speed, 0: off"),
+    Spec("KMD_NARZEDZIE", Op.NARZEDZIE, ArgumentForm.NUMBER, "tool", "the tool of this number is wanted"),
     Spec(
-        "KMD_FAZY_WYL", Op.FAZY_WYL, Form.AXES, _HEADS,
+        "KMD_FAZY_WYL", Op.FAZY_WYL, ArgumentForm.AXES, _HEADS,
         "release the phases of all or the named axes: the position is lost",
     ),
-    Spec("KMD_KONIEC", Op.KONIEC, Form.NOTHING, "", "the end of the queue"),
+    Spec("KMD_KONIEC", Op.KONIEC, ArgumentForm.NOTHING, "", "the end of the queue"),
 )  # fmt: skip
 
 COMMANDS: Mapping[str, Spec] = {spec.name: spec for spec in _ALL}

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, MOST_AXES, RECORD, Form, Names, Op, Spec
-from drillctl.wording import known_words, nearest
+from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, MOST_AXES, RECORD, ArgumentForm, Names, Op, Spec
+from drillctl.language import known_words, nearest
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
@@ -57,7 +57,7 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
             raise KmdError(file, number, error.word.column, error.reason) from None
         if spec.op is Op.PREDKOSC:
             floor_ticks = args[0]
-        moves = spec.form in (Form.XY, Form.MOVES) or spec.op in (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
+        moves = spec.form in (ArgumentForm.XY, ArgumentForm.MOVES) or spec.op in (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
         rows.append((spec.op, int(spec.flags), axes, floor_ticks if moves else 0, args))
         ended = spec.op is Op.KONIEC
         if len(rows) > MOST_COMMANDS:
@@ -208,23 +208,23 @@ def _switch_out(table: Mapping[str, int], record: np.void, count: int) -> list[s
 
 
 _In = Callable[[Spec, _Word, list[_Word], Names], tuple[int, list[int]]]
-_ARGUMENTS_IN: Mapping[Form, _In] = {
-    Form.NOTHING: _nothing_in,
-    Form.XY: _xy_in,
-    Form.MOVES: _moves_in,
-    Form.AXES: _axes_in,
-    Form.NUMBER: _number_in,
-    Form.OUTPUT: _output_in,
-    Form.INPUT: _input_in,
+_ARGUMENTS_IN: Mapping[ArgumentForm, _In] = {
+    ArgumentForm.NOTHING: _nothing_in,
+    ArgumentForm.XY: _xy_in,
+    ArgumentForm.MOVES: _moves_in,
+    ArgumentForm.AXES: _axes_in,
+    ArgumentForm.NUMBER: _number_in,
+    ArgumentForm.OUTPUT: _output_in,
+    ArgumentForm.INPUT: _input_in,
 }
-_ARGUMENTS_OUT: Mapping[Form, Callable[[np.void, Names], list[str]]] = {
-    Form.NOTHING: lambda record, names: [],
-    Form.XY: _xy_out,
-    Form.MOVES: _moves_out,
-    Form.AXES: lambda record, names: [names.axes[index] for index in _masked(record, names)],
-    Form.NUMBER: lambda record, names: [str(record["args"][0])],
-    Form.OUTPUT: lambda record, names: _switch_out(names.outputs, record, 2),
-    Form.INPUT: lambda record, names: _switch_out(names.inputs, record, 3),
+_ARGUMENTS_OUT: Mapping[ArgumentForm, Callable[[np.void, Names], list[str]]] = {
+    ArgumentForm.NOTHING: lambda record, names: [],
+    ArgumentForm.XY: _xy_out,
+    ArgumentForm.MOVES: _moves_out,
+    ArgumentForm.AXES: lambda record, names: [names.axes[index] for index in _masked(record, names)],
+    ArgumentForm.NUMBER: lambda record, names: [str(record["args"][0])],
+    ArgumentForm.OUTPUT: lambda record, names: _switch_out(names.outputs, record, 2),
+    ArgumentForm.INPUT: lambda record, names: _switch_out(names.inputs, record, 3),
 }
 
 

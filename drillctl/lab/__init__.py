@@ -1,20 +1,11 @@
-"""Runs that nobody drills by: what a job will take, how punctual this computer is, which moves lose steps.
+"""Experiments that drill nothing: how punctual this computer is, which moves lose steps, the fastest ramp.
 
-    forecast.py   ticks of every command of a program, exact on the ideal plant
-    capacity.py   how many ticks a second this computer can work off
-    latency.py    how late ticks begin here, and whose fault that is
-    wakes.py      what it measures; grades.py: what that is good for
-    moves.py      what an axis puts out for a move        trials.py  thousands of these on the dynamic plant
-    broken.py     phase tables broken on purpose
-    watched.py    a recorded run once more on the dynamic plant   pictures.py, pullout.py   what is drawn of it
-    question.py   what a sweep asks     answers.py, crowd.py      by how many processes it is answered
-    results.py    into which file       sweep.py, sweep_picture.py
-    tune.py       the fastest ramp      ramp_trials.py, retargeting.py, ramp_text.py   tried, proved, written
-    tables.py, numbers.py               what an operator names and lists          errors.py  LabError
-
-May import execution, machine, kmd, panel, plant, and the wiring of ticks.
+    latency.py        how late ticks begin here, and whose fault that is
+    wakeups.py        what it measures                 grades.py         what a measured lateness is good for
+    moves.py          what an axis puts out for a move  trials.py        thousands of these on the dynamic plant
+    dynamic_rerun.py  a recorded run on the dynamic plant  pictures.py   what is drawn of it, the pull-out curve
+    question.py       what a sweep asks  answers.py      its rows   sweep.py  a question answered into a file
+    workers.py        by how many processes            sweep_picture.py  the picture of a sweep
+    tune.py           the fastest ramp, as a table     ramp_trials.py, retargeting.py   tried, and proved exact
+    tables.py         the tables that an operator names, and tables broken on purpose
 """
-
-from drillctl.lab.forecast import Forecast, forecast
-
-__all__ = ["Forecast", "forecast"]

@@ -1,7 +1,7 @@
 """Answers a question, chunk by chunk: the machines of a chunk run side by side in fleets.
 
 Rule: a chunk is as many machines as the question makes it, whoever runs it, so that its rows are the same bytes on any
-number of processes. A row is a machine. Called by crowd.py, in its processes or here.
+number of processes. A row is a machine.
 """
 
 from functools import cache

@@ -1,15 +1,15 @@
 """What a measured lateness is good for: grades A to E, and what to do for a better one.
 
 Rule: a grade asks two things, how often a tick is late and how long the longest wait was; each line of the table must
-hold for both. The waits are those at which execution acts (execution/late.py). Called by latency.
+hold for both. The waits are those at which execution acts (execution/clock.py). Called by latency.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from drillctl.execution.late import FAULT_MS, HOLD_MS
-from drillctl.panel.latency import Grade
+from drillctl.execution.clock import FAULT_MS, HOLD_MS
+from drillctl.viewmodel.latency import Grade
 
 GOOD_SHARE = 0.005  # late ticks that a job does not mind: a step is stretched here and there
 RATES_HZ = (20_000, 10_000, 5_000, 2_000, 1_000, 500, 250, 200, 100, 50)

@@ -20,12 +20,12 @@ import numpy as np
 
 from drillctl.execution.clock import PacedClock
 from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
-from drillctl.lab.wakes import MOST_TEXT, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
+from drillctl.lab.wakeups import MOST_TEXT, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
 from drillctl.machine import Machine
-from drillctl.panel.latency import LatencyReport
-from drillctl.wiring.children import Child
-from drillctl.wiring.realtime import become_punctual
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.processes import Child
+from drillctl.ticker.realtime import become_punctual
+from drillctl.ticker.ticker import Ticker
+from drillctl.viewmodel.latency import LatencyReport
 
 MOST_PROCESSORS = 4  # the ticker stays on these, so that a canary sees whatever stops it
 CANARY_WAKES = 2  # a period

@@ -3,20 +3,21 @@
 Rule: numbers into panel.picture records; how they are drawn is ui's. Called by the plot verb.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import pi
+from math import pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.lab.dynamic_rerun import Watched
 from drillctl.lab.errors import LabError
-from drillctl.lab.pullout import pull_out
-from drillctl.lab.trials import FULL_STEPS_PER_CYCLE
-from drillctl.lab.watched import Watched
+from drillctl.lab.moves import move
+from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, Trial, errors_full_steps, lost
+from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.dynamics import WINDING_DEGREES
-from drillctl.panel.picture import Chart, Curve, Picture, Style
 from drillctl.plant.rotor import FULL_TURN
+from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
 
 Floats = NDArray[np.float64]
 STANDING_TICKS = 100  # no column for so long: it stands
@@ -165,3 +166,47 @@ def _enlarged(sent_mm: Floats, off_mm: Floats) -> int:
     wanted = LONGEST_ERROR * max(float(np.ptp(sent_mm, axis=0).max()), 1.0) / max(float(off_mm.max()), 1e-6)
     steps = [digit * 10**power for power in range(5) for digit in (1, 2, 5)]
     return max((step for step in steps if step <= wanted), default=1)
+
+
+COLUMNS = 300  # of a trial's move
+LEVELS = 12  # loads tried at once; then as many between the last that was carried and the first that was not
+ROUNDS = 3
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PullOut:
+    """``torque_nm`` (rates,) by step rate; not a number where the move fails without any load."""
+
+    rates_hz: NDArray[np.int64]
+    torque_nm: Floats
+
+
+def greatest_torque_nm(dynamics: Dynamics) -> float:
+    """Two half windings on, at rest, both forced: no load above it is carried."""
+    amperes = (dynamics.forcing_volts - dynamics.switch_volts) / dynamics.resistance_ohm
+    return sqrt(2) * dynamics.torque_nm_per_a * amperes
+
+
+def pull_out(table: AxisTable, rates_hz: Sequence[int], direction: int) -> PullOut:
+    """The worst of the rests that a move can begin in, in one direction (+1, -1). The axis must have dynamics."""
+    assert table.dynamics is not None
+    carried = np.zeros(len(rates_hz))
+    width_nm = greatest_torque_nm(table.dynamics)
+    for _ in range(ROUNDS):
+        width_nm /= LEVELS
+        loads = carried[:, None] + width_nm * np.arange(LEVELS)
+        held = np.cumprod(~_losing(table, rates_hz, loads, direction), axis=1).sum(axis=1)
+        carried += np.where(held, (held - 1) * width_nm, np.nan)
+    return PullOut(np.array(rates_hz), carried)
+
+
+def _losing(table: AxisTable, rates_hz: Sequence[int], loads_nm: Floats, direction: int) -> NDArray[np.bool_]:
+    """(rates, loads): whether a move loses steps, from any rest. A load that is no number is one that fails."""
+    starts = range(table.phase.columns // table.motor.rests_per_cycle)
+    moves = [move(table, direction * COLUMNS // table.columns_per_step, column) for column in starts]
+    dynamics = table.dynamics
+    assert dynamics is not None
+    rows = zip(rates_hz, np.nan_to_num(loads_nm).tolist(), strict=True)
+    trials = [Trial(each, hz, dynamics, load) for hz, loads in rows for load in loads for each in moves]
+    errors = errors_full_steps(table, trials).reshape(*loads_nm.shape, len(moves))
+    return lost(errors).any(axis=2) | np.isnan(loads_nm)

@@ -13,11 +13,11 @@ from random import Random
 import numpy as np
 
 from drillctl.lab.errors import LabError
+from drillctl.language import known_words
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
 from drillctl.plant.dynamic.coefficients import SUBSTEPS
-from drillctl.wording import known_words
 
 PARAMETERS = tuple(field.name for field in fields(Dynamics) if field.type is float)
 SPREAD = ("resistance_ohm", "inductance_h", "torque_nm_per_a", "inertia_kgm2", "viscous_nms", "coulomb_nm")

@@ -1,29 +1,122 @@
 """A sweep: a question answered into a results file, from where the file leaves off.
 
-Rule: rows come in the order of the machines and depend on nothing but the question. Called by the sweep verb.
+Rule: rows come in the order of the machines and depend on nothing but the question, whose digest stands in the file's
+first line, so that rows of two questions never meet. A torn last line is taken off; any other damage refuses the file.
+It is locked as long as somebody writes.
 """
 
-from collections.abc import Iterator
+import fcntl
+import os
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
 
-from drillctl.lab.answers import chunks
-from drillctl.lab.crowd import on_cluster, on_cores
+from drillctl.files.inputs import check_kind
+from drillctl.lab.answers import chunks, head
+from drillctl.lab.errors import LabError
 from drillctl.lab.question import Question
-from drillctl.lab.results import Results
+from drillctl.lab.workers import on_cluster, on_cores
+
+MAGIC = "# drillctl-sweep 1"
+LONGEST_ROW_BYTES = 4096
+
+
+class Results:
+    """An open results file; ``rows`` are in it so far. Use as a context manager. Raises LabError, OSError."""
+
+    def __init__(self, path: Path, question: Question):
+        self.path = path
+        self._file: BinaryIO = _opened(path)
+        try:
+            _lock(self._file, path)
+            self.rows = self._begun(question)
+        except BaseException:
+            self._file.close()
+            raise
+
+    def __enter__(self) -> "Results":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    def append(self, rows: Sequence[str]) -> None:
+        """Rows more; they are with the system when this returns."""
+        self._file.write("".join(f"{row}\n" for row in rows).encode())
+        self._file.flush()
+        self.rows += len(rows)
+
+    def _begun(self, question: Question) -> int:
+        """How many rows there are, with the file ready for the next; a new one gets its first lines."""
+        limit = (question.machines + len(_first_lines(question))) * LONGEST_ROW_BYTES
+        data = self._file.read(limit + 1)
+        if len(data) > limit:
+            raise LabError(f"{self.path}: larger than any answer to this question; give the new one another file")
+        *whole, torn = data.split(b"\n")
+        wanted = _first_lines(question)
+        begun = wanted[0].startswith(torn) if not whole else whole[:2] == wanted[: len(whole)]
+        if not begun:
+            raise LabError(f"{self.path}: {_what_else(whole)}; give the new one another file")
+        _check_rows(whole[2:], wanted[1], question, self.path)
+        self._file.seek(-len(torn), os.SEEK_END)
+        self._file.truncate()
+        self._file.write(b"".join(line + b"\n" for line in wanted[len(whole) :]))
+        self._file.flush()
+        return max(len(whole) - len(wanted), 0)
+
+
+def _first_lines(question: Question) -> list[bytes]:
+    """How the file begins."""
+    return [f"{MAGIC} {question.digest}".encode(), head(question).encode()]
+
+
+def _opened(path: Path) -> BinaryIO:
+    """For reading and writing, made where there is none. Raises OSError, too for what is no file."""
+    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK, 0o666)
+    try:
+        check_kind(os.fstat(handle), path)
+        return os.fdopen(handle, "r+b")
+    except OSError:
+        os.close(handle)
+        raise
+
+
+def _what_else(whole: list[bytes]) -> str:
+    if whole and whole[0].startswith(MAGIC.encode()):
+        return "holds the answer to another question (or of another version of the plant)"
+    return "is no results file of a sweep"
+
+
+def _check_rows(rows: list[bytes], names: bytes, question: Question, path: Path) -> None:
+    """As many as there are machines at most, each with a value for every column."""
+    if len(rows) > question.machines:
+        raise LabError(f"{path}: has {len(rows)} rows, and the question {question.machines} machines")
+    values = names.count(b",")
+    for number, row in enumerate(rows):
+        if row.count(b",") != values:
+            raise LabError(f"{path}:{number + 3}: not a row of this table; take away this line and all below it")
+
+
+def _lock(file: BinaryIO, path: Path) -> None:
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise LabError(f"{path}: another sweep is writing it") from error
 
 
 @dataclass(frozen=True, slots=True)
-class Crew:
+class WorkerPool:
     """Who answers: so many processes here, or the workers of a dask scheduler at an address."""
 
     workers: int = 1
     cluster: str | None = None
 
 
-def sweep(question: Question, results: Results, crew: Crew) -> Iterator[int]:
+def sweep(question: Question, results: Results, pool: WorkerPool) -> Iterator[int]:
     """Answers what is missing; gives how many rows the file has, after each chunk. Raises LabError."""
     todo = chunks(question, results.rows)
-    answers = on_cluster(question, todo, crew.cluster) if crew.cluster else on_cores(question, todo, crew.workers)
+    answers = on_cluster(question, todo, pool.cluster) if pool.cluster else on_cores(question, todo, pool.workers)
     for chunk, rows in zip(todo, answers, strict=True):
         results.append(rows[max(results.rows - chunk.start, 0) :])
         yield results.rows

@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.inputs import read_bytes
+from drillctl.files.inputs import read_bytes
 from drillctl.lab.answers import FIXED_TAIL
 from drillctl.lab.question import MOST_MACHINES, Question
-from drillctl.lab.results import LONGEST_ROW_BYTES
-from drillctl.panel.picture import Chart, Curve, Picture, Style
+from drillctl.lab.sweep import LONGEST_ROW_BYTES
+from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
 
 LARGEST_RESULTS_BYTES = MOST_MACHINES * LONGEST_ROW_BYTES
 MOST_LINES = 8

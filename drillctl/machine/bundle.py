@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from drillctl.inputs import json_of
+from drillctl.files.inputs import json_of
 from drillctl.machine.config import parse_machine
 from drillctl.machine.model import Machine
 from drillctl.machine.parts import Parts

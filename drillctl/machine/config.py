@@ -8,13 +8,13 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
+from drillctl.language import known_words, nearest
 from drillctl.machine.model import AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
 from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
-from drillctl.wording import known_words, nearest
 
 # Names that a trace gives to its own signals and scopes: an axis of such a name could not be told from them.
 TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
@@ -169,9 +169,7 @@ def _check_other_end(source: Source, raw: MachineFile, index: int) -> None:
             raise source.error(reason, "sensor", index, "edge")
 
 
-def _homing(
-    source: Source, row: HomingRow, index: int, names: list[str], sensors: tuple[Sensor, ...]
-) -> HomingStep:
+def _homing(source: Source, row: HomingRow, index: int, names: list[str], sensors: tuple[Sensor, ...]) -> HomingStep:
     axes = _indexes(source, row.axes, names, "homing", index, "axes")
     sensed = {sensor.axis for sensor in sensors if sensor.end == row.end}
     for axis in axes:

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from drillctl.inputs import read_bytes, real_path
+from drillctl.files.inputs import read_bytes, real_path
+from drillctl.language import known_words
 from drillctl.machine.config import parse_machine
 from drillctl.machine.dynamics import parse_dynamics
 from drillctl.machine.errors import TableError
@@ -19,7 +20,6 @@ from drillctl.machine.parts import Parts, find_table
 from drillctl.machine.phase import parse_phase
 from drillctl.machine.ramp import parse_ramp
 from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
-from drillctl.wording import known_words
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 

@@ -8,12 +8,12 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from drillctl.language import known_words
 from drillctl.machine.dynamics import Dynamics, misfit, parse_dynamics
 from drillctl.machine.motor import Motor, parse_motor
 from drillctl.machine.phase import PhaseTable, parse_phase
 from drillctl.machine.ramp import RampTable, parse_ramp
 from drillctl.machine.source import Source
-from drillctl.wording import known_words
 
 Place = tuple[str | int, ...]
 

@@ -7,7 +7,7 @@ tables and arrays; what stands in strings and comments is passed over. tomllib i
 import re
 from collections.abc import Callable, Iterator
 
-from drillctl.inputs import toml_of
+from drillctl.files.inputs import toml_of
 
 Place = tuple[str | int, ...]  # of a value in a file, such as ("axis", 0, "range", 1)
 ItemWalk = Callable[[int], Iterator[tuple[Place, int]]]

@@ -66,7 +66,7 @@ class Setting:
 
     @property
     def names(self) -> frozenset[str]:
-        """What ``locked`` may call it; all wires together are ``wiring``."""
+        """What ``locked`` may call it; all wires together are ``ticker``."""
         if self.place[0] == WIRING:
             return frozenset({WIRING, self.key})
         return frozenset({self.key, f"{self.axis}.{self.key}"} if self.axis else {self.key})

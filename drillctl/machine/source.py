@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from drillctl.inputs import read_bytes, toml_of
+from drillctl.files.inputs import read_bytes, toml_of
 from drillctl.machine.errors import TableError
 from drillctl.machine.positions import key_lines
 

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from drillctl.language import nearest
 from drillctl.machine import Machine
-from drillctl.wording import nearest
 
 
 class PlantRefused(Exception):

@@ -14,7 +14,7 @@ from drillctl.portio.firmata_line import LISTEN_S, FirmataLine
 from drillctl.portio.firmata_pins import Board, Pins
 from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport, Firmware
 from drillctl.portio.firmata_watch import Watch
-from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring
+from drillctl.ports import SAFE_IMAGE, PortLayout, PortRefused
 
 BAUD = 57_600  # StandardFirmata's own; a sketch with another is told as DEVICE@BAUD
 SLOWEST_BAUD, FASTEST_BAUD = 300, 4_000_000
@@ -83,7 +83,7 @@ class FirmataCard:
         self._line.close()
 
 
-def open_firmata(board: Board, address: str, wiring: Wiring, listen_s: float = LISTEN_S) -> FirmataCard:
+def open_firmata(board: Board, address: str, wiring: PortLayout, listen_s: float = LISTEN_S) -> FirmataCard:
     """Opens ``[DEVICE][@BAUD]``, greets the board and makes its pins ready. Raises PortRefused; PortLost where the
     board goes away meanwhile.
 
@@ -104,7 +104,7 @@ def open_firmata(board: Board, address: str, wiring: Wiring, listen_s: float = L
     return FirmataCard(line, pins, firmware, watch)
 
 
-def max_tick_hz(board: Board, address: str, wiring: Wiring, moving_axes: Iterable[int]) -> int | None:
+def max_tick_hz(board: Board, address: str, wiring: PortLayout, moving_axes: Iterable[int]) -> int | None:
     """The most ticks a second that the line carries while these axes move; None where nothing is sent."""
     ports = {port for axis in moving_axes for port in board.ports_of(wiring.axis_outputs[axis])}
     _, baud = _split(address)

@@ -20,7 +20,7 @@ from drillctl.portio.firmata_protocol import (
     set_pin_mode,
     write_port,
 )
-from drillctl.ports import SAFE_IMAGE, PortRefused, Wiring, bits_of
+from drillctl.ports import SAFE_IMAGE, PortLayout, PortRefused, bits_of
 
 if TYPE_CHECKING:  # its serial library is loaded when such a board is opened
     from drillctl.portio.firmata_line import FirmataLine
@@ -50,7 +50,7 @@ UNO = Board("Uno", outputs=(0, 1, 2), inputs=(0, 1, 2))  # bit b is pin D b: D2.
 class Pins:
     """The pins of one board that one machine uses. Raises PortRefused for bits that the board doesn't have."""
 
-    def __init__(self, board: Board, wiring: Wiring, name: str):
+    def __init__(self, board: Board, wiring: PortLayout, name: str):
         self._board, self._name = board, name
         self._outputs = [self._pin(board.outputs, bit) for bit in bits_of(wiring.outputs)]
         self._inputs = [self._pin(board.inputs, bit) for bit in bits_of(wiring.inputs)]

@@ -16,8 +16,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol
 
-from drillctl.inputs import read_bytes, toml_of
-from drillctl.ports import SAFE_IMAGE, PortLost, PortRefused, Wiring, bits_of
+from drillctl.files.inputs import read_bytes, toml_of
+from drillctl.ports import SAFE_IMAGE, PortLayout, PortLost, PortRefused, bits_of
 
 MOST_LINES = 64  # of one request
 LARGEST_MAP_BYTES = 64 * 1024
@@ -92,7 +92,7 @@ class GpioLines:
         self._request.release()
 
 
-def open_gpio(address: str, wiring: Wiring) -> GpioLines:
+def open_gpio(address: str, wiring: PortLayout) -> GpioLines:
     """Requests the lines of the map in file ``ADDRESS``, outputs low from the first moment. Raises PortRefused."""
     lines = read_line_map(address, wiring)
     if reason := missing():
@@ -111,7 +111,7 @@ def open_gpio(address: str, wiring: Wiring) -> GpioLines:
     return GpioLines(request, lines, (Value.INACTIVE, Value.ACTIVE))
 
 
-def read_line_map(file: str, wiring: Wiring) -> LineMap:
+def read_line_map(file: str, wiring: PortLayout) -> LineMap:
     """A line map that has all bits of the machine; other bits of the map are left alone. Raises PortRefused."""
     raw = _read(file)
     chip = raw.pop("chip", None)

@@ -13,8 +13,8 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from drillctl.inputs import read_start
-from drillctl.ports import CARD_BITS, SAFE_IMAGE, Driver, PortRefused, Wiring, word
+from drillctl.files.inputs import read_start
+from drillctl.ports import CARD_BITS, SAFE_IMAGE, Driver, PortLayout, PortRefused, word
 
 MAGIC = int.from_bytes(b"DRIL", "little")
 VERSION = 1
@@ -75,7 +75,7 @@ class MappedCard:
             self._words[place + card] = word(image, card)
 
 
-def open_mapped(address: str, wiring: Wiring, card: Driver) -> MappedCard:
+def open_mapped(address: str, wiring: PortLayout, card: Driver) -> MappedCard:
     """Puts the file ``ADDRESS`` behind a simulated card. Raises PortRefused."""
     if not address:
         raise PortRefused("mapped", "where should the card's image be? Name a file: mapped:FILE")

@@ -12,7 +12,7 @@ import os
 from collections.abc import Sequence
 from contextlib import suppress
 
-from drillctl.ports import SAFE_IMAGE, PortLost, PortRefused, Wiring, word
+from drillctl.ports import SAFE_IMAGE, PortLayout, PortLost, PortRefused, word
 
 DEVICE = "/dev/port"
 REGISTERS = 8  # a card; the next one follows, unless ADDRESS says where it is
@@ -65,7 +65,7 @@ class Pcl720:
             os.close(descriptor)
 
 
-def open_pcl720(address: str, wiring: Wiring) -> Pcl720:
+def open_pcl720(address: str, wiring: PortLayout) -> Pcl720:
     """Opens the cards at ``ADDRESS[,ADDRESS..]``, by default the machine's and those after it. Raises PortRefused."""
     bases = card_bases(address, wiring)
     if reason := missing():
@@ -88,7 +88,7 @@ def lock(descriptor: int) -> None:
         raise PortRefused("pcl720", "another run is using the cards; end it first") from error
 
 
-def card_bases(address: str, wiring: Wiring) -> list[int]:
+def card_bases(address: str, wiring: PortLayout) -> list[int]:
     """Where the machine's cards are. Raises PortRefused for what is no address, or too few of them."""
     if not address:
         return [wiring.card_address + REGISTERS * card for card in range(wiring.cards)]

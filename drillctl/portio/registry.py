@@ -8,20 +8,20 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 
+from drillctl.language import known_words
 from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
-from drillctl.ports import Driver, PortRefused, Wiring
-from drillctl.wording import known_words
+from drillctl.ports import Driver, PortLayout, PortRefused
 
-Open = Callable[[str, Wiring, Driver | None], Driver]
-Rate = Callable[[str, Wiring, Iterable[int]], int | None]
+Open = Callable[[str, PortLayout, Driver | None], Driver]
+Rate = Callable[[str, PortLayout, Iterable[int]], int | None]
 
 
 def _here() -> str:
     return ""
 
 
-def _any_rate(address: str, wiring: Wiring, moving_axes: Iterable[int]) -> int | None:
+def _any_rate(address: str, wiring: PortLayout, moving_axes: Iterable[int]) -> int | None:
     return None
 
 
@@ -50,19 +50,19 @@ class Port:
     max_tick_hz: Rate = _any_rate
 
 
-def _simulated(address: str, wiring: Wiring, card: Driver | None) -> Driver:
+def _simulated(address: str, wiring: PortLayout, card: Driver | None) -> Driver:
     assert card is not None
     if address:
         raise PortRefused("simulated", f"it has no address, and so not {address!r}")
     return card
 
 
-def _mapped(address: str, wiring: Wiring, card: Driver | None) -> Driver:
+def _mapped(address: str, wiring: PortLayout, card: Driver | None) -> Driver:
     assert card is not None
     return mapped.open_mapped(address, wiring, card)
 
 
-def _real(opened: Callable[[str, Wiring], Driver]) -> Open:
+def _real(opened: Callable[[str, PortLayout], Driver]) -> Open:
     """A port that has no simulated card behind it."""
     return lambda address, wiring, card: opened(address, wiring)
 
@@ -128,7 +128,7 @@ def port_of_card(card: str) -> str:
     return spec if name in PORTS and PORTS[name].real else ""
 
 
-def rate_of(spec: str, wiring: Wiring) -> int | None:
+def rate_of(spec: str, wiring: PortLayout) -> int | None:
     """The most ticks a second that a port carries with all axes moving; None for more than any machine asks.
 
     Raises PortRefused for an unknown name.
@@ -145,7 +145,7 @@ def select(spec: str) -> tuple[Port, str]:
     return PORTS[name], address
 
 
-def check_rate(spec: str, wiring: Wiring) -> None:
+def check_rate(spec: str, wiring: PortLayout) -> None:
     """Raises PortRefused for a tick rate that a port can't carry with all axes moving, or an unknown name."""
     most_hz = rate_of(spec, wiring)
     if most_hz is not None and wiring.tick_hz > most_hz:
@@ -154,7 +154,7 @@ def check_rate(spec: str, wiring: Wiring) -> None:
         raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")
 
 
-def open_port(spec: str, wiring: Wiring, card: Driver | None = None) -> Driver:
+def open_port(spec: str, wiring: PortLayout, card: Driver | None = None) -> Driver:
     """Opens ``NAME[:ADDRESS]`` with its outputs safe; ``card`` is the simulated one, for a port that is not real.
 
     Raises PortRefused, also for a rate that it can't carry with all axes moving; PortLost where it goes away

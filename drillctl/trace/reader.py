@@ -94,9 +94,7 @@ def _check_magic(lines: _Lines, first: str) -> None:
     if magic != MAGIC:
         lines.refuse(f"not a trace: the first line must be '{MAGIC} {VERSION}'")
     if version.endswith("\r"):
-        lines.refuse(
-            "lines end in CR LF, a trace has LF alone: keep git from changing it (.gitattributes: -text)"
-        )
+        lines.refuse("lines end in CR LF, a trace has LF alone: keep git from changing it (.gitattributes: -text)")
     if version != str(VERSION):
         lines.refuse(f"trace version {quoted(version)}; this drillctl reads version {VERSION}")
 
@@ -131,9 +129,7 @@ class _Changes:
 
     def read(self) -> int:
         """All changes up to `end TICK`: returns that tick."""
-        meanings: dict[
-            str, tuple[int, int]
-        ] = {}  # the same changes come again and again: each is parsed once
+        meanings: dict[str, tuple[int, int]] = {}  # the same changes come again and again: each is parsed once
         place = -1
         for line in self._lines:
             word, _, change = line.partition(" ")
@@ -145,18 +141,14 @@ class _Changes:
             index, value = meanings[change]
             previous, place = place, tick * len(self._names) + index
             if place <= previous:
-                self._lines.refuse(
-                    f"tick {tick} {self._names[index]}: out of order (by tick, then as declared)"
-                )
+                self._lines.refuse(f"tick {tick} {self._names[index]}: out of order (by tick, then as declared)")
             self._keep(tick, index, value)
         self._lines.refuse("the file stops without 'end': it was cut short; record it again")
 
     def trace(self, header: tuple[tuple[str, str], ...], end: int, trailer: tuple[str, ...]) -> Trace:
         """What was read. The columns are canonical already."""
         ticks, signal, values = map(np.array, (self._ticks, self._signal, self._values))
-        return Trace(
-            header, tuple(map(self._signal_at, range(len(self._names)))), ticks, signal, values, end, trailer
-        )
+        return Trace(header, tuple(map(self._signal_at, range(len(self._names)))), ticks, signal, values, end, trailer)
 
     def _signal_at(self, index: int) -> Signal:
         name, words = self._names[index], tuple(self._words[index])
@@ -178,9 +170,7 @@ class _Changes:
     def _check_tick_zero(self) -> None:
         missing = [name for name, last in zip(self._names, self._last, strict=True) if last is None]
         if missing:
-            self._lines.refuse(
-                f"signal {quoted(missing[0])} has no value at tick 0: tick 0 lists all signals"
-            )
+            self._lines.refuse(f"signal {quoted(missing[0])} has no value at tick 0: tick 0 lists all signals")
 
     def _end(self, word: str) -> int:
         end = self._number(word)

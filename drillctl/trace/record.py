@@ -250,15 +250,11 @@ def _check(trace: Trace) -> None:
     if not np.isin(trace.signal, np.arange(len(trace.signals))).all():
         raise ValueError(f"a row is of no signal: there are only {len(trace.signals)}")
     if len(trace.ticks) and not 0 <= trace.ticks[0] <= trace.ticks[-1] < trace.end:
-        raise ValueError(
-            f"changes at ticks {trace.ticks[0]}..{trace.ticks[-1]}, but ticks 0..{trace.end - 1} were run"
-        )
+        raise ValueError(f"changes at ticks {trace.ticks[0]}..{trace.ticks[-1]}, but ticks 0..{trace.end - 1} were run")
     for signal, ticks, values in trace._worded():
         bad = np.flatnonzero(~KINDS[signal.kind].valid(values, signal.names, signal.width_bits))
         if len(bad):
-            raise ValueError(
-                f"signal {signal.name}: {values[bad[0]]} at tick {ticks[bad[0]]} is no {signal.kind}"
-            )
+            raise ValueError(f"signal {signal.name}: {values[bad[0]]} at tick {ticks[bad[0]]} is no {signal.kind}")
 
 
 def _same_changes(mine: tuple[Signal, Values, Values], theirs: tuple[Signal, Values, Values]) -> bool:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.inputs import read_bytes, read_start
+from drillctl.files.inputs import read_bytes, read_start
 from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Trace
 from drillctl.trace.segments import MOST_TICKS, OUTPUT, Segments

@@ -19,7 +19,7 @@ LAP = 4096  # ticks of a strip that repeats itself: long enough to copy well, sh
 CHUNK = 1 << 16  # ticks put together at once, so that the OR of the tapes stays in the cache
 
 
-class Reel:
+class ImagePool:
     """Strips of images laid end to end, of one unsigned dtype. It grows; what lies in it stays where it is."""
 
     def __init__(self, dtype: DTypeLike):

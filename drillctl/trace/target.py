@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from io import TextIOWrapper
 from typing import TextIO
 
-from drillctl import inputs
+from drillctl.files import inputs
 
 Target = str | os.PathLike[str] | TextIO
 

@@ -21,7 +21,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from drillctl.inputs import read_start
+from drillctl.files.inputs import read_start
 from drillctl.trace.record import Signal, Trace
 from drillctl.trace.target import Target, opened
 from drillctl.trace.values import is_plain, named_signal_kind, quoted

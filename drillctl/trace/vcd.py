@@ -51,13 +51,9 @@ class VcdVar:
         if (self.kind, self.part) not in _CONVERSIONS:
             raise ValueError(f"{self.scope}.{self.name}: no {self.kind} can show part {self.part}")
         if self.kind == "wire" and (self.bit is None or not 0 <= self.bit < WIDEST_BITS):
-            raise ValueError(
-                f"{self.scope}.{self.name}: a wire needs a bit, 0..{WIDEST_BITS - 1}, not {self.bit}"
-            )
+            raise ValueError(f"{self.scope}.{self.name}: a wire needs a bit, 0..{WIDEST_BITS - 1}, not {self.bit}")
         if not is_word(self.scope) or not is_word(self.name):
-            raise ValueError(
-                f"{self.scope!r} {self.name!r}: scopes and names are printable words without blanks"
-            )
+            raise ValueError(f"{self.scope!r} {self.name!r}: scopes and names are printable words without blanks")
 
 
 VcdLayout = Sequence[VcdVar]
@@ -78,9 +74,7 @@ def write_vcd(trace: Trace, target: Target, layout: VcdLayout) -> None:
     times = clock.times(np.append(ticks, trace.end)).tolist()
     with opened(target, "w") as file:
         writer = VCDWriter(file, timescale=clock.timescale, date="", comment=comment)
-        variables = [
-            writer.register_var(var.scope, var.name, var.kind, SIZES_BITS[var.kind]) for var in layout
-        ]
+        variables = [writer.register_var(var.scope, var.name, var.kind, SIZES_BITS[var.kind]) for var in layout]
         for time, index, value in zip(times, variable.tolist(), values.tolist(), strict=False):
             writer.change(variables[index], time, value)
         writer.close(times[-1])
@@ -151,9 +145,7 @@ def _changes(trace: Trace, var: VcdVar) -> Column:
     ticks, values = trace.changes_of(var.source)
     signal = trace.signals[trace.index_of(var.source)]
     if var.part and signal.kind != "command":
-        raise ValueError(
-            f"{var.scope}.{var.name}: signal {var.source} is a {signal.kind}, it has no {var.part}"
-        )
+        raise ValueError(f"{var.scope}.{var.name}: signal {var.source} is a {signal.kind}, it has no {var.part}")
     shown = _CONVERSIONS[var.kind, var.part](values, signal, var)
     changes = np.append(True, shown[1:] != shown[:-1])[: len(shown)]
     return ticks[changes], shown[changes]

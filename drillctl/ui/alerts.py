@@ -6,13 +6,14 @@ nothing, so that an Enter meant for something else moves nothing. Used by app.py
 
 from collections.abc import Callable
 
-from drillctl.panel.console import Console, MachineView, ToolWanted
-from drillctl.panel.records import FaultReport
-from drillctl.ui import dialogs
+from drillctl.language.sentences import told
+from drillctl.language.words import _
 from drillctl.ui.layers import Layers
-from drillctl.ui.texts import Text
-from drillctl.ui.told import told
-from drillctl.ui.words import _
+from drillctl.ui.screens.board_facts import tool_name
+from drillctl.ui.widgets import dialogs
+from drillctl.ui.widgets.texts import Text
+from drillctl.viewmodel.console import Console, MachineView, ToolWanted
+from drillctl.viewmodel.records import FaultReport
 
 
 class Alerts:
@@ -79,16 +80,6 @@ class Alerts:
 
     def _acknowledge(self) -> None:
         self._console.acknowledge()
-
-
-def tool_name(tool: ToolWanted) -> str:
-    """``T3, 1.000 mm``, and the drill at hand that serves it where it is of another diameter."""
-    name = f"T{tool.number}"
-    if tool.diameter_mm is not None:
-        name += f", {tool.diameter_mm:.3f} mm"
-    if tool.drill_mm is not None:
-        name += _(", the drill of {diameter:.3f} mm").format(diameter=tool.drill_mm)
-    return name
 
 
 def _fault_title(fault: FaultReport) -> str:

@@ -11,20 +11,19 @@ from typing import TextIO
 
 import urwid
 
-from drillctl.panel.console import Console
+from drillctl.language.sentences import told
+from drillctl.language.words import _
 from drillctl.ui.alerts import Alerts
-from drillctl.ui.boxes import Boxes
 from drillctl.ui.frame import MainFrame, screen_keys
-from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
-from drillctl.ui.layers import Layers
+from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.menus import MENUS, Item, PullDown
 from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import Files
-from drillctl.ui.shell import Live, Shell, unsaved
-from drillctl.ui.themes import palette
-from drillctl.ui.told import told
-from drillctl.ui.unfinished import offer_unfinished
-from drillctl.ui.words import _
+from drillctl.ui.screens.shell import Live, Shell, unsaved
+from drillctl.ui.screens.unfinished import offer_unfinished
+from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
+from drillctl.ui.widgets.themes import palette
+from drillctl.viewmodel.console import Console
 
 BEAT_S = 0.05
 FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off

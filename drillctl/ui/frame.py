@@ -8,13 +8,13 @@ from typing import Any
 
 import urwid
 
-from drillctl.panel.console import MachineView
-from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
-from drillctl.ui.lines import Line, Size, boxed, packed
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.menus import MENUS, hot_letter, label_markup, plain_label
-from drillctl.ui.texts import Text
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
+from drillctl.ui.widgets.lines import Line, Size, boxed, packed
+from drillctl.ui.widgets.texts import Text
+from drillctl.viewmodel.console import MachineView
 
 # Condition: how it is shown, and its word.
 CONDITIONS = {

@@ -4,13 +4,15 @@ Rule: only the topmost gets keys. Where a box lies is worked out anew whenever o
 changes. Used by app.py.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import urwid
 
-from drillctl.ui import dialogs
 from drillctl.ui.menus import PullDown
+from drillctl.ui.widgets import dialogs
+from drillctl.ui.widgets.forms import Choice, Field, FieldsDialog, offer
+from drillctl.viewmodel.console import Problems
 
 
 @dataclass(frozen=True)
@@ -91,3 +93,34 @@ def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: in
     width, height = min(box.columns, columns), min(box.rows_wanted, rows - top)
     shifted = max(0, min(left, columns - width))
     return urwid.Overlay(box, below, "left", width, "top", height, left=shifted, top=top)
+
+
+class Boxes:
+    """Lays its boxes on ``layers``."""
+
+    def __init__(self, layers: Layers):
+        self.layers = layers
+
+    def message(self, title: str, lines: Sequence[str]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop))
+
+    def ask(self, question: str, yes: Callable[[], None]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(dialogs.question(question, yes, self.layers.pop))
+
+    def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(dialogs.entry(title, prompt, text, accept, self.layers.pop))
+
+    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(FieldsDialog(title, fields, accept, self.layers.pop))
+
+    def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(Choice(title, lines, chosen, self.layers.pop))
+
+    def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
+        """See Shell."""
+        self.layers.push_dialog(offer(title, lines, ways, self.layers.pop))

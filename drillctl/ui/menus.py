@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import urwid
 
-from drillctl.ui.formats import FORMATS
-from drillctl.ui.lines import Line, Size
-from drillctl.ui.pick import Pick
-from drillctl.ui.texts import Box
-from drillctl.ui.words import N_, _
+from drillctl.language.words import N_, _
+from drillctl.ui.screens.formats import FORMATS
+from drillctl.ui.widgets.lines import Line, Size
+from drillctl.ui.widgets.pick import Pick
+from drillctl.ui.widgets.texts import Box
 
 
 class Item(NamedTuple):

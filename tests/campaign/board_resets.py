@@ -14,9 +14,9 @@ import numpy as np
 from drillctl.execution.stops import raise_fault
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.wishes import Wishes
+from drillctl.jobs.runner import JobRunner
 from drillctl.kmd import Fault
 from drillctl.machine import Library, Machine, shipped_tables
-from drillctl.panel import Outcome
 from drillctl.plant import IdealPlant
 from drillctl.portio.firmata import FirmataCard
 from drillctl.portio.firmata_line import FirmataLine
@@ -24,11 +24,11 @@ from drillctl.portio.firmata_pins import MEGA, Pins
 from drillctl.portio.firmata_protocol import Decoder, Firmware, Message
 from drillctl.portio.firmata_watch import Watch
 from drillctl.ports import PortLost
-from drillctl.wiring.desk import Desk
-from drillctl.wiring.link import LocalLink
-from drillctl.wiring.machinery import wiring_of
-from drillctl.wiring.ticker import Ticker
-from drillctl.wiring.vouched import VouchedStatus
+from drillctl.ticker.confirmed_status import VouchedStatus
+from drillctl.ticker.launch import wiring_of
+from drillctl.ticker.link import LocalLink
+from drillctl.ticker.ticker import Ticker
+from drillctl.viewmodel import Outcome
 from tests.portio.firmata_stand_in import Faults, Sketch
 
 BOARD = "M48\nMETRIC\nT1C0.800\n%\nG90\nG05\nT1\nX0.02Y0.02\nX0.06Y0.02\nX0.06Y0.05\nM30\n"
@@ -193,6 +193,5 @@ def short_job(folder: Path) -> Job:
 def play(job: Job, reset: Reset) -> Played:
     """Drills the job, with this reset, to its end."""
     link = ResettingLink(job.machine, reset)
-    outcome = Desk(job, link, lambda progress: None).run().outcome
+    outcome = JobRunner(job, link, lambda progress: None).run().outcome
     return Played(outcome, link.line.plant.touches, link.woken, link.told_after)
-

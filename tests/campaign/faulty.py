@@ -16,10 +16,10 @@ from types import SimpleNamespace
 from typing import Any
 
 from drillctl.cli import main
-from drillctl.generation.journal import writer
+from drillctl.jobs.journal import writer
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.wiring import machinery
+from drillctl.ticker import launch as machinery
 
 Plan = dict[str, Any]
 

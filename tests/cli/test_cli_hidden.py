@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import VERBS, main, parser
+from drillctl.language import LINES, visible
 from drillctl.machine import shipped_tables
-from drillctl.wording import LINES, visible
 
 # A title, a colour, C1, a carriage return, a bidi override, no width, a byte that is no UTF-8.
 NASTY = "n\x1b]0;t\x07\x1b[31m\x9b2J\r\u202e\u200b\udcff"

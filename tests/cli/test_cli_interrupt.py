@@ -13,12 +13,12 @@ import pytest
 
 from drillctl.generation.job import load_job
 from drillctl.generation.wishes import Wishes
+from drillctl.jobs.runner import JobResult, JobRunner
 from drillctl.machine import Library, shipped_tables
-from drillctl.panel import Progress
 from drillctl.ports import SAFE_IMAGE
-from drillctl.wiring.desk import Desk, Run
-from drillctl.wiring.link import LocalLink
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.link import LocalLink
+from drillctl.ticker.ticker import Ticker
+from drillctl.viewmodel import Progress
 
 Started = Callable[..., "subprocess.Popen[str]"]
 SIGNALS = pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
@@ -83,12 +83,12 @@ def tickers(monkeypatch: pytest.MonkeyPatch) -> list[Ticker]:
     return made
 
 
-def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> Run:
+def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> JobResult:
     (folder / "q.kmd").write_text(text)
     machine = Library((shipped_tables(),)).machine("pcb-drill")
     job = load_job(folder / "q.kmd", machine, Wishes())
     with closing(LocalLink.simulated(machine)) as link:
-        return Desk(job, link, watcher).run()
+        return JobRunner(job, link, watcher).run()
 
 
 def at_tick(ticks: int, act: Callable[[], None]) -> Callable[[Progress], None]:

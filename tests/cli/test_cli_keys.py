@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.generation.journal import read_journal
+from drillctl.jobs.journal import read_journal
+from drillctl.jobs.keys import HELP
 from drillctl.kmd.channel import Channel
 from drillctl.portio.mapped import read_map
-from drillctl.wiring.terminal_keys import HELP
 from tests.support.terminal import Terminal
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
+from drillctl.console.machine_console import MachineConsole
+from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
-from drillctl.station.station import Station
-from drillctl.ui import words
-from drillctl.wiring.machinery import Running
+from drillctl.ticker.launch import RunSettings
 from tests.ui.desk import Paper
 
 QUEUE = "KMD_CZEKAJ 3\nKMD_KONIEC\n"
@@ -104,7 +104,7 @@ def test_the_second_line_of_the_screen(language: str, place: Path) -> None:
             if local:
                 put(place / "tables", RAMP)
             library = Library.standard()
-            station = Station(library, library.machine("pcb-drill"), Running("simulated", "free"))
+            station = MachineConsole(library, library.machine("pcb-drill"), RunSettings("simulated", "free"))
             try:
                 paper = Paper()
                 program = App(station, terminal=paper)
@@ -121,7 +121,7 @@ def test_the_second_line_of_the_screen(language: str, place: Path) -> None:
 def test_a_choice_on_the_screen_writes_nothing_beside_it(place: Path, capfd: pytest.CaptureFixture[str]) -> None:
     put(place / "tables", MACHINE)
     library = Library.standard()
-    station = Station(library, library.machine("boiler-drum"), Running("simulated", "free"))
+    station = MachineConsole(library, library.machine("boiler-drum"), RunSettings("simulated", "free"))
     try:
         assert not station.choose_machine("pcb-drill")
         assert station.view().local

@@ -12,13 +12,13 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
-from drillctl.generation.journal import read_journal
+from drillctl.jobs import session
+from drillctl.jobs.journal import read_journal
+from drillctl.jobs.site import site_of
 from drillctl.machine import shipped_tables
-from drillctl.panel.jobs import Site
 from drillctl.ports import PortRefused
-from drillctl.wiring import session
-from drillctl.wiring.machinery import Running
-from drillctl.wiring.site import site_of
+from drillctl.ticker.launch import RunSettings
+from drillctl.viewmodel.jobs import Site
 from tests.support.journalled import BOARD, SITE, forged, keep_lines, lines_of, resume, run
 
 BOARD_AT_USB = Site("firmata:/dev/ttyACM0", "real", "none")
@@ -42,7 +42,7 @@ def started(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Started:
     head, *lines = lines_of(folder / "j")
     begun: list[Site] = []
 
-    def start(machine: object, running: Running, status_file: Path) -> None:
+    def start(machine: object, running: RunSettings, status_file: Path) -> None:
         begun.append(site_of(running))
         raise PortRefused(running.port, "not here")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.generation.journal import read_journal
+from drillctl.jobs.journal import read_journal
 from tests.cli.conftest import COMMAND
 from tests.support.terminal import Terminal
 

@@ -37,11 +37,7 @@ class Case:
 
 EVERY_DISTANCE = [Case(ramp, way) for ramp in RAMPS for way in BOTH_WAYS]
 SHORTER = [
-    Case(ramp, way, columns, floor)
-    for ramp in RAMPS
-    for way in BOTH_WAYS
-    for columns in (1, 2, 6)
-    for floor in FLOORS
+    Case(ramp, way, columns, floor) for ramp in RAMPS for way in BOTH_WAYS for columns in (1, 2, 6) for floor in FLOORS
 ]
 
 

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from drillctl.generation.job import names_of
 from drillctl.kmd import Request, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
+from drillctl.ticker.fast_ticker import FastTicker
+from drillctl.ticker.ticker import Ticker
 from drillctl.trace import first_difference, render
-from drillctl.wiring.fast_ticker import FastTicker
-from drillctl.wiring.ticker import Ticker
 from tests.support.twins import remembered, trace, twins
 
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from drillctl.generation.job import names_of
 from drillctl.kmd import Condition, Fault, Request, parse_program
 from drillctl.machine import Machine
-from drillctl.wiring.fast_ticker import FastTicker
+from drillctl.ticker.fast_ticker import FastTicker
 from tests.support.bench import MACHINES, Bench, shipped
 
 JOB = "KMD_GOTO_X_Y 60 25; KMD_WIERTLO_DOL; KMD_WIERTLO_GORA; KMD_CZEKAJ 30; KMD_LINIA x=5 y=60"

@@ -32,9 +32,7 @@ MEGA_PINS = (
     | _pins(38, "D7", "G2", "G1", "G0", *(f"L{n}" for n in reversed(range(8))), "B3", "B2", "B1", "B0")
     | _pins(54, *(f"F{n}" for n in range(8)), *(f"K{n}" for n in range(8)))
 )
-UNO_PINS = _pins(
-    2, *(f"D{n}" for n in range(2, 8)), *(f"B{n}" for n in range(6)), *(f"C{n}" for n in range(6))
-)
+UNO_PINS = _pins(2, *(f"D{n}" for n in range(2, 8)), *(f"B{n}" for n in range(6)), *(f"C{n}" for n in range(6)))
 
 
 @dataclass(frozen=True)

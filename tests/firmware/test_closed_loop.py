@@ -15,8 +15,8 @@ import pytest
 
 from drillctl.machine import Library, shipped_tables
 from drillctl.plant import IdealPlant
+from drillctl.replay.replay import replay
 from drillctl.trace import Trace, dense, read_text
-from drillctl.wiring.replay import replay
 from tests.firmware import board as boards
 from tests.firmware.board import SimulatedBoard
 from tests.firmware.job import HOLES_MM, SPINDLE_PIN, STEPS_PER_MM, drillctl, write_job

@@ -12,7 +12,7 @@ import pytest
 from drillctl.portio import firmata_pins
 from drillctl.portio.firmata import FirmataCard, open_firmata
 from drillctl.portio.firmata_protocol import PinState, query_pin
-from drillctl.ports import PortLost, PortRefused, Wiring, bits_of
+from drillctl.ports import PortLayout, PortLost, PortRefused, bits_of
 from tests.firmware import board as boards
 from tests.firmware.board import SimulatedBoard, wait_until
 
@@ -29,7 +29,7 @@ class Case:
 
     kind: boards.Kind
     pinout: firmata_pins.Board
-    wiring: Wiring
+    wiring: PortLayout
     output_pins: dict[int, int]
     input_pins: dict[int, int]
 
@@ -43,14 +43,14 @@ PHASES = 0b0110_1111  # one motor's byte of the paper's Table 1
 MEGA = Case(
     boards.MEGA,
     firmata_pins.MEGA,
-    Wiring(500, 0, (PHASES, PHASES << 8, PHASES << 16), 1 << 24, 0b11_0000_0011_1111),
+    PortLayout(500, 0, (PHASES, PHASES << 8, PHASES << 16), 1 << 24, 0b11_0000_0011_1111),
     {0: 16, 1: 17, 6: 22, 8: 24, 14: 30, 16: 32, 22: 38, 24: 48},
     {0: 40, 5: 45, 12: 60, 13: 61},
 )
 UNO = Case(
     boards.UNO,
     firmata_pins.UNO,
-    Wiring(500, 0, (0b0010_0100 | 1 << 14, 0b0100_1000 | 1 << 15, 0b1001_0000 | 1 << 16), 1 << 12, 0b1110 << 8),
+    PortLayout(500, 0, (0b0010_0100 | 1 << 14, 0b0100_1000 | 1 << 15, 0b1001_0000 | 1 << 16), 1 << 12, 0b1110 << 8),
     {2: 2, 5: 5, 3: 3, 4: 4, 7: 7, 14: 14, 15: 15, 16: 16, 12: 12},
     {9: 9, 10: 10, 11: 11},
 )

@@ -47,9 +47,7 @@ def test_every_hole_is_drilled_once(points: list[Pair], travel: TravelCost, star
 
 @slow
 @given(holes, travels, places)
-def test_optimised_is_never_longer_than_the_cheap_orders(
-    points: list[Pair], travel: TravelCost, start: Pair
-) -> None:
+def test_optimised_is_never_longer_than_the_cheap_orders(points: list[Pair], travel: TravelCost, start: Pair) -> None:
     ticks = {how: path_ticks(points, plan(points, travel, how, start), travel, start) for how in HOWS}
     assert ticks["optimised"] <= min(ticks["nearest"], ticks["file"])
 

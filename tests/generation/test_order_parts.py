@@ -6,9 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from drillctl.generation.order.improve import Improver
+from drillctl.generation.order.improve import Improver, Path
 from drillctl.generation.order.neighbours import find_neighbours
-from drillctl.generation.order.path import Path
 from drillctl.generation.order.plan import path_ticks
 from drillctl.generation.order.travel import TravelCost
 
@@ -17,9 +16,7 @@ TRAVEL = TravelCost(RAMP_TICKS, RAMP_TICKS)
 
 crowd = st.integers(0, 9)
 spread = st.integers(0, 4000)
-clustered = st.lists(
-    st.tuples(crowd, crowd) | st.tuples(spread, spread), min_size=1, max_size=150
-).map(np.array)
+clustered = st.lists(st.tuples(crowd, crowd) | st.tuples(spread, spread), min_size=1, max_size=150).map(np.array)
 
 
 def sorted_by_cost(
@@ -54,9 +51,7 @@ def test_neighbour_lists_are_exact(points: NDArray[np.int64], count: int) -> Non
 def test_neighbour_lists_trust_no_tables_shape(ticks: NDArray[np.int64]) -> None:
     points = np.random.default_rng(6).integers(0, 5000, (300, 2))
     travel = TravelCost(ticks, RAMP_TICKS)
-    np.testing.assert_array_equal(
-        find_neighbours(points, travel, 8).index, sorted_by_cost(points, travel, 8)[0]
-    )
+    np.testing.assert_array_equal(find_neighbours(points, travel, 8).index, sorted_by_cost(points, travel, 8)[0])
 
 
 def test_turning_and_swapping_by_hand() -> None:

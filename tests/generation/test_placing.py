@@ -48,9 +48,7 @@ def as_filed(**options: Any) -> Placing:
         pytest.param(as_filed(rotate_deg=90), [[-20, 10], [-20, 40], [-25, 10]], id="left turn"),
         pytest.param(as_filed(rotate_deg=-90), [[20, -10], [20, -40], [25, -10]], id="right turn"),
         pytest.param(Placing(rotate_deg=180), [[30, 5], [0, 5], [30, 0]], id="upside down"),
-        pytest.param(
-            as_filed(mirror="x", rotate_deg=90), [[-20, -10], [-20, -40], [-25, -10]], id="mirror first"
-        ),
+        pytest.param(as_filed(mirror="x", rotate_deg=90), [[-20, -10], [-20, -40], [-25, -10]], id="mirror first"),
     ],
 )
 def test_where_the_holes_come_to_lie(placing: Placing, expected_mm: list[list[float]]) -> None:

@@ -9,11 +9,11 @@ import pytest
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.recipe import Recipe
+from drillctl.jobs.estimate import estimate
+from drillctl.jobs.session import Session
 from drillctl.kmd import Op
 from drillctl.machine import Library, Machine
-from drillctl.wiring.estimate import estimate
-from drillctl.wiring.machinery import Running
-from drillctl.wiring.session import Session
+from drillctl.ticker.launch import RunSettings
 from tests.support.journalled import BOARD
 
 FULL = Recipe(
@@ -63,7 +63,7 @@ def test_measured_holes_and_a_file_of_them_are_the_same(tmp_path: Path, machine:
 @pytest.mark.parametrize("base", [(0, 0), (600, 240), (0, 48)])
 def test_the_estimate_is_exact_from_any_base(base: tuple[int, int], tmp_path: Path, machine: Machine) -> None:
     job = job_of(Recipe(machine="pcb-drill", base=base), tmp_path, machine)
-    outcome = Session(job, Running()).run(lambda progress: None).outcome
+    outcome = Session(job, RunSettings()).run(lambda progress: None).outcome
     assert outcome.fault is None and outcome.ticks == estimate(job).ticks
     assert [outcome.position[name] for name in ("x", "y")] == list(base)
     assert (Op.BAZA in job.program["opcode"]) == any(base)
@@ -72,7 +72,7 @@ def test_the_estimate_is_exact_from_any_base(base: tuple[int, int], tmp_path: Pa
 def test_a_base_moves_every_hole_as_far(tmp_path: Path, machine: Machine) -> None:
     base = (600, 240)
     made = {
-        where: Session(job_of(Recipe(machine="pcb-drill", base=where), tmp_path, machine), Running())
+        where: Session(job_of(Recipe(machine="pcb-drill", base=where), tmp_path, machine), RunSettings())
         .run(lambda progress: None)
         .holes
         for where in ((0, 0), base)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from drillctl.kmd import CAPACITY, RECORD, STATUS, Command, Gate, Queue, Request, Requests
 from drillctl.kmd.channel import CHANNEL, Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.kmd.queue import MOST_HANDS, bit_and_value, hand_of
-from drillctl.wiring.children import Child
+from drillctl.ticker.processes import Child
 
 PUBLISHED, SEEN = 2_000_000, 300  # at the most, and enough
 ASKED = [request for request in Request if request not in (Request.NONE, Request.OUTPUT)]

@@ -7,20 +7,24 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from drillctl.kmd import RECORD, KmdError, Names, Op, parse_program, to_text
-from drillctl.kmd.commands import BY_OP, MOST_ARGUMENT, Form
+from drillctl.kmd.commands import BY_OP, MOST_ARGUMENT, ArgumentForm
 
 NAMES = Names(("x", "y", "z"), {"spindle": 18, "clamp": 40}, {"x_min": 0, "z_top": 4})
 INTEGERS = st.integers(-MOST_ARGUMENT, MOST_ARGUMENT)
 NATURALS = st.integers(0, MOST_ARGUMENT)
 AXES = st.lists(st.sampled_from(NAMES.axes), max_size=3, unique=True)
 ARGUMENTS = {
-    Form.NOTHING: st.just([]),
-    Form.XY: st.tuples(INTEGERS, INTEGERS),
-    Form.MOVES: AXES.filter(bool).flatmap(lambda axes: st.tuples(*(INTEGERS.map(f"{a}={{}}".format) for a in axes))),
-    Form.AXES: AXES,
-    Form.NUMBER: st.tuples(NATURALS),
-    Form.OUTPUT: st.tuples(st.sampled_from(sorted(NAMES.outputs)), st.sampled_from([0, 1])),
-    Form.INPUT: st.tuples(st.sampled_from(sorted(NAMES.inputs)), st.sampled_from([0, 1]), NATURALS.filter(bool)),
+    ArgumentForm.NOTHING: st.just([]),
+    ArgumentForm.XY: st.tuples(INTEGERS, INTEGERS),
+    ArgumentForm.MOVES: AXES.filter(bool).flatmap(
+        lambda axes: st.tuples(*(INTEGERS.map(f"{a}={{}}".format) for a in axes))
+    ),
+    ArgumentForm.AXES: AXES,
+    ArgumentForm.NUMBER: st.tuples(NATURALS),
+    ArgumentForm.OUTPUT: st.tuples(st.sampled_from(sorted(NAMES.outputs)), st.sampled_from([0, 1])),
+    ArgumentForm.INPUT: st.tuples(
+        st.sampled_from(sorted(NAMES.inputs)), st.sampled_from([0, 1]), NATURALS.filter(bool)
+    ),
 }
 SPECS = [spec for spec in BY_OP.values() if spec.op is not Op.KONIEC]
 LINES = st.sampled_from(SPECS).flatmap(

@@ -14,11 +14,11 @@ import pytest
 
 from drillctl.lab import latency
 from drillctl.lab.latency import MOST_PROCESSORS, LatencyError, measure
-from drillctl.lab.wakes import WakeLog
+from drillctl.lab.wakeups import WakeLog
 from drillctl.machine import Library, Machine
-from drillctl.panel.latency import LatencyReport
-from drillctl.ui.latency import latency_lines
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.ticker import Ticker
+from drillctl.ui.terminal.reports import latency_lines
+from drillctl.viewmodel.latency import LatencyReport
 
 COMMAND = (sys.executable, "-m", "drillctl", "latency")
 LONG_S = 600

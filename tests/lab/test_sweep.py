@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 from drillctl.cli import main
+from drillctl.cli.number_lists import numbers, whole_numbers
 from drillctl.lab.answers import answer, chunk_size, chunks
 from drillctl.lab.errors import LabError
-from drillctl.lab.numbers import numbers, whole_numbers
 from drillctl.lab.question import PARAMETERS, SPREAD, Question
-from drillctl.lab.results import Results
-from drillctl.lab.sweep import Crew, sweep
+from drillctl.lab.sweep import Results, WorkerPool, sweep
 from drillctl.lab.sweep_picture import losing, sweep_picture
 from drillctl.lab.tables import axis_of, phases, ramps
 from drillctl.machine import Library, shipped_tables
@@ -37,10 +36,10 @@ ASKED = Question(
 SOUND = ("two-phase-forced", "seven-state", "300")
 
 
-def answered(question: Question, path: Path, crew: Crew | None = None) -> bytes:
+def answered(question: Question, path: Path, crew: WorkerPool | None = None) -> bytes:
     """The whole file, gone on with where it has been begun."""
     with Results(path, question) as results:
-        done = [*sweep(question, results, crew or Crew())]
+        done = [*sweep(question, results, crew or WorkerPool())]
     assert done == sorted(set(done)) and done[-1:] in ([], [question.machines])
     return path.read_bytes()
 
@@ -82,7 +81,7 @@ def test_it_finds_what_loses_steps(whole: bytes) -> None:
 
 def test_two_processes_give_the_same_bytes(whole: bytes, tmp_path: Path) -> None:
     assert len(chunks(ASKED)) > 1
-    assert answered(ASKED, tmp_path / "r.csv", Crew(workers=2)) == whole
+    assert answered(ASKED, tmp_path / "r.csv", WorkerPool(workers=2)) == whole
 
 
 def test_an_interrupted_sweep_goes_on(whole: bytes, tmp_path: Path) -> None:
@@ -114,9 +113,9 @@ def test_one_interrupted_in_its_first_lines_begins_anew(tmp_path: Path) -> None:
 def test_what_is_done_is_not_tried_again(whole: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "r.csv"
     file.write_bytes(whole)
-    monkeypatch.setattr("drillctl.lab.crowd.answer", lambda question, chunk: pytest.fail("tried again"))
+    monkeypatch.setattr("drillctl.lab.workers.answer", lambda question, chunk: pytest.fail("tried again"))
     with Results(file, replace(ASKED)) as results:
-        assert results.rows == ASKED.machines and [*sweep(ASKED, results, Crew())] == []
+        assert results.rows == ASKED.machines and [*sweep(ASKED, results, WorkerPool())] == []
 
 
 @pytest.mark.parametrize(
@@ -266,15 +265,15 @@ def test_a_cluster_of_two_workers_gives_the_same_bytes(whole: bytes, tmp_path: P
     pytest.importorskip("joblib")
     settings = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None, "local_directory": str(tmp_path)}
     with distributed.LocalCluster(**settings) as cluster:
-        crew = Crew(cluster=cluster.scheduler_address)
+        crew = WorkerPool(cluster=cluster.scheduler_address)
         assert answered(ASKED, tmp_path / "r.csv", crew) == whole
 
 
 def test_nobody_at_the_cluster_s_address_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed", reason="dask is an extra: pip install '.[cluster]'")
-    monkeypatch.setattr("drillctl.lab.crowd.CONNECT_S", 0.5)
+    monkeypatch.setattr("drillctl.lab.workers.CONNECT_S", 0.5)
     with pytest.raises(LabError, match="no dask scheduler answers there"):
-        answered(ASKED, tmp_path / "r.csv", Crew(cluster="tcp://127.0.0.1:9"))
+        answered(ASKED, tmp_path / "r.csv", WorkerPool(cluster="tcp://127.0.0.1:9"))
 
 
 def test_an_answer_is_the_same_alone_and_in_its_chunk(whole: bytes) -> None:

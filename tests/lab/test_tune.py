@@ -9,10 +9,9 @@ import pytest
 from drillctl.cli import main
 from drillctl.lab import ramp_trials
 from drillctl.lab.errors import LabError
-from drillctl.lab.ramp_text import ramp_text
 from drillctl.lab.ramp_trials import Bench
 from drillctl.lab.retargeting import first_missed, targets_tried
-from drillctl.lab.tune import Profile, Tuned, _faster, ramp_of, tune
+from drillctl.lab.tune import Profile, Tuned, _faster, ramp_of, ramp_text, tune
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.ramp import RampTable, read_ramp
 

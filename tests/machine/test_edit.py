@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from drillctl.machine import Library, TableError, shipped_tables
-from drillctl.machine.edit import set_pattern, set_reverse, set_state_row, set_value
-from drillctl.machine.edit_ramp import with_states, without_states
+from drillctl.machine.edit import set_pattern, set_reverse, set_state_row, set_value, with_states, without_states
 from drillctl.machine.ramp import parse_ramp, proposals, ramp_rows
 from drillctl.machine.source import Source
 

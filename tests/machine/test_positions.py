@@ -15,15 +15,18 @@ from drillctl.machine import TableError, shipped_tables
 from drillctl.machine.positions import Place, key_lines
 from drillctl.machine.source import Source
 
-TEXT = '''# [comment]
+TEXT = (
+    '''# [comment]
 name = "a # no comment"          # tick_hz = 1
 description = """
 tick_hz = 5
 [[axis]]
 a quote at the end: \\""""""
-"quoted key" = ''''''
+"quoted key" = '''
+    """
 x = 1
-''''''
+"""
+    """
 a."b.c".d = 1_000
 rows = [
   1, # one
@@ -45,7 +48,8 @@ bit = 0x2A
 bit = 7
 [wiring]
 "x.1a" = 0
-'''.replace("''''''", "'" * 3)
+""".replace("''''''", "'" * 3)
+)
 
 
 @pytest.mark.parametrize(

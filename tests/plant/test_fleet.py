@@ -22,7 +22,9 @@ lanes = st.builds(
     dynamics=st.sampled_from([table.dynamics for table in TABLES]).flatmap(
         lambda d: st.builds(
             lambda inductance, inertia, friction: replace(
-                d, inductance_h=d.inductance_h * inductance, inertia_kgm2=d.inertia_kgm2 * inertia,
+                d,
+                inductance_h=d.inductance_h * inductance,
+                inertia_kgm2=d.inertia_kgm2 * inertia,
                 coulomb_nm=d.coulomb_nm * friction,
             ),
             *[st.floats(0.5, 2.0)] * 3,

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drillctl.lab.broken import BROKEN, direct_start
 from drillctl.lab.moves import move
+from drillctl.lab.tables import BROKEN, direct_start
 from drillctl.lab.trials import Trial, errors_full_steps, lost
 from drillctl.machine import AxisTable, Library, shipped_tables
 

@@ -6,12 +6,12 @@ import pytest
 
 from drillctl.generation.job import load_job
 from drillctl.generation.wishes import Wishes
+from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library, shipped_tables
-from drillctl.panel import Outcome
 from drillctl.plant import PlantChoice
-from drillctl.wiring.desk import Desk
-from drillctl.wiring.link import LocalLink
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.link import LocalLink
+from drillctl.ticker.ticker import Ticker
+from drillctl.viewmodel import Outcome
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 # Two holes: a way of some 500 steps in X and 300 in Y between them.
@@ -23,7 +23,7 @@ def drilled(file: Path, tick_hz: int) -> Outcome:
     """On pcb-drill with its nominal figures."""
     machine = Library((shipped_tables(),)).machine("pcb-drill").at_rate(tick_hz)
     link = LocalLink(Ticker.simulated(machine, plant_choice=PlantChoice("dynamic")))
-    return Desk(load_job(file, machine, Wishes()), link, lambda progress: None).run().outcome
+    return JobRunner(load_job(file, machine, Wishes()), link, lambda progress: None).run().outcome
 
 
 def loses(outcome: Outcome) -> bool:

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 import pytest
 
 from drillctl.plant import Plant
-from drillctl.ports import LONGEST_WAIT_S, Driver, Wiring, bits_of
+from drillctl.ports import LONGEST_WAIT_S, Driver, PortLayout, bits_of
 
 # One card: three motors of the paper's six wires, a spindle; six sensors.
 MOTOR = 0b0110_1111
-WIRING = Wiring(500, 0x2A0, (MOTOR, MOTOR << 8, MOTOR << 16), 1 << 24, 0b11_1111)
+WIRING = PortLayout(500, 0x2A0, (MOTOR, MOTOR << 8, MOTOR << 16), 1 << 24, 0b11_1111)
 PATIENCE_S = 2.0
 QUICK_S = 0.03  # no wait: far below anything that sleeps, well above a busy computer's hiccup on average
 

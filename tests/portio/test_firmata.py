@@ -10,7 +10,7 @@ import pytest
 from drillctl.portio import firmata_line
 from drillctl.portio.firmata import FirmataCard, max_tick_hz, open_firmata, usb_devices
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
-from drillctl.ports import LONGEST_WAIT_S, PortError, PortLost, PortRefused, PortSlow, Wiring
+from drillctl.ports import LONGEST_WAIT_S, PortError, PortLayout, PortLost, PortRefused, PortSlow
 from tests.portio.conformance import MOTOR, WIRING
 from tests.portio.firmata_stand_in import Faults, StandIn
 
@@ -150,13 +150,13 @@ def settle(board: StandIn) -> None:
 @pytest.mark.parametrize(
     ("board", "wiring", "reason"),
     [
-        (MEGA, Wiring(500, 0, (1 << 32,), 0, 0), r"bit 32; a Mega has bits 0\.\.31"),
-        (MEGA, Wiring(500, 0, (1,), 0, 1 << 16), r"bit 16; a Mega has bits 0\.\.15"),
-        (UNO, Wiring(500, 0, (0b10,), 0, 0), "D1 is the serial line's own"),
-        (UNO, Wiring(500, 0, (1 << 9,), 0, 1 << 9), "D9 both as output and as input"),
+        (MEGA, PortLayout(500, 0, (1 << 32,), 0, 0), r"bit 32; a Mega has bits 0\.\.31"),
+        (MEGA, PortLayout(500, 0, (1,), 0, 1 << 16), r"bit 16; a Mega has bits 0\.\.15"),
+        (UNO, PortLayout(500, 0, (0b10,), 0, 0), "D1 is the serial line's own"),
+        (UNO, PortLayout(500, 0, (1 << 9,), 0, 1 << 9), "D9 both as output and as input"),
     ],
 )
-def test_wiring_that_a_board_does_not_have(board: Board, wiring: Wiring, reason: str) -> None:
+def test_wiring_that_a_board_does_not_have(board: Board, wiring: PortLayout, reason: str) -> None:
     with pytest.raises(PortRefused, match=reason):
         open_firmata(board, "/dev/null", wiring)
 
@@ -197,5 +197,5 @@ def test_the_rate_that_a_line_carries(address: str, axes: tuple[int, ...], wante
 
 
 def test_motors_that_share_a_port_cost_one_message() -> None:
-    shared = Wiring(500, 0, (0b0000_1111, 0b1111_0000), 0, 0)
+    shared = PortLayout(500, 0, (0b0000_1111, 0b1111_0000), 0, 0)
     assert max_tick_hz(MEGA, "", shared, (0, 1)) == 5472 // 3

@@ -11,7 +11,7 @@ from drillctl.portio.firmata import FirmataCard, open_firmata
 from drillctl.portio.firmata_pins import MEGA, UNO, Pins
 from drillctl.portio.firmata_protocol import DigitalReport, Firmware, PinState, Version, query_pin
 from drillctl.portio.firmata_watch import Watch
-from drillctl.ports import Answering, PortLost, Wiring
+from drillctl.ports import Answering, PortLayout, PortLost
 from tests.portio.conformance import WIRING
 from tests.portio.firmata_stand_in import Faults, StandIn
 
@@ -19,7 +19,7 @@ LISTEN_S = 0.05
 PATIENCE_S = 3.0
 BYTE_S, TICK_S = 10 / 57_600, 0.002
 WANTED = {40: PinState(40, 0, 1), 41: PinState(41, 0, 1)}
-BLIND = Wiring(500, 0, (1,), 0, 0)  # a machine without sensors
+BLIND = PortLayout(500, 0, (1,), 0, 0)  # a machine without sensors
 
 
 @pytest.fixture
@@ -50,7 +50,7 @@ def ticked(card: FirmataCard, until: Callable[[], object] = lambda: False) -> No
 @pytest.mark.parametrize("wiring", [WIRING, BLIND], ids=["sensors", "none"])
 @pytest.mark.parametrize(("greets", "reason"), [(True, "greeted anew"), (False, "not as it was set")])
 def test_a_reset_is_a_lost_port(
-    stand_in: Callable[..., StandIn], greets: bool, reason: str, wiring: Wiring
+    stand_in: Callable[..., StandIn], greets: bool, reason: str, wiring: PortLayout
 ) -> None:
     board = stand_in()
     card = open_firmata(MEGA, board.device, wiring, LISTEN_S)
@@ -73,9 +73,7 @@ def test_a_reset_at_rest_is_found_by_latching_alone(stand_in: Callable[..., Stan
     card.close()
 
 
-def test_a_board_that_hangs_is_a_lost_port(
-    stand_in: Callable[..., StandIn], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_board_that_hangs_is_a_lost_port(stand_in: Callable[..., StandIn], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(firmata_watch, "PATIENCE_S", 0.2)
     board = stand_in()
     card = open_firmata(MEGA, board.device, WIRING, LISTEN_S)
@@ -196,12 +194,12 @@ def test_what_a_board_may_say(watch: Watch, message: DigitalReport | PinState) -
     [
         (MEGA, WIRING, [PinState(pin, 0, 1) for pin in range(40, 46)]),
         (MEGA, BLIND, [PinState(40, 0, 0)]),
-        (UNO, Wiring(500, 0, (0b1101100,), 0, 0), [PinState(4, 0, 0)]),
-        (UNO, Wiring(500, 0, (0xFFFFC,), 0, 0), [None]),
+        (UNO, PortLayout(500, 0, (0b1101100,), 0, 0), [PinState(4, 0, 0)]),
+        (UNO, PortLayout(500, 0, (0xFFFFC,), 0, 0), [None]),
     ],
     ids=["sensors", "no sensor", "a free pin between", "no pin left"],
 )
-def test_which_pins_are_asked(board: Any, wiring: Wiring, wanted: list[PinState | None]) -> None:
+def test_which_pins_are_asked(board: Any, wiring: PortLayout, wanted: list[PinState | None]) -> None:
     assert list(Pins(board, wiring, "firmata:x").witnesses().values()) == wanted
 
 

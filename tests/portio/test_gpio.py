@@ -10,10 +10,10 @@ import pytest
 
 from drillctl.portio import gpiod_lines
 from drillctl.portio.gpiod_lines import GpioLines, LineMap, open_gpio, read_line_map
-from drillctl.ports import PortLost, PortRefused, Wiring
+from drillctl.ports import PortLayout, PortLost, PortRefused
 from tests.portio.test_conformance import FakeRequest
 
-WIRING = Wiring(500, 0, (0b11,), 0b100, 0b10)
+WIRING = PortLayout(500, 0, (0b11,), 0b100, 0b10)
 GOOD = 'chip = "/dev/gpiochip0"\noutputs = { 0 = 17, 1 = 27, 2 = 22, 3 = 4 }\ninputs = { 1 = 5 }\n'
 
 

@@ -7,10 +7,10 @@ import pytest
 
 from drillctl.portio import pcl720
 from drillctl.portio.pcl720 import Pcl720, card_bases, lock, open_pcl720
-from drillctl.ports import PortLost, PortRefused, Wiring
+from drillctl.ports import PortLayout, PortLost, PortRefused
 from tests.portio.conformance import WIRING
 
-TWO_CARDS = Wiring(500, 0x2A0, (0xFF,), 1 << 40, 1 << 63)
+TWO_CARDS = PortLayout(500, 0x2A0, (0xFF,), 1 << 40, 1 << 63)
 
 
 def registers(file: Path, size: int = 0x400) -> int:
@@ -70,7 +70,7 @@ def test_errors_of_the_port_are_errors_of_the_system(tmp_path: Path) -> None:
         ("0x300,2E0", TWO_CARDS, [0x300, 0x2E0]),
     ],
 )
-def test_where_the_cards_are(address: str, wiring: Wiring, bases: list[int]) -> None:
+def test_where_the_cards_are(address: str, wiring: PortLayout, bases: list[int]) -> None:
     assert card_bases(address, wiring) == bases
 
 

@@ -13,8 +13,8 @@ from drillctl.portio.firmata_pins import MEGA, UNO, Board, Pins
 from drillctl.portio.mapped import MappedCard
 from drillctl.portio.registry import PORTS, open_port, select
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.ports import PortRefused, Wiring, bits_of
-from drillctl.wiring.machinery import wiring_of
+from drillctl.ports import PortLayout, PortRefused, bits_of
+from drillctl.ticker.launch import wiring_of
 from tests.portio.conformance import WIRING, StandInPlant
 
 LIBRARY = Library((shipped_tables(),))
@@ -59,10 +59,10 @@ def test_the_mapped_card_is_put_around_it(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("tick_hz", "baud", "most_hz"), [(609, "", 608), (1217, "@115200", 1216)])
 def test_a_rate_that_a_line_cannot_carry_is_refused_with_the_one_it_can(tick_hz: int, baud: str, most_hz: int) -> None:
-    too_fast = Wiring(tick_hz, 0, WIRING.axis_outputs, 0, 0)
+    too_fast = PortLayout(tick_hz, 0, WIRING.axis_outputs, 0, 0)
     with pytest.raises(PortRefused, match=f"{tick_hz} interrupts .* 3 axes moving; --tick-hz {most_hz} is the most"):
         open_port(f"firmata:/dev/null{baud}", too_fast)
-    as_fast = Wiring(most_hz, 0, WIRING.axis_outputs, 0, 0)
+    as_fast = PortLayout(most_hz, 0, WIRING.axis_outputs, 0, 0)
     with pytest.raises(PortRefused, match="can't be opened"):
         open_port(f"firmata:/dev/null{baud}", as_fast)
 
@@ -77,9 +77,7 @@ def test_a_machines_wiring_is_its_bits(name: str) -> None:
     assert wiring.cards == machine.cards
 
 
-@pytest.mark.parametrize(
-    ("board", "name"), [(MEGA, "mega-28byj48"), (MEGA, "pcb-drill"), (UNO, "cnc-shield")]
-)
+@pytest.mark.parametrize(("board", "name"), [(MEGA, "mega-28byj48"), (MEGA, "pcb-drill"), (UNO, "cnc-shield")])
 def test_a_shipped_machine_fits_its_board_at_its_own_rate(board: Board, name: str) -> None:
     wiring = wiring_of(LIBRARY.machine(name))
     Pins(board, wiring, "firmata")

@@ -15,7 +15,7 @@ from drillctl.kmd import Condition, Request, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.wiring.ticker import Ticker
+from drillctl.ticker.ticker import Ticker
 
 LONGEST_RUN_WAKES = 400_000
 MACHINES = ("pcb-drill", "pcb-drill-ramp-lab", "boiler-drum", "eight-axis")

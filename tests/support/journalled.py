@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from drillctl.cli import main
-from drillctl.generation.journal.chain import NO_SEAL, sealed
-from drillctl.panel.jobs import Site
+from drillctl.jobs.journal.chain import NO_SEAL, sealed
+from drillctl.viewmodel.jobs import Site
 
 SITE = Site("simulated", "free", "ideal")
 

@@ -4,7 +4,7 @@ Rule: a word that the catalogue does not have is a mistake of the caller, not a 
 Used by tests/ui and by the pictures in docs.
 """
 
-from drillctl.ui import words
+from drillctl.language import words
 from drillctl.ui.menus import MENUS, Item, hot_letter
 
 POLISH = words.catalogue((words.LOCALE / "pl" / "LC_MESSAGES" / "drillctl.po").read_text("utf-8"))

@@ -7,12 +7,12 @@ meets such gaps, and no test here is about them. Used by tests/station.
 import time
 from collections.abc import Callable
 
-from drillctl.station.station import Station
+from drillctl.console.machine_console import MachineConsole
 
 PATIENCE_S = 60.0
 
 
-def until(station: Station, holds: Callable[[], object]) -> None:
+def until(station: MachineConsole, holds: Callable[[], object]) -> None:
     """Turns the station until it holds; fails with what is seen of the machine."""
     until_s = time.monotonic() + PATIENCE_S
     view = station.view()
@@ -24,7 +24,7 @@ def until(station: Station, holds: Callable[[], object]) -> None:
         view = station.view()  # before it is asked: a hold that is waited for is not gone on from
 
 
-def settle(station: Station) -> None:
+def settle(station: MachineConsole) -> None:
     """Until nothing runs any more. A station is turned once at the least: an emergency stop at rest begins no job."""
     station.turn()
     until(station, lambda: not station.at_work)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from drillctl.execution.axis import Axis
 from drillctl.kmd import Request
 from drillctl.machine import Machine
+from drillctl.ticker.fast_ticker import FastTicker
+from drillctl.ticker.sampler import Sampler, signals
+from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Recorder, Trace
-from drillctl.wiring.fast_ticker import FastTicker
-from drillctl.wiring.sampler import Sampler, signals
-from drillctl.wiring.ticker import Ticker
 
 OF_BOOKS = ("ramp", "line", "least", "most")  # not compared as they stand: ``been`` says what matters of the last two
 Disturbances = Mapping[int, int]  # by tick: requests as bits of the mailbox, or below 0 a gap of so many periods

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from drillctl.cli import main
+from drillctl.ticker.processes import Child
 from drillctl.trace import Recorder, Signal
 from drillctl.trace.ring import CAPACITY, RingRecorder
-from drillctl.wiring.children import Child
 
 SIGNALS = [Signal("a", "count", True), Signal("b", "count", False)]
 CHANGES = 5 * CAPACITY

@@ -20,7 +20,7 @@ from drillctl.trace import (
     segment_bytes,
 )
 from drillctl.trace.segment_file import COUNT, MAGIC, SUMS
-from drillctl.trace.tapes import LAP, Reel, Tape, images
+from drillctl.trace.tapes import LAP, ImagePool, Tape, images
 
 SIGNALS = (
     Signal("in.0", "word", True),
@@ -72,7 +72,7 @@ def test_commands_that_are_numbered_otherwise_keep_their_numbers(tmp_path: Path)
 )
 def test_tapes_against_arrays(slices: list[tuple[int, int]], window: tuple[float, float]) -> None:
     """Steady images 0 and 5, a strip that goes round, and one that doesn't."""
-    reel = Reel(np.uint32)
+    reel = ImagePool(np.uint32)
     round_about, once = np.tile(np.arange(1, 8), 2 * LAP // 7 + 2), np.arange(100)
     kinds = [(reel.steady(0), LAP), (reel.steady(5), LAP)]
     kinds += [(reel.add(round_about), 7 * (LAP // 7 + 1)), (reel.add(once), LAP + 1)]

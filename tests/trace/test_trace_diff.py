@@ -150,9 +150,7 @@ def sampled(signals: tuple[Signal, ...], samples: list[tuple[int, int]]) -> Trac
 
 @settings(deadline=None)
 @given(Samples, Samples)
-def test_agrees_with_comparing_tick_by_tick(
-    expected: list[tuple[int, int]], actual: list[tuple[int, int]]
-) -> None:
+def test_agrees_with_comparing_tick_by_tick(expected: list[tuple[int, int]], actual: list[tuple[int, int]]) -> None:
     """Also where the two traces number the same words differently."""
     renumbered = [(out, (0, 2, 1)[fault]) for out, fault in actual]
     found = first_difference(sampled(PAIR, expected), sampled(OTHER_PAIR, renumbered))

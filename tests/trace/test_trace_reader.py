@@ -161,9 +161,7 @@ def test_no_more_command_names_than_opcodes() -> None:
 
 
 @settings(max_examples=300, deadline=None)
-@given(
-    st.integers(0, len(GOOD)), st.integers(0, 12), st.text(max_size=6) | st.sampled_from(["\n", "0x", " "])
-)
+@given(st.integers(0, len(GOOD)), st.integers(0, 12), st.text(max_size=6) | st.sampled_from(["\n", "0x", " "]))
 def test_nothing_but_a_trace_error(start: int, length: int, put_in: str) -> None:
     """A file with a piece replaced is refused, or read as it stands: only remarks may differ when written."""
     text = GOOD[:start] + put_in + GOOD[start + length :]

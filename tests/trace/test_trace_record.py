@@ -143,9 +143,7 @@ def test_a_signal_that_could_not_be_recorded_is_refused(wrong: dict[str, Any], r
         (COUNTS[:1] * 2, (0, 0, 1), "same name"),
     ],
 )
-def test_rows_that_fit_no_run_are_refused(
-    signals: tuple[Signal, ...], row: tuple[int, int, int], reason: str
-) -> None:
+def test_rows_that_fit_no_run_are_refused(signals: tuple[Signal, ...], row: tuple[int, int, int], reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
         Trace.of_changes((), signals, [row[0]], [row[1]], [row[2]], end=4)
 

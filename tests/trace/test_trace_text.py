@@ -103,9 +103,7 @@ def test_magic_first_line(content: bytes, expected: bool, tmp_path: Path) -> Non
         ({"signals": (Signal("out.0", "count", stimulus=False),)}, "its name says a word"),
     ],
 )
-def test_what_could_not_be_read_back_is_not_written(
-    changes: dict[str, Any], reason: str, tmp_path: Path
-) -> None:
+def test_what_could_not_be_read_back_is_not_written(changes: dict[str, Any], reason: str, tmp_path: Path) -> None:
     parts: dict[str, Any] = {
         "header": (),
         "signals": (Signal("late", "count", stimulus=True),),
@@ -170,6 +168,4 @@ def test_without_derived_signals_only_they_are_missing(trace: Trace) -> None:
     assert [signal.name for signal in back.signals] == kept
     for name in kept:
         signal, same = trace.signals[trace.index_of(name)], back.signals[back.index_of(name)]
-        assert (
-            same.words(back.changes_of(name)[1]).tolist() == signal.words(trace.changes_of(name)[1]).tolist()
-        )
+        assert same.words(back.changes_of(name)[1]).tolist() == signal.words(trace.changes_of(name)[1]).tolist()

@@ -138,9 +138,7 @@ def test_times_are_exact(tick_hz: int, end: int) -> None:
 
 
 def test_nothing_in_the_head_ends_the_comment() -> None:
-    assert vcd_of(at_rate(500), ()).startswith(
-        "$comment drillctl machine=two_words_.toml tick_hz=500 digest=ab $end"
-    )
+    assert vcd_of(at_rate(500), ()).startswith("$comment drillctl machine=two_words_.toml tick_hz=500 digest=ab $end")
 
 
 @pytest.mark.parametrize(

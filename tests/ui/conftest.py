@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from drillctl.ui import app, words
+from drillctl.language import words
+from drillctl.ui import app
 
 
 @pytest.fixture(autouse=True)

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import urwid
 
-from drillctl.panel.console import AxisView, BoardView, MachineView, Problems, ToolView
-from drillctl.panel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
-from drillctl.panel.records import Estimate, FaultReport, Progress, ToolEstimate
 from drillctl.ui.app import App
+from drillctl.viewmodel.console import AxisView, BoardView, MachineView, Problems, ToolView
+from drillctl.viewmodel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
+from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
 
 MOTIONS = {"go_on", "start", "run_queue", "initialise", "jog", "go_to", "set_base", "resume"}
 FAULT = FaultReport(1, "EMERGENCY_STOP", "somebody pressed it", "look why", "lost")

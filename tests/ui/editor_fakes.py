@@ -7,10 +7,10 @@ from typing import Any
 
 import urwid
 
-from drillctl.panel.console import Problems
-from drillctl.panel.handwork import SignalView
-from drillctl.panel.queues import CommandHelp
-from drillctl.panel.tables import (
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.manual_control import SignalView
+from drillctl.viewmodel.queues import CommandHelp
+from drillctl.viewmodel.tables import (
     Checked,
     FieldView,
     Finding,
@@ -83,8 +83,14 @@ class Console:
     def view(self) -> Any:
         axis = SimpleNamespace(name="x", column=3, state=1, position_steps=7)
         return SimpleNamespace(
-            machine="drill", paused=self.paused, tick=41, command="KMD_CZEKAJ 5", axes=(axis,), position_known=True,
-            hot_s=0.0, cut_off=False,
+            machine="drill",
+            paused=self.paused,
+            tick=41,
+            command="KMD_CZEKAJ 5",
+            axes=(axis,),
+            position_known=True,
+            hot_s=0.0,
+            cut_off=False,
         )
 
     def choose_machine(self, name: str) -> Problems:
@@ -97,7 +103,7 @@ class Console:
 
 
 class Hands:
-    """A HandDesk over some signals; ``done`` is what was asked, in order. ``port`` is a real one where it is named."""
+    """A ManualControl over some signals; ``done`` is what was asked, in order. ``port`` names a real one."""
 
     def __init__(self, console: Console, signals: Sequence[SignalView] = (), port: str = ""):
         self.console, self.shown, self.port = console, list(signals), port
@@ -132,7 +138,7 @@ class Hands:
 
 
 class Tables:
-    """A TableDesk over one table a kind, its own format: ``name volts pattern [reverse]``, four numbers, or
+    """A TableEditing over one table a kind, its own format: ``name volts pattern [reverse]``, four numbers, or
     ``place value``, a line each. A line with ``bad`` is a problem, a lone ``....`` a warning."""
 
     def __init__(self, **shipped: str):
@@ -222,7 +228,7 @@ class Tables:
 
 
 class Queues:
-    """A QueueDesk: a line that begins with KMD_ is right; files are a dictionary."""
+    """A QueueEditing: a line that begins with KMD_ is right; files are a dictionary."""
 
     def __init__(self) -> None:
         self.files: dict[str, str] = {}

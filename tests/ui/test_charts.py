@@ -5,9 +5,9 @@ import sys
 import numpy as np
 import pytest
 
-from drillctl.panel.picture import Chart, Curve, Picture, Style
-from drillctl.ui.charts import LEAST_COLUMNS, MARGIN, Look, picture_lines
-from drillctl.ui.plotted import PictureRefused, check_format, picture_bytes
+from drillctl.ui.terminal.charts import LEAST_COLUMNS, MARGIN, Look, picture_lines
+from drillctl.ui.terminal.image_file import PictureRefused, check_format, picture_bytes
+from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
 
 
 def picture(*curves: Curve, to_scale: bool = False) -> Picture:

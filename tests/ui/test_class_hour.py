@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from drillctl.kmd import Fault
-from drillctl.panel.words import FAULT_WORDS
-from drillctl.ui import words
+from drillctl.language import words
+from drillctl.viewmodel.fault_texts import FAULT_WORDS
 from tests.support.labels import menu, word
 
 terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev extra) reads what the program draws")

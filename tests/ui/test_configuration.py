@@ -4,17 +4,17 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.console.tables import TableFiles
+from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.settings import settings
 from drillctl.machine.source import Source
-from drillctl.panel.tables import FieldView, Kind, TableEntry
-from drillctl.station.workbench import Workbench
-from drillctl.ui import words
-from drillctl.ui.screens.compare import label_of
 from drillctl.ui.screens.configuration import Configuration
 from drillctl.ui.screens.field_words import FIELD_WORDS, words_of
 from drillctl.ui.screens.phase_editor import PhaseEditor
+from drillctl.ui.screens.table_actions import label_of
 from drillctl.ui.screens.table_list import EDITORS, TableList
+from drillctl.viewmodel.tables import FieldView, Kind, TableEntry
 from tests.ui.editor_fakes import Console, Shell, Tables, attributes_of, press, text_of
 
 FILE = "tick_hz 500\nmode SIMULATED\nscale 1200"
@@ -241,7 +241,7 @@ def test_at_eighty_columns_every_field_has_a_line_with_its_unit_and_bounds(
 ) -> None:
     words.use(language)
     try:
-        desk = Workbench(Library((tmp_path, shipped_tables())), tmp_path)
+        desk = TableFiles(Library((tmp_path, shipped_tables())), tmp_path)
         screen = Configuration(console, shell, desk, "pcb-drill")
         text = text_of(screen, (80, 60))
         fields = desk.fields(desk.read("machines", "pcb-drill"))

@@ -8,14 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from drillctl import station
+from drillctl import console as station
 from drillctl.kmd import Fault
-from drillctl.panel.console import MachineView
-from drillctl.panel.words import FAULT_WORDS, fault_report
-from drillctl.ui import app, words
+from drillctl.language import words
+from drillctl.ui import app
 from drillctl.ui.frame import CONDITIONS, screen_keys
-from drillctl.ui.keys import EMERGENCY, FRAME_KEYS, Key
 from drillctl.ui.menus import MENUS, plain_label
+from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key
+from drillctl.viewmodel.console import MachineView
+from drillctl.viewmodel.fault_texts import FAULT_WORDS, fault_report
 from tests.support.labels import POLISH, menu
 from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
 from tests.ui.whole import SCREENS, Whole, at_home

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob, Site, UnfinishedJob
-from drillctl.ui import words
-from drillctl.ui.formats import FORMATS
+from drillctl.language import words
 from drillctl.ui.models.measuring import far_apart
 from drillctl.ui.screens.alignment import AlignmentScreen
 from drillctl.ui.screens.files import Files
+from drillctl.ui.screens.formats import FORMATS
+from drillctl.viewmodel.jobs import Asked, Measured, PanelOf, RecentJob, Site, UnfinishedJob
 from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50)]
@@ -273,9 +273,7 @@ def test_holes_that_contradict_each_other_place_nothing(folder: Path) -> None:
     assert isinstance(program.app.screens[-1], Files) and len(program.console.asked) == before
 
 
-def test_a_long_reason_against_measured_holes_is_read_to_its_end(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_long_reason_against_measured_holes_is_read_to_its_end(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     reason = "the measured places press the board flat onto a line: were they confused with each other?"
     monkeypatch.setattr(FakeConsole, "align", lambda console, measured, face_down: (None, (reason,)))
     program = aligning(folder, (80, 24))

@@ -5,12 +5,12 @@ from dataclasses import replace
 import pytest
 import urwid
 
-from drillctl.ui import words
-from drillctl.ui.keys import FRAME_KEYS, Key, called
+from drillctl.language import words
 from drillctl.ui.menus import MENUS, Item, hot_letter, plain_label
 from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import Files
-from drillctl.ui.themes import ATTRIBUTES, THEMES, palette
+from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called
+from drillctl.ui.widgets.themes import ATTRIBUTES, THEMES, palette
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50), (50, 15)]

@@ -14,25 +14,26 @@ import numpy as np
 import pytest
 
 from drillctl import ui
-from drillctl.cli.benches import Benches
+from drillctl.cli.benches import ScreenMakers
+from drillctl.console import signals as handbench
+from drillctl.console.machine_console import MachineConsole
+from drillctl.language import visible
 from drillctl.machine import Library, shipped_tables
-from drillctl.panel.jobs import Asked, RecentJob, UnfinishedJob
-from drillctl.panel.picture import Chart, Curve, Picture, Style
-from drillctl.station import handbench
-from drillctl.station.station import Station
-from drillctl.ui import app, texts
-from drillctl.ui.charts import COLOURS, NO_COLOUR, Look, picture_lines
-from drillctl.ui.forms import Field
-from drillctl.ui.plotted import picture_bytes
-from drillctl.wiring.machinery import Running
-from drillctl.wording import visible
+from drillctl.ticker.launch import RunSettings
+from drillctl.ui import app
+from drillctl.ui.terminal.charts import COLOURS, NO_COLOUR, Look, picture_lines
+from drillctl.ui.terminal.image_file import picture_bytes
+from drillctl.ui.widgets import texts
+from drillctl.ui.widgets.forms import Field
+from drillctl.viewmodel.jobs import Asked, RecentJob, UnfinishedJob
+from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
 from tests.ui.whole import BLINKER, SCREENS, at_home
 
 NASTY = "n\x1b[31m\x07\x9b2J\r\u202e\u200b\udcff"
 PAINT = re.compile("|".join(map(re.escape, (*COLOURS, NO_COLOUR))))
 KEPT = {"condition", "reason_code", "kept"}  # words of a table, not of a person
-PLAIN_HANDS = handbench.HandBench  # before ``at_home`` puts one that takes notes in its place
+PLAIN_HANDS = handbench.MachineSignals  # before ``at_home`` puts one that takes notes in its place
 
 
 def checked(text: str) -> None:
@@ -103,7 +104,7 @@ def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     home = tmp_path / NASTY
     home.mkdir()
     at_home(home, monkeypatch)
-    monkeypatch.setattr(handbench, "HandBench", PLAIN_HANDS)
+    monkeypatch.setattr(handbench, "MachineSignals", PLAIN_HANDS)
     board = BLINKER.read_text().replace("M48\n", "M48\n;\u202e\u200b\n", 1)
     (home / f"a{NASTY}.drl").write_text(board)
     (home / f"b{NASTY}.drl").write_bytes(b"\x1b[31m\x9b\xff\n" * 5)
@@ -121,15 +122,17 @@ def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return home
 
 
-class Desk:
+class JobRunner:
     """The whole program, its station on tables of the folder it was started in."""
 
     def __init__(self) -> None:
         library = Library((Path("tables"), shipped_tables()))
-        self.station = Station(library, library.machine("pcb-drill"), Running("simulated", "free"), tools="ask")
+        self.station = MachineConsole(
+            library, library.machine("pcb-drill"), RunSettings("simulated", "free"), tools="ask"
+        )
         self.paper = Paper()
         self.paper.size = (100, 40)
-        makers = Benches(library, self.station, plain=False).makers()
+        makers = ScreenMakers(library, self.station, plain=False).makers()
         self.app = app.App(self.station, makers=makers, terminal=self.paper)
 
     def press(self, *keys: str) -> None:
@@ -146,7 +149,7 @@ class Desk:
 
 @pytest.mark.parametrize("screen", SCREENS)
 def test_every_screen(screen: str, hostile: Path) -> None:
-    desk = Desk()
+    desk = JobRunner()
     try:
         desk.app.show(screen)
         desk.press("down", "enter", "down", "enter", "f1", "esc", "s", "esc", "esc")
@@ -157,7 +160,7 @@ def test_every_screen(screen: str, hostile: Path) -> None:
 
 
 def test_a_board_whose_name_is_no_utf_8_is_loaded_and_drilled(hostile: Path) -> None:
-    desk = Desk()
+    desk = JobRunner()
     try:
         files: Any = desk.app.show("files")
         files._browser.stand_on(hostile.resolve() / f"a{NASTY}.drl")
@@ -171,7 +174,7 @@ def test_a_board_whose_name_is_no_utf_8_is_loaded_and_drilled(hostile: Path) -> 
 
 
 def test_a_queue_with_comments_is_shown_and_kept(hostile: Path) -> None:
-    desk = Desk()
+    desk = JobRunner()
     try:
         editor: Any = desk.app.show("queue_editor")
         editor._open("c.kmd")

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drillctl.console.tables import TableFiles
 from drillctl.machine import Library, shipped_tables
-from drillctl.panel.tables import PhaseRow
-from drillctl.station.workbench import Workbench
 from drillctl.ui.models.history import MOST_STATES, History
 from drillctl.ui.models.phase_grid import LEAST_COLUMNS, PhaseGrid
 from drillctl.ui.screens.phase_editor import PhaseEditor
+from drillctl.viewmodel.tables import PhaseRow
 from tests.ui.editor_fakes import SIZE, Console, Shell, Tables, attributes_of, press, text_of
 
 TABLE = "1a 5 xx..\n1b 5 ..xx\n24a 24 x.x."
@@ -253,16 +253,16 @@ class AtPcbDrill(Console):
 
 
 @pytest.fixture
-def bench(tmp_path: Path) -> Workbench:
-    return Workbench(Library((tmp_path, shipped_tables())), tmp_path)
+def bench(tmp_path: Path) -> TableFiles:
+    return TableFiles(Library((tmp_path, shipped_tables())), tmp_path)
 
 
 @pytest.fixture
-def table_1(bench: Workbench, shell: Shell) -> PhaseEditor:
+def table_1(bench: TableFiles, shell: Shell) -> PhaseEditor:
     return PhaseEditor(AtPcbDrill(), shell, bench, "two-phase-forced")
 
 
-def bits_of(bench: Workbench, *wires: str) -> list[str]:
+def bits_of(bench: TableFiles, *wires: str) -> list[str]:
     found = {str(field.place[-1]): field.value for field in bench.wires(bench.read("machines", "pcb-drill"))}
     return [found[wire] for wire in wires]
 
@@ -277,7 +277,7 @@ def test_every_row_has_the_bit_of_the_motor_that_is_shown(table_1: PhaseEditor) 
     assert "motor [X], Y, Z" in text_of(table_1)
 
 
-def test_a_free_bit_is_taken_and_saved_to_the_machine(table_1: PhaseEditor, bench: Workbench, shell: Shell) -> None:
+def test_a_free_bit_is_taken_and_saved_to_the_machine(table_1: PhaseEditor, bench: TableFiles, shell: Shell) -> None:
     shell.types = "7"
     press(table_1, "down", "b")
     assert bits_of(bench, "x.1b") == ["7"] and "Output bit (0..127):" in shell.asked
@@ -286,7 +286,7 @@ def test_a_free_bit_is_taken_and_saved_to_the_machine(table_1: PhaseEditor, benc
 
 @pytest.mark.parametrize("says_yes", [True, False])
 def test_a_bit_of_another_wire_is_exchanged_after_a_question(
-    table_1: PhaseEditor, bench: Workbench, shell: Shell, says_yes: bool
+    table_1: PhaseEditor, bench: TableFiles, shell: Shell, says_yes: bool
 ) -> None:
     shell.types, shell.says_yes = "9", says_yes
     press(table_1, "b")
@@ -295,13 +295,13 @@ def test_a_bit_of_another_wire_is_exchanged_after_a_question(
 
 
 @pytest.mark.parametrize("typed", ["128", "-1", "one", ""])
-def test_a_bit_that_cannot_be_is_told(table_1: PhaseEditor, bench: Workbench, shell: Shell, typed: str) -> None:
+def test_a_bit_that_cannot_be_is_told(table_1: PhaseEditor, bench: TableFiles, shell: Shell, typed: str) -> None:
     shell.types = typed
     press(table_1, "b")
     assert shell.told[0][0] == "Not changed" and bits_of(bench, "x.1a") == ["0"]
 
 
-def test_a_table_that_no_motor_uses_has_no_bits(bench: Workbench, shell: Shell) -> None:
+def test_a_table_that_no_motor_uses_has_no_bits(bench: TableFiles, shell: Shell) -> None:
     editor = PhaseEditor(AtPcbDrill(), shell, bench, "five-phase-ten-beat")
     press(editor, "b", "tab")
     assert shell.told == [("Not changed", ["No motor of the machine at hand uses this table."])]

@@ -4,9 +4,9 @@ from dataclasses import dataclass, field, replace
 
 import pytest
 
-from drillctl.panel.console import Problems
-from drillctl.panel.ports import PortReport, PortView
 from drillctl.ui.screens.port import PortScreen
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.ports import PortReport, PortView
 from tests.ui.desk import VIEW, FakeConsole, Program
 from tests.ui.editor_fakes import Shell, press, text_of
 
@@ -18,7 +18,7 @@ BAD = PortReport("firmata", problem="firmata: no Firmata answers; upload Standar
 
 @dataclass
 class Ports:
-    """A PortDesk."""
+    """A PortControl."""
 
     view: PortView = PORT
     report: PortReport = GOOD

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.ui.bars import bar_rows
-from drillctl.ui.screens.ramp_editor import RampEditor
+from drillctl.ui.screens.ramp_editor import RampEditor, bar_rows
 from tests.ui.editor_fakes import Console, Shell, Tables, attributes_of, press, text_of
 
 TABLE = "-1 -1 -2 4\n0 0 0 7\n1 1 2 4"

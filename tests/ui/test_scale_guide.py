@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drillctl.console.tables import TableFiles
 from drillctl.machine import Library, TableError, shipped_tables
-from drillctl.panel.console import Problems
-from drillctl.station.workbench import Workbench
 from drillctl.ui.models.scale import GREATEST_CHANGE, LEAST_TRAVEL_MM, Measurement
-from drillctl.ui.screens.compare import differences
 from drillctl.ui.screens.configuration import Configuration
+from drillctl.ui.screens.table_actions import differences
+from drillctl.viewmodel.console import Problems
 from tests.ui.editor_fakes import Shell, press, text_of
 
 LOCKED = 'locked = ["tick_hz", "x.range"]\n'
@@ -57,12 +57,12 @@ class Rig:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Workbench:
+def desk(tmp_path: Path) -> TableFiles:
     library = Library((tmp_path, shipped_tables()))
-    return Workbench(library, tmp_path, lambda: library.machine("pcb-drill"))
+    return TableFiles(library, tmp_path, lambda: library.machine("pcb-drill"))
 
 
-def measure(rig: Rig, desk: Workbench, *typed: str, yes: bool = True) -> tuple[Answers, Configuration]:
+def measure(rig: Rig, desk: TableFiles, *typed: str, yes: bool = True) -> tuple[Answers, Configuration]:
     """With the cursor on the scale of X."""
     shell = Answers(says_yes=yes, typed=list(typed))
     screen = Configuration(rig, shell, desk, "pcb-drill")
@@ -70,7 +70,7 @@ def measure(rig: Rig, desk: Workbench, *typed: str, yes: bool = True) -> tuple[A
     return shell, screen
 
 
-def test_a_measured_scale_is_shown_beside_the_old_one_and_saved_on_a_yes(desk: Workbench) -> None:
+def test_a_measured_scale_is_shown_beside_the_old_one_and_saved_on_a_yes(desk: TableFiles) -> None:
     rig = Rig()
     shell, screen = measure(rig, desk, "2400", "51,3")
     told = "2400 steps, 51.3 mm: 1188 columns/inch instead of 1200 (-1.00 %). A reading wrong by 0.1 mm makes 0.19 %."
@@ -81,7 +81,7 @@ def test_a_measured_scale_is_shown_beside_the_old_one_and_saved_on_a_yes(desk: W
     assert rig.chosen == ["pcb-drill"]
 
 
-def test_a_no_saves_nothing(desk: Workbench) -> None:
+def test_a_no_saves_nothing(desk: TableFiles) -> None:
     before = desk.read("machines", "pcb-drill")
     measure(Rig(), desk, "2400", "51.3", yes=False)
     assert desk.read("machines", "pcb-drill") == before
@@ -100,21 +100,21 @@ def test_a_no_saves_nothing(desk: Workbench) -> None:
         (["2.5"], "'2.5' is not a whole number"),
     ],
 )
-def test_what_can_not_be_is_refused_and_nothing_is_saved(typed: list[str], why: str, desk: Workbench) -> None:
+def test_what_can_not_be_is_refused_and_nothing_is_saved(typed: list[str], why: str, desk: TableFiles) -> None:
     before = desk.read("machines", "pcb-drill")
     shell, _screen = measure(Rig(), desk, *typed)
     assert shell.told[0][0] == "Not measured" and why in shell.told[0][1][0]
     assert desk.read("machines", "pcb-drill") == before
 
 
-def test_the_steps_that_were_made_count_and_not_those_asked_for(desk: Workbench) -> None:
+def test_the_steps_that_were_made_count_and_not_those_asked_for(desk: TableFiles) -> None:
     rig = Rig()
     rig.slip = 1200
     shell, _screen = measure(rig, desk, "2400", "25.4")
     assert shell.asked[2].startswith("1200 steps, 25.4 mm: 1200 columns/inch instead of 1200 (+0.00 %)")
 
 
-def test_a_reading_while_it_moves_is_asked_for_again(desk: Workbench) -> None:
+def test_a_reading_while_it_moves_is_asked_for_again(desk: TableFiles) -> None:
     rig = Rig()
     shell = Answers(typed=["2400"])
     screen = Configuration(rig, shell, desk, "pcb-drill")
@@ -135,7 +135,7 @@ def test_a_reading_while_it_moves_is_asked_for_again(desk: Workbench) -> None:
     ],
 )
 def test_where_a_measurement_would_mean_nothing_it_is_not_begun(
-    change: dict[str, Any], why: str, desk: Workbench
+    change: dict[str, Any], why: str, desk: TableFiles
 ) -> None:
     rig = Rig()
     for name, value in change.items():
@@ -144,7 +144,7 @@ def test_where_a_measurement_would_mean_nothing_it_is_not_begun(
     assert shell.told[0][0] == "Not measured" and why in shell.told[0][1][0]
 
 
-def test_only_an_axis_has_a_scale_and_nothing_typed_may_be_saved_with_it(desk: Workbench) -> None:
+def test_only_an_axis_has_a_scale_and_nothing_typed_may_be_saved_with_it(desk: TableFiles) -> None:
     shell = Answers(typed=["2400", "51.3"])
     screen = Configuration(Rig(), shell, desk, "pcb-drill")
     press(screen, "f12")
@@ -166,14 +166,14 @@ def test_a_measurement_is_plausible_or_gives_a_reason(steps: int, per_step: int,
 
 
 @pytest.fixture
-def locked(desk: Workbench, tmp_path: Path) -> Workbench:
+def locked(desk: TableFiles, tmp_path: Path) -> TableFiles:
     """With a file that an instructor has locked two settings in."""
     text = desk.read("machines", "pcb-drill").replace("tick_hz = 500\n", f"tick_hz = 500\n{LOCKED}")
     assert desk.save("machines", "pcb-drill", text) == ()
     return desk
 
 
-def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Workbench) -> None:
+def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: TableFiles) -> None:
     shell = Answers()
     screen = Configuration(Rig(), shell, locked, "pcb-drill")
     rows = [row for row in text_of(screen, (80, 40)).split("\n") if "locked" in row]
@@ -185,7 +185,7 @@ def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Wo
     assert screen.changed, "of Y it is not"
 
 
-def test_a_lock_holds_at_the_desk_too_and_a_copy_keeps_it(locked: Workbench) -> None:
+def test_a_lock_holds_at_the_desk_too_and_a_copy_keeps_it(locked: TableFiles) -> None:
     text = locked.read("machines", "pcb-drill")
     assert locked.with_field(text, ("tick_hz",), "600") == (
         text, ("tick_hz is locked in line 6 of the machine's file; whoever keeps the file opens it there",)
@@ -203,12 +203,12 @@ def test_a_lock_of_nothing_is_an_error_on_its_line(tmp_path: Path) -> None:
         Library((shipped_tables(),)).machine(str(file))
 
 
-def test_a_lock_changes_nothing_that_a_trace_knows_the_machine_by(locked: Workbench, tmp_path: Path) -> None:
+def test_a_lock_changes_nothing_that_a_trace_knows_the_machine_by(locked: TableFiles, tmp_path: Path) -> None:
     library = Library((tmp_path, shipped_tables()))
     assert library.machine("pcb-drill").digest == Library((shipped_tables(),)).machine("pcb-drill").digest
 
 
-def test_machines_are_compared_field_by_field_and_others_line_by_line(desk: Workbench) -> None:
+def test_machines_are_compared_field_by_field_and_others_line_by_line(desk: TableFiles) -> None:
     told = differences(desk, "machines", "pcb-drill", "pcb-drill-ramp-lab")
     assert told[0].split() == ["pcb-drill", "pcb-drill-ramp-lab"]
     assert ["X:", "scale", "1200", "1200"] not in [row.split() for row in told]
@@ -218,7 +218,7 @@ def test_machines_are_compared_field_by_field_and_others_line_by_line(desk: Work
     assert "+interval = 9" in differences(desk, "ramp", "seven-state", "even-interval")
 
 
-def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(desk: Workbench, tmp_path: Path) -> None:
+def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(desk: TableFiles, tmp_path: Path) -> None:
     assert desk.copy("machines", "pcb-drill", "mine") == ()
     assert [entry.ships for entry in desk.tables("machines") if entry.name in ("mine", "pcb-drill")] == [False, True]
     assert "comes with the program" in desk.delete("machines", "pcb-drill")[0]
@@ -226,7 +226,7 @@ def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(desk: Workbench,
     assert desk.delete("machines", "mine") != ()
 
 
-def test_a_higher_ramp_is_proposed_that_lands_and_three_states_stay(desk: Workbench) -> None:
+def test_a_higher_ramp_is_proposed_that_lands_and_three_states_stay(desk: TableFiles) -> None:
     text = desk.read("ramp", "seven-state")
     higher = desk.with_top(text, higher=True)
     assert desk.check("ramp", higher).problems == () and desk.ramp(higher).states[-1].state == 4

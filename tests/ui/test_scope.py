@@ -5,15 +5,15 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
+from drillctl.console.scope_runs import TraceFile
+from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
-from drillctl.panel.console import Problems
-from drillctl.panel.scope import ScopeSource
-from drillctl.station.tracefile import TraceFile
-from drillctl.ui import words
 from drillctl.ui.app import App
 from drillctl.ui.screens.scope import Scope
 from drillctl.ui.screens.scope_keys import SCOPE_KEYS, SEARCHES
 from drillctl.ui.screens.scope_view import LACKS
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.scope import ScopeSource
 from tests.ui.desk import FakeConsole, Program
 
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
@@ -290,7 +290,7 @@ def test_the_help_tells_of_every_key_and_no_key_is_told_twice(square: TraceFile,
 def test_what_a_run_lacks_is_said_in_the_operators_language(
     square: TraceFile, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
-    from drillctl.panel.scope import Notice
+    from drillctl.viewmodel.scope import Notice
 
     words.use(language)
     monkeypatch.setattr(square, "notices", lambda: tuple(Notice(lack, 7) for lack in LACKS))

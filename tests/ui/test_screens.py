@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 import urwid
 
-from drillctl.panel.console import Asked, MachineView, ToolWanted
-from drillctl.panel.records import Progress
-from drillctl.ui import words
-from drillctl.ui.dialogs import pair_mm
-from drillctl.ui.lines import Line
+from drillctl.language import words
+from drillctl.language.figures import pair_mm
 from drillctl.ui.models.jog_sizes import JOG_SIZES, MM, STEPS
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.drilling import Drilling
 from drillctl.ui.screens.files import CHOICES, Files
 from drillctl.ui.screens.side_window import side_pages
+from drillctl.ui.widgets.lines import Line
+from drillctl.viewmodel.console import Asked, MachineView, ToolWanted
+from drillctl.viewmodel.records import Progress
 from tests.ui.desk import BOARD, VIEW, WIRES, FakeConsole, Program
 
 MIDDLE = Progress(2, 4, 1, 2500, 5.0, 5.0)

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from drillctl.generation.drillfile import read
 from drillctl.generation.drillfile.errors import REFUSALS, WARNINGS
 from drillctl.kmd import KmdError, Names, parse_program
+from drillctl.language import words
+from drillctl.language.sentences import told
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.errors import TableError
 from drillctl.machine.source import Source
-from drillctl.ui import words
-from drillctl.ui.told import told
 from tests.support.sentences import editors_findings, form_of, refusals
 from tests.ui.test_words import POLISH
 

@@ -9,11 +9,11 @@ import pytest
 from drillctl.cli import main
 from drillctl.generation.job import Job, load_job
 from drillctl.generation.wishes import Wishes
+from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library
-from drillctl.panel import Progress
-from drillctl.ui.tools import ToolPrompt
-from drillctl.wiring.desk import Desk
-from drillctl.wiring.link import LocalLink
+from drillctl.ticker.link import LocalLink
+from drillctl.ui.terminal.progress import ToolPrompt
+from drillctl.viewmodel import Progress
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 
@@ -46,7 +46,7 @@ def test_each_tool_is_asked_for_before_its_first_hole() -> None:
             asked.append((tool, diameter_mm, int(link.status()["holes_done"])))
             return len(asked) % 3 == 0  # the operator takes his time
 
-        outcome = Desk(job, link, silent, tool_change=change).run().outcome
+        outcome = JobRunner(job, link, silent, tool_change=change).run().outcome
     assert [(tool, done) for tool, _, done in asked[::3]] == [(1, 0), (2, 16), (3, 22)]
     assert asked[3][1] == 1.0
     assert outcome.holes_done == 26 and outcome.fault is None
@@ -64,9 +64,9 @@ def test_waiting_for_the_operator_costs_no_tick() -> None:
             return calls % patience == 0
 
         with closing(LocalLink.simulated(job.machine)) as link:
-            ticks.append(Desk(job, link, silent, tool_change=change).run().outcome.ticks)
+            ticks.append(JobRunner(job, link, silent, tool_change=change).run().outcome.ticks)
     with closing(LocalLink.simulated(job.machine)) as link:
-        assert {Desk(job, link, silent).run().outcome.ticks} == set(ticks)
+        assert {JobRunner(job, link, silent).run().outcome.ticks} == set(ticks)
 
 
 def test_without_a_terminal_asking_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from drillctl.kmd import FAULTS, Fault
-from drillctl.panel import FAULT_WORDS, Outcome, Progress, fault_report
-from drillctl.ui.board import board_rows
-from drillctl.ui.progress import ProgressView, clock
-from drillctl.ui.summary import summary_lines
+from drillctl.language.figures import clock
+from drillctl.ui.terminal.progress import ProgressView
+from drillctl.ui.terminal.reports import summary_lines
+from drillctl.ui.widgets.board import board_rows
+from drillctl.viewmodel import FAULT_WORDS, Outcome, Progress, fault_report
 
 
 def outcome(**changes: Any) -> Outcome:
@@ -73,7 +74,7 @@ def test_the_time_left_of_a_free_run_is_the_wait_and_machine_time_stands_beside_
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     now_s = [1000.0]
-    monkeypatch.setattr("drillctl.ui.progress.time.monotonic", lambda: now_s[0])
+    monkeypatch.setattr("drillctl.ui.terminal.progress.time.monotonic", lambda: now_s[0])
     stream = Terminal()
     with ProgressView(stream, by_clock=False) as view:
         view.show(Progress(0, 50, 2, 0, 0.0, 4000.0))

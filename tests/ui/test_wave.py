@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.panel.scope import Strip
 from drillctl.trace.lanes import Column
-from drillctl.ui.wave import LEVELS, SIGNS, level_line, number_line, ruler, wire_line, word_line
+from drillctl.ui.screens.scope_wave import LEVELS, SIGNS, level_line, number_line, ruler, wire_line, word_line
+from drillctl.viewmodel.scope import Strip
 
 
 def strip(values: list[int], ticks_a_column: int) -> Strip:

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from drillctl import ui
-from drillctl.panel.words import FAULT_WORDS
-from drillctl.ui import words
+from drillctl.language import words
+from drillctl.viewmodel.fault_texts import FAULT_WORDS
 from tests.support.sentences import all_forms, form_of
 
 ROOT = Path(ui.__file__).parent
@@ -70,4 +70,3 @@ def test_no_entry_is_left_over() -> None:
     told = all_forms() | {text for fault in FAULT_WORDS.values() for text in fault}
     left = set(POLISH) - messages()
     assert {source for source in left if form_of(source) not in told} == set()
-

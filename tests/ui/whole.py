@@ -10,14 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.cli.benches import Benches
+from drillctl.cli.benches import ScreenMakers
+from drillctl.console import signals as handbench
+from drillctl.console.machine_console import MachineConsole
+from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
-from drillctl.panel.console import Problems
-from drillctl.panel.jobs import Asked
-from drillctl.station import handbench
-from drillctl.station.station import Station
-from drillctl.ui import app, words
-from drillctl.wiring.machinery import Running
+from drillctl.ticker.launch import RunSettings
+from drillctl.ui import app
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.jobs import Asked
 from tests.ui.desk import Paper
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
@@ -35,7 +36,7 @@ def at_home(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setenv(name, str(home))
     monkeypatch.chdir(home)
     monkeypatch.setattr(app, "TURNING_S", 0.0)
-    monkeypatch.setattr(handbench, "HandBench", WatchedHands)
+    monkeypatch.setattr(handbench, "MachineSignals", WatchedHands)
     (home / BLINKER.name).write_bytes(BLINKER.read_bytes())
 
 
@@ -49,12 +50,12 @@ def actions() -> set[str]:
     return found
 
 
-class Watched(Station):
+class Watched(MachineConsole):
     """Notes whatever sets the machine going, and by which actions; reads one board only, whichever is chosen."""
 
     def __init__(self) -> None:
         library = Library((shipped_tables(),))
-        super().__init__(library, library.machine("pcb-drill"), Running("simulated", "free"), tools="ask")
+        super().__init__(library, library.machine("pcb-drill"), RunSettings("simulated", "free"), tools="ask")
         self.moved: list[tuple[str, set[str]]] = []
         self.stops = 0
 
@@ -96,7 +97,7 @@ class Watched(Station):
         return problems
 
 
-class WatchedHands(handbench.HandBench):
+class WatchedHands(handbench.MachineSignals):
     """An output that is switched by hand is noted as well."""
 
     def set_output(self, bit: int, on: bool) -> Problems:
@@ -111,7 +112,7 @@ class Whole:
         self.station = Watched()
         self.paper = Paper()
         self.paper.size = size
-        makers = Benches(Library((shipped_tables(),)), self.station, plain=False).makers()
+        makers = ScreenMakers(Library((shipped_tables(),)), self.station, plain=False).makers()
         self.app = app.App(self.station, makers=makers, terminal=self.paper)
 
     def press(self, *events: Event) -> None:

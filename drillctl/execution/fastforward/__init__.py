@@ -10,10 +10,10 @@
 
 Rule: tick is the law. Nothing is decided here: what can't be foreseen to the byte (homing, faults, requests, a sensor
 in the way) is left to tick, and it finds the machine as if it had ticked all along. Reel and tapes are those of
-trace/tapes. Called by wiring/fast_ticker.
+trace/tapes.
 """
 
-from drillctl.execution.fastforward.course import Course
+from drillctl.execution.fastforward.batch import Batch
 from drillctl.execution.fastforward.engine import Engine
 
-__all__ = ["Course", "Engine"]
+__all__ = ["Batch", "Engine"]

@@ -1,7 +1,7 @@
 """Takes the machine through commands that can be foreseen, and leaves it as if it had ticked through them.
 
 Rule: the caller takes the commands out of the queue, and lets tick do what ``course`` doesn't. A stroke of the heads
-that tick does for the first time is recorded. Called by wiring/ticker, which hands in the world.
+that tick does for the first time is recorded.
 """
 
 import numpy as np
@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.execution.fastforward.course import Course
+from drillctl.execution.fastforward.batch import Batch
+from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.plan import foresee, is_stroke, signatures
-from drillctl.execution.fastforward.stride import Stride
 from drillctl.execution.fastforward.strokes import Recording, Strokes
-from drillctl.execution.fastforward.world import World
+from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.kmd import Condition, Op
-from drillctl.trace.tapes import Reel
+from drillctl.trace.tapes import ImagePool
 
 DTYPES = {1: np.uint32, 2: np.uint64}  # of an output image, by cards
 LARGEST_REEL = 1 << 25  # words
@@ -24,11 +24,11 @@ LARGEST_REEL = 1 << 25  # words
 class Engine:
     """Foresees for one controller. ``reel`` holds all that its courses put out."""
 
-    def __init__(self, m: Controller, world: World, reel: Reel | None = None):
+    def __init__(self, m: Controller, world: PlantFacts, reel: ImagePool | None = None):
         self._m, self._world = m, world
-        self.reel = reel or Reel(DTYPES.get(m.machine.cards, np.uint64))
+        self.reel = reel or ImagePool(DTYPES.get(m.machine.cards, np.uint64))
         self._strokes = Strokes(m, world, self.reel)
-        self._strides: dict[tuple[int, int, int], Stride] = {}
+        self._strides: dict[tuple[int, int, int], MoveProfile] = {}
 
     @property
     def between(self) -> bool:
@@ -49,7 +49,7 @@ class Engine:
             and not any(sensors & pair == pair for pair in m.pairs)
         )
 
-    def course(self, commands: NDArray[np.void]) -> Course | None:
+    def course(self, commands: NDArray[np.void]) -> Batch | None:
         """As many of the commands, dtype RECORD (n,), as can be foreseen; None where tick must have the first.
 
         Asked ``between`` two commands only.
@@ -58,7 +58,7 @@ class Engine:
             return None
         return foresee(self._m, self._world, self._strokes, self._stride, commands)
 
-    def leave(self, course: Course) -> None:
+    def leave(self, course: Batch) -> None:
         """The machine and the plant after a course."""
         for index, journey in enumerate(course.journeys):
             if journey is not None:
@@ -69,7 +69,7 @@ class Engine:
         self._leave_controller(course)
         self._world.settle(self._m.image, len(course.touches()))
 
-    def _leave_controller(self, course: Course) -> None:
+    def _leave_controller(self, course: Batch) -> None:
         m, last = self._m, course.commands[-1]
         m.command.load(last)
         m.running = m.done = m.command.sequence
@@ -92,10 +92,10 @@ class Engine:
             return None
         return Recording(self._m, self._world, self._strokes, signatures(command)[0])
 
-    def _stride(self, index: int, direction: int, floor: int) -> Stride:
+    def _stride(self, index: int, direction: int, floor: int) -> MoveProfile:
         key = index, direction, floor
         if key not in self._strides:
-            self._strides[key] = Stride(self._m.axes[index], direction, floor)
+            self._strides[key] = MoveProfile(self._m.axes[index], direction, floor)
         return self._strides[key]
 
 

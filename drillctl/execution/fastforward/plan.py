@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.execution.fastforward.course import Course, Stroked
-from drillctl.execution.fastforward.journey import Journey
-from drillctl.execution.fastforward.stride import Stride
+from drillctl.execution.fastforward.axis_batch import AxisBatch
+from drillctl.execution.fastforward.batch import Batch, Stroked
+from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.strokes import Stroke, Strokes
-from drillctl.execution.fastforward.world import World
+from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.kmd import Op
 from drillctl.kmd.commands import Flag
 from drillctl.ports import with_bits
@@ -28,10 +28,10 @@ STILL = (Op.CZEKAJ, Op.PREDKOSC, Op.NARZEDZIE, Op.WYJSCIE, Op.WRZECIONO, Op.KONI
 
 Rows = NDArray[np.bool_]
 Records = NDArray[np.void]
-StrideOf = Callable[[int, int, int], Stride]  # by axis, direction and floor
+StrideOf = Callable[[int, int, int], MoveProfile]  # by axis, direction and floor
 
 
-def foresee(m: Controller, world: World, strokes: Strokes, stride: StrideOf, commands: Records) -> Course | None:
+def foresee(m: Controller, world: PlantFacts, strokes: Strokes, stride: StrideOf, commands: Records) -> Batch | None:
     """The course of as many commands, dtype kmd.RECORD (n,), as can be foreseen; None where that is none."""
     stroked = _stroked(commands, strokes.heads) & m.position_known  # else it matters where a head was before
     commands = commands[: _beginning(_of_a_kind(m, commands, stroked, strokes.heads))]
@@ -46,7 +46,7 @@ def foresee(m: Controller, world: World, strokes: Strokes, stride: StrideOf, com
     rows, made = rows[: len(known)], [j and j.upto(len(commands)) for j in journeys]
     if not len(commands) or not all(j is None or j.timed() for j in made):
         return None
-    return Course(
+    return Batch(
         commands=commands,
         ticks=_ticks(commands, made, rows, known),
         journeys=made,
@@ -88,14 +88,14 @@ def _of_a_kind(m: Controller, commands: Records, stroked: Rows, heads: Sequence[
     return (moves | stroked | still) & (commands["epoch"] == m.epoch)
 
 
-def _journey(m: Controller, index: int, strides: Callable[[int, int], Stride], commands: Records) -> Journey:
+def _journey(m: Controller, index: int, strides: Callable[[int, int], MoveProfile], commands: Records) -> AxisBatch:
     sent = np.isin(commands["opcode"], MOVES) & (commands["axes"] >> index & 1 > 0)
     absolute = commands["flags"] & Flag.ABSOLUTE > 0
     given, floor = commands["args"][:, index].astype(np.int64), commands["floor_ticks"].astype(np.int64)
-    return Journey.of(m.axes[index], strides, given, absolute, sent, floor)
+    return AxisBatch.of(m.axes[index], strides, given, absolute, sent, floor)
 
 
-def _clear(m: Controller, world: World, index: int, journey: Journey) -> Rows:
+def _clear(m: Controller, world: PlantFacts, index: int, journey: AxisBatch) -> Rows:
     """Nothing would be refused, and no sensor answers on the way or is already met."""
     axis, absolute = m.axes[index], journey.absolute & journey.sent
     allowed = _in_reach(axis, journey) if m.position_known else ~absolute & _within_travel(axis, journey)
@@ -107,14 +107,14 @@ def _clear(m: Controller, world: World, index: int, journey: Journey) -> Rows:
     return clear
 
 
-def _in_reach(axis: Axis, journey: Journey) -> Rows:
+def _in_reach(axis: Axis, journey: AxisBatch) -> Rows:
     """Axis.in_reach for every command."""
     (low, high), before, target = axis.reach, journey.position[:-1], journey.position[1:]
     within: Rows = (np.minimum(low, before) <= target) & (target <= np.maximum(high, before))
     return within
 
 
-def _within_travel(axis: Axis, journey: Journey) -> Rows:
+def _within_travel(axis: Axis, journey: AxisBatch) -> Rows:
     """Axis.within_travel for every command: each adds to where the axis was."""
     before, target = journey.position[:-1], journey.position[1:]
     least = np.minimum(axis.least, np.minimum.accumulate(before))
@@ -144,7 +144,9 @@ def signatures(commands: Records) -> list[bytes]:
     return [data[begin : begin + size] for begin in range(0, len(data), size)]
 
 
-def _ticks(commands: Records, journeys: Sequence[Journey | None], rows: NDArray[np.intp], known: list[Stroke]) -> Count:
+def _ticks(
+    commands: Records, journeys: Sequence[AxisBatch | None], rows: NDArray[np.intp], known: list[Stroke]
+) -> Count:
     """The longest of what a command waits for, and at least 1."""
     waits = np.where(commands["opcode"] == Op.CZEKAJ, commands["args"][:, 0], 1).astype(np.int64)
     ticks = np.maximum.reduce([np.maximum(waits, 1), *(j.ticks for j in journeys if j is not None)])

@@ -11,8 +11,8 @@ from typing import Any
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.execution.fastforward.world import World
-from drillctl.trace.tapes import Reel
+from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.trace.tapes import ImagePool
 
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
 MOTION = ("column", "position", "state")
@@ -65,7 +65,7 @@ class Place:
 class Strokes:
     """All strokes and places of one machine's heads."""
 
-    def __init__(self, m: Controller, world: World, reel: Reel):
+    def __init__(self, m: Controller, world: PlantFacts, reel: ImagePool):
         self._m, self._world, self._reel = m, world, reel
         self.heads = m.machine.drill_axes
         self.mask = sum(1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads)
@@ -94,7 +94,7 @@ def _cooled(axis: Axis, slot: str) -> Any:
 class Recording:
     """One stroke while it is run by tick: ``note`` after each tick, ``end`` after the last."""
 
-    def __init__(self, m: Controller, world: World, strokes: Strokes, signature: bytes):
+    def __init__(self, m: Controller, world: PlantFacts, strokes: Strokes, signature: bytes):
         self._m, self._world, self._strokes, self._signature = m, world, strokes, signature
         self._axes = [m.axes[head] for head in strokes.heads]
         self._start = strokes.here()

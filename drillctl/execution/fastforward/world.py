@@ -6,7 +6,7 @@ Rule: execution sees no plant; whoever builds the engine hands it one that answe
 from typing import Any, Protocol
 
 
-class World(Protocol):
+class PlantFacts(Protocol):
     """A plant that always answers alike. Travel is in columns of the phase table since power-up, as the wires have
     it (an inverted axis counts against its controller).
     """

@@ -13,7 +13,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from drillctl.inputs import opened
+from drillctl.files.inputs import opened
 
 from . import checks, sidefiles
 from .afterend import REFUSE

@@ -10,7 +10,7 @@ from __future__ import annotations
 import errno
 from pathlib import Path
 
-from drillctl.inputs import read_bytes
+from drillctl.files.inputs import read_bytes
 
 from .comments import declare, find, patterns
 from .errors import Remark

@@ -1,8 +1,7 @@
-"""The front door: the order of one tool's holes, or of several tools' one after the other.
+"""Always to the nearest hole that is left; of equally near ones to the one that stands first in the file.
 
-Rule: an order is a permutation of what was handed in, nothing is left out and nothing is drilled twice;
-'optimised' is never longer than 'nearest' nor than the file's own order. The last hole is where the tool
-stays: the way to the next tool is not counted. Called by whoever makes a job out of a drill file.
+Rule: exact. A list of near holes answers most times; once all of those are done, every hole left is tried.
+Called by `plan`, and by it as the starting point of `optimise`.
 """
 
 from __future__ import annotations
@@ -12,9 +11,31 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drillctl.generation.order.nearest import nearest_order
+from drillctl.generation.order.neighbours import find_neighbours
 from drillctl.generation.order.optimise import optimised_order
 from drillctl.generation.order.travel import OrderError, Steps, TravelCost, as_steps
+
+LIST_LENGTH = 8
+
+
+def nearest_order(points: Steps, travel: TravelCost) -> NDArray[np.int64]:
+    """Order of `points` (n, 2) in steps: row 0 is where the tool stands and comes first, the rest follow."""
+    near = find_neighbours(points, travel, LIST_LENGTH).index.tolist()
+    left = np.ones(len(points), bool)
+    left[0] = False
+    order = [0]
+    while len(order) < len(points):
+        here = order[-1]
+        listed = next((there for there in near[here] if left[there]), None)
+        there = _search_all(here, left, points, travel) if listed is None else listed
+        left[there] = False
+        order.append(there)
+    return np.array(order)
+
+
+def _search_all(here: int, left: NDArray[np.bool_], points: Steps, travel: TravelCost) -> int:
+    remaining = np.flatnonzero(left)
+    return int(remaining[travel.between(points[here], points[remaining]).argmin()])
 
 
 def plan(points: ArrayLike, travel: TravelCost, how: str, start: ArrayLike) -> NDArray[np.int64]:
@@ -32,9 +53,7 @@ def plan(points: ArrayLike, travel: TravelCost, how: str, start: ArrayLike) -> N
     return HOWS[how](stops, travel)[1:] - 1
 
 
-def plan_groups(
-    groups: Sequence[ArrayLike], travel: TravelCost, how: str, start: ArrayLike
-) -> list[NDArray[np.int64]]:
+def plan_groups(groups: Sequence[ArrayLike], travel: TravelCost, how: str, start: ArrayLike) -> list[NDArray[np.int64]]:
     """`plan` for one tool after the other, each beginning where the one before ended; one order a group."""
     orders = []
     here = np.asarray(start)

@@ -8,9 +8,8 @@ from collections.abc import Sequence
 
 from drillctl.machine import Machine
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
-from drillctl.plant.dynamic.drilling import Bit
+from drillctl.plant.dynamic.drilling import Bit, LooseCarriage, WornSwitch
 from drillctl.plant.dynamic.rotor import DynamicRotor
-from drillctl.plant.dynamic.worn import LooseCarriage, WornSwitch
 from drillctl.plant.faults import Faults, PlantRefused
 
 

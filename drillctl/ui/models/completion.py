@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import takewhile
 
-from drillctl.panel.queues import CommandHelp
+from drillctl.viewmodel.queues import CommandHelp
 
 
 def completed(before: str, commands: Sequence[CommandHelp], words: Sequence[str]) -> tuple[str, tuple[str, ...]]:

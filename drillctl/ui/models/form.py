@@ -3,14 +3,14 @@
 Rule: the text is sound in every field or it is not offered for saving. Used by the configuration screen.
 """
 
-from drillctl.panel.console import Problems
-from drillctl.panel.tables import Checked, FieldView, Place, TableDesk
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.tables import Checked, FieldView, Place, TableEditing
 
 
-class Form:
+class ConfigurationDraft:
     """The fields of one machine's text. ``typed`` holds what was changed, by place."""
 
-    def __init__(self, desk: TableDesk, text: str):
+    def __init__(self, desk: TableEditing, text: str):
         self._desk, self._text = desk, text
         self.fields: tuple[FieldView, ...] = desk.fields(text)
         self.typed: dict[Place, str] = {}

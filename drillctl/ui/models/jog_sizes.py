@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from drillctl.panel.console import AxisView
-from drillctl.ui.words import N_, _
+from drillctl.language.words import N_, _
+from drillctl.viewmodel.console import AxisView
 
 STEPS, MM = N_("steps"), N_("mm")
 # In steps: a column, a rest, a cycle of pcb-drill's table, a tenth and an inch.

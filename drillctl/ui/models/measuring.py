@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.panel.console import BoardView, Problems
-from drillctl.panel.jobs import Alignment, Measured
+from drillctl.viewmodel.console import BoardView, Problems
+from drillctl.viewmodel.jobs import AlignmentReport, MeasuredHole
 
 Place = tuple[float, float]
-Align = Callable[[tuple[Measured, ...], bool], tuple[Alignment | None, Problems]]
+Align = Callable[[tuple[MeasuredHole, ...], bool], tuple[AlignmentReport | None, Problems]]
 MOST_HOLES = 12
 LEAST_HOLES = 2
 
@@ -34,7 +34,7 @@ class Measuring:
     align  Console.align; ``alignment`` is what it says of the holes found, ``problems`` why it says nothing
     """
 
-    def __init__(self, board: BoardView, measured: tuple[Measured, ...], face_down: bool, align: Align):
+    def __init__(self, board: BoardView, measured: tuple[MeasuredHole, ...], face_down: bool, align: Align):
         self._board, self._face_down, self._align = board, face_down, align
         self.spots = [_known(board, hole) for hole in measured] or [
             self._spot(index) for index in far_apart(board.file_xy_mm)
@@ -42,9 +42,9 @@ class Measuring:
         self._look()
 
     @property
-    def measured(self) -> tuple[Measured, ...]:
+    def measured(self) -> tuple[MeasuredHole, ...]:
         """The holes found, as they are asked for."""
-        return tuple(Measured(*spot.file_mm, *spot.found_mm) for spot in self.spots if spot.found_mm)
+        return tuple(MeasuredHole(*spot.file_mm, *spot.found_mm) for spot in self.spots if spot.found_mm)
 
     @property
     def sound(self) -> bool:
@@ -105,7 +105,7 @@ def far_apart(xy_mm: NDArray[np.float64]) -> list[int]:
     return list(dict.fromkeys((first, second, int(off_line.argmax()))))
 
 
-def _known(board: BoardView, hole: Measured) -> Spot:
+def _known(board: BoardView, hole: MeasuredHole) -> Spot:
     file_mm = (hole.file_x_mm, hole.file_y_mm)
     number = int(np.hypot(*(board.file_xy_mm - np.array(file_mm)).T).argmin()) + 1
     return Spot(number, file_mm, (hole.machine_x_mm, hole.machine_y_mm))

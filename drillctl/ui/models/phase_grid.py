@@ -6,7 +6,7 @@ Rule: a grid never changes; every operation gives another one. Used by the phase
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from drillctl.panel.tables import PhaseRow
+from drillctl.viewmodel.tables import PhaseRow
 
 ON, OFF = "x", "."
 LEAST_COLUMNS = 2

@@ -5,7 +5,7 @@ Rule: a measurement that can't be right gives a reason and no scale. Used by the
 
 from dataclasses import dataclass
 
-from drillctl.ui.words import _
+from drillctl.language.words import _
 
 MM_PER_INCH = 25.4
 LEAST_TRAVEL_MM = 5.0

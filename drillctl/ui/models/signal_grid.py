@@ -7,9 +7,9 @@ signals screen.
 from collections.abc import Sequence
 from itertools import groupby
 
-from drillctl.panel.handwork import Kind, SignalView
-from drillctl.ui.lines import Line
-from drillctl.ui.words import N_, _
+from drillctl.language.words import N_, _
+from drillctl.ui.widgets.lines import Line
+from drillctl.viewmodel.manual_control import Kind, SignalView
 
 CELL_COLUMNS = 39
 NAME_COLUMNS = 15

@@ -4,14 +4,14 @@ Rule: a value; what it makes is a new text of the machine's file, in which no tw
 editor.
 """
 
-from drillctl.panel.console import Problems
-from drillctl.panel.tables import FieldView, TableDesk
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.tables import FieldView, TableEditing
 
 
 class WireBits:
     """``motors`` are the axes that use the phase table, in the order of the machine's file; none for no machine."""
 
-    def __init__(self, desk: TableDesk, text: str, phase: str):
+    def __init__(self, desk: TableEditing, text: str, phase: str):
         self._desk, self._text = desk, text
         self._wires = {str(wire.place[-1]): wire for wire in desk.wires(text)}
         fields = desk.fields(text)

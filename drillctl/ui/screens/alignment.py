@@ -10,16 +10,16 @@ from textwrap import wrap
 
 import urwid
 
-from drillctl.panel.console import AxisView, BoardView, Console, MachineView, Problems
-from drillctl.panel.jobs import Asked, Measured
-from drillctl.ui.dialogs import pair_mm
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line, Size, boxed
+from drillctl.language.figures import pair_mm
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.models.measuring import LEAST_HOLES, Measuring, Place
 from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
-from drillctl.ui.shell import Shell
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView, Problems
+from drillctl.viewmodel.jobs import Asked, MeasuredHole
 
 WIDTH = 78
 NONE_TO_SPARE = 3  # holes that fix shift, turn, scale and shear just so: their residuals are 0, whatever was measured
@@ -43,7 +43,7 @@ class AlignmentScreen(AtMachine, urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(
         self, console: Console, shell: Shell, board: BoardView, asked: Asked,
-        accept: Callable[[tuple[Measured, ...]], Problems],
+        accept: Callable[[tuple[MeasuredHole, ...]], Problems],
     ):  # fmt: skip
         AtMachine.__init__(self, console)
         self._shell, self._accept = shell, accept

@@ -3,12 +3,12 @@
 Rule: a request that is refused says why in that line. Drilling and the alignment screen are made of this.
 """
 
-from drillctl.panel.console import Console, MachineView, Problems
-from drillctl.ui.keys import Key
-from drillctl.ui.lines import Line
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.models.jog_sizes import JogSizes
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import Key
+from drillctl.ui.widgets.lines import Line
+from drillctl.viewmodel.console import Console, MachineView, Problems
 
 JOG_KEYS = (
     Key(("left",), N_("Left"), "jog_back", N_("first axis back by a step size"), argument=0),

@@ -5,13 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drillctl.panel.console import BoardView
-from drillctl.panel.jobs import Asked
-from drillctl.panel.records import ToolEstimate
-from drillctl.ui.formats import BY_OPTION
-from drillctl.ui.progress import clock
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.language.figures import clock
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
+from drillctl.ui.screens.formats import BY_OPTION
+from drillctl.viewmodel.console import BoardView, ToolWanted
+from drillctl.viewmodel.jobs import Asked
+from drillctl.viewmodel.records import ToolEstimate
 
 LEFT_COLUMNS = 24
 
@@ -29,7 +29,8 @@ CHOICES = (
     Choice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
     Choice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
     Choice(
-        "order", N_("Order"),
+        "order",
+        N_("Order"),
         (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best"))),
     ),
 )
@@ -126,3 +127,13 @@ def _whole_time(board: BoardView) -> str:
     line = _("Estimate {about}{time}").format(about=about, time=clock(estimate.ticks / estimate.tick_hz))
     fault = estimate.fault
     return line if fault is None else f"{line}; {_('it would end in')} {fault.name}: {_(fault.cause)}"
+
+
+def tool_name(tool: ToolWanted) -> str:
+    """``T3, 1.000 mm``, and the drill at hand that serves it where it is of another diameter."""
+    name = f"T{tool.number}"
+    if tool.diameter_mm is not None:
+        name += f", {tool.diameter_mm:.3f} mm"
+    if tool.drill_mm is not None:
+        name += _(", the drill of {diameter:.3f} mm").format(diameter=tool.drill_mm)
+    return name

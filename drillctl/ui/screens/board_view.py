@@ -9,10 +9,10 @@ import numpy as np
 import urwid
 from numpy.typing import NDArray
 
-from drillctl.panel.console import BoardView
-from drillctl.ui.board import BRAILLE, Sheet
-from drillctl.ui.lines import Line, Size, boxed
-from drillctl.ui.words import _
+from drillctl.language.words import _
+from drillctl.ui.widgets.board import BRAILLE, Sheet
+from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.viewmodel.console import BoardView
 
 Place = tuple[float, float]
 EMPTY = chr(BRAILLE)

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import urwid
 
-from drillctl.inputs import read_start, real_path
-from drillctl.ui.pick import Pick
-from drillctl.ui.words import _
-from drillctl.wording import one_line
+from drillctl.files.inputs import read_start, real_path
+from drillctl.language import one_line
+from drillctl.language.words import _
+from drillctl.ui.widgets.pick import Pick
 
 DRILL_FILES = "*.drl *.drd *.xln *.xnc *.exc *.cnc *.nc *.txt *.tap *.ncd *.rou"
 MOST_ENTRIES = 2000

@@ -8,20 +8,19 @@ from typing import Any
 
 import urwid
 
-from drillctl.panel.console import Console
-from drillctl.panel.tables import FieldView, TableDesk
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line
-from drillctl.ui.models.form import Form
-from drillctl.ui.screens.compare import label_of
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
+from drillctl.ui.models.form import ConfigurationDraft
 from drillctl.ui.screens.field_words import words_of
 from drillctl.ui.screens.scale_guide import ScaleGuide
-from drillctl.ui.screens.shelf import Shelf
+from drillctl.ui.screens.shell import Shell, asked_to_leave
+from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
-from drillctl.ui.shell import Shell, asked_to_leave
-from drillctl.ui.texts import Edit, Text
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line
+from drillctl.ui.widgets.texts import Edit, Text
+from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.tables import FieldView, TableEditing
 
 LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
 
@@ -42,9 +41,9 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         Key(("f12",), "F12", "measure", N_("measures the scale of the axis under the cursor"), N_("Measure")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
+    def __init__(self, console: Console, shell: Shell, desk: TableEditing, name: str, plain: bool = False):
         self._console, self._shell, self._desk, self._name = console, shell, desk, name
-        self._shelf = Shelf(console, shell, desk, "machines")
+        self._shelf = TableActions(console, shell, desk, "machines")
         self._heading, self._told = Text(""), Text("")
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
         self._list = urwid.ListBox(self._rows)
@@ -53,7 +52,7 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         self._open()
 
     @property
-    def form(self) -> Form:
+    def form(self) -> ConfigurationDraft:
         """What is typed."""
         return self._form
 
@@ -129,7 +128,7 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
 
     def _open(self) -> None:
         at = self._list.focus_position if self._rows else 0
-        self._form = Form(self._desk, self._desk.read("machines", self._name))
+        self._form = ConfigurationDraft(self._desk, self._desk.read("machines", self._name))
         self._edits = [Edit(edit_text=field.value) for field in self._form.fields]
         self._rows[:] = [_row(field, edit) for field, edit in zip(self._form.fields, self._edits, strict=True)]
         if self._edits:

@@ -9,20 +9,19 @@ from typing import Any
 
 import urwid
 
-from drillctl.panel.console import Console, MachineView
-from drillctl.panel.records import Progress
-from drillctl.ui.alerts import tool_name
-from drillctl.ui.dialogs import pair_mm
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line, Size
-from drillctl.ui.progress import clock
+from drillctl.language.figures import clock, pair_mm
+from drillctl.language.words import N_, _
 from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
+from drillctl.ui.screens.board_facts import tool_name
 from drillctl.ui.screens.board_view import BoardPicture
+from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.side_window import SideWindow
-from drillctl.ui.shell import Shell
-from drillctl.ui.texts import Text
-from drillctl.ui.unfinished import offer_job
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.unfinished import offer_job
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line, Size
+from drillctl.ui.widgets.texts import Text
+from drillctl.viewmodel.console import Console, MachineView
+from drillctl.viewmodel.records import Progress
 
 WIDE = 100  # columns from which the window is wide
 NARROW_WINDOW, WIDE_WINDOW = 36, 48

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from drillctl.panel.tables import FieldView, Place
-from drillctl.ui.words import N_
+from drillctl.language.words import N_
+from drillctl.viewmodel.tables import FieldView, Place
 
 
 class FieldWords(NamedTuple):

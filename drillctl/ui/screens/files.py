@@ -12,24 +12,24 @@ from typing import Any
 
 import urwid
 
-from drillctl.inputs import real_path
-from drillctl.panel.console import Console, Problems
-from drillctl.panel.jobs import Asked, Measured, PanelOf, RecentJob
-from drillctl.ui.dialogs import pair_mm
-from drillctl.ui.formats import FORMATS
-from drillctl.ui.forms import Field
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Size
+from drillctl.files.inputs import real_path
+from drillctl.language.figures import pair_mm
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.screens.alignment import AlignmentScreen
 from drillctl.ui.screens.board_facts import CHOICES, asked_lines, board_lines, format_name, is_warning, recent_line
 from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.browser import Browser, preview
+from drillctl.ui.screens.formats import FORMATS
+from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.typed import accepted, length_mm, panel_of, tool_numbers
-from drillctl.ui.shell import Shell
-from drillctl.ui.texts import Icon, Text
-from drillctl.ui.told import told
-from drillctl.ui.unfinished import offer_unfinished
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.unfinished import offer_unfinished
+from drillctl.ui.widgets.forms import Field
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Size
+from drillctl.ui.widgets.texts import Icon, Text
+from drillctl.viewmodel.console import Console, Problems
+from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob
 
 BY_FIELD = {choice.field: choice for choice in CHOICES}
 
@@ -175,7 +175,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         else:
             self._shell.open(AlignmentScreen(self._console, self._shell, board, self._asked, self._place_by))
 
-    def _place_by(self, measured: tuple[Measured, ...]) -> Problems:
+    def _place_by(self, measured: tuple[MeasuredHole, ...]) -> Problems:
         """The holes say where the board lies; only whether it lies face down was asked beside them."""
         if not measured:
             return self._with(measured=())

@@ -8,15 +8,15 @@ from the list of tables.
 
 from collections.abc import Callable
 
-from drillctl.panel.tables import FieldView
-from drillctl.ui.keys import Key
-from drillctl.ui.lines import Line, around
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid
 from drillctl.ui.models.wire_bits import WireBits
-from drillctl.ui.screens.shelf import Shelf
+from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import Key
+from drillctl.ui.widgets.lines import Line, around
+from drillctl.viewmodel.tables import FieldView
 
 NAME_COLUMNS, VOLTS_COLUMNS, BIT_COLUMNS, CELL_COLUMNS = 12, 7, 5, 3
 FURTHER_ROWS = 3  # above and below the wires
@@ -125,7 +125,7 @@ class PhaseEditor(TableEditor):
             self._shell.message(_("Not changed"), [told(problem) for problem in problems])
             return
         machine = self._console.view().machine
-        Shelf(self._console, self._shell, self._desk, "machines").save(machine, text, machine, self._look)
+        TableActions(self._console, self._shell, self._desk, "machines").save(machine, text, machine, self._look)
 
     def _change(self, operation: Callable[[PhaseGrid], PhaseGrid]) -> None:
         changed = operation(self._grid)

@@ -7,13 +7,13 @@ import textwrap
 
 import urwid
 
-from drillctl.panel.console import Console, MachineView, Problems
-from drillctl.panel.ports import PortDesk, PortReport, PortView
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line, Size, boxed
-from drillctl.ui.shell import Shell
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
+from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.viewmodel.console import Console, MachineView, Problems
+from drillctl.viewmodel.ports import PortControl, PortReport, PortView
 
 LABEL_COLUMNS = 14
 WORDS = {True: N_("REACHED"), False: N_("clear")}
@@ -31,7 +31,7 @@ class PortScreen(urwid.Widget):
         Key(("s",), "S", "go_simulated", N_("back to the simulated machine; asks first"), N_("Simulated")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: PortDesk):
+    def __init__(self, console: Console, shell: Shell, desk: PortControl):
         self._shell, self._desk = shell, desk
         self._report: PortReport | None = None
         self._port = desk.port()

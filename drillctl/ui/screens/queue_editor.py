@@ -8,20 +8,19 @@ from collections.abc import Callable
 
 import urwid
 
-from drillctl.panel.console import AxisView, Console, MachineView, Problems
-from drillctl.panel.handwork import HandDesk
-from drillctl.panel.queues import QueueDesk
-from drillctl.panel.tables import Finding
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.models.completion import completed, usage
 from drillctl.ui.models.history import History
-from drillctl.ui.real import asked_if_real
+from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
-from drillctl.ui.shell import Shell, asked_to_leave
-from drillctl.ui.texts import Edit, Text
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line
+from drillctl.ui.widgets.texts import Edit, Text
+from drillctl.viewmodel.console import AxisView, Console, MachineView, Problems
+from drillctl.viewmodel.manual_control import ManualControl
+from drillctl.viewmodel.queues import QueueEditing
+from drillctl.viewmodel.tables import Finding
 
 MOST_FINDINGS = 5
 Draft = tuple[str, int]  # a text, and where the cursor stands in it
@@ -43,7 +42,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: QueueDesk, hands: HandDesk):
+    def __init__(self, console: Console, shell: Shell, desk: QueueEditing, hands: ManualControl):
         self._console, self._shell, self._desk, self._hands = console, shell, desk, hands
         self._stopped: list[Line] = []
         self._commands = desk.commands()

@@ -4,12 +4,13 @@ Rule: a number goes into the text with every digit, so that profile, stopping di
 of what is on the screen; an unfinished number goes nowhere. Opened from the list of tables.
 """
 
-from drillctl.panel.tables import StateRow
-from drillctl.ui.bars import bar_rows
-from drillctl.ui.keys import Key
-from drillctl.ui.lines import Line, around
+from collections.abc import Sequence
+
+from drillctl.language.words import N_, _
 from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import Key
+from drillctl.ui.widgets.lines import Line, around
+from drillctl.viewmodel.tables import StateRow
 
 FIELDS = ("accelerate", "brake", "interval")  # as in the file
 HEADINGS = (N_("state"), N_("accelerate"), N_("brake"), N_("interval"), N_("stop steps"), N_("stop ticks"))
@@ -145,3 +146,23 @@ class RampEditor(TableEditor):
         bars = bar_rows([1 / interval for interval in ticks], columns, PROFILE_ROWS, self._plain)
         profile: list[Line] = [[("lit", row)] for row in bars]
         return [[told], *profile, [("good", _("every move lands exactly"))]]
+
+
+EIGHTHS = " ▁▂▃▄▅▆▇█"
+
+
+def bar_rows(values: Sequence[float], columns: int, rows: int, plain: bool = False) -> list[str]:
+    """``rows`` lines from the top, the greatest value as high as all of them. Values beyond ``columns`` are left out.
+
+    A value above zero is always seen, if only as the lowest eighth.
+    """
+    greatest = max(values, default=0.0)
+    if greatest <= 0 or rows < 1:
+        return [""] * rows
+    heights = [max(round(value / greatest * rows * 8), int(value > 0)) for value in values[:columns]]
+    return ["".join(_cell(height - 8 * below, plain) for height in heights) for below in range(rows - 1, -1, -1)]
+
+
+def _cell(eighths: int, plain: bool) -> str:
+    filled = min(max(eighths, 0), 8)
+    return ("#" if filled >= 4 else " ") if plain else EIGHTHS[filled]

@@ -7,13 +7,13 @@ configuration screen for the axis under its cursor.
 import math
 from collections.abc import Callable
 
-from drillctl.panel.console import AxisView, Console
-from drillctl.panel.tables import FieldView, TableDesk
-from drillctl.ui.dialogs import number
+from drillctl.language.figures import number
+from drillctl.language.words import _
 from drillctl.ui.models.scale import MM_PER_INCH, Measurement
-from drillctl.ui.screens.shelf import Shelf
-from drillctl.ui.shell import Shell
-from drillctl.ui.words import _
+from drillctl.ui.screens.shell import Shell
+from drillctl.ui.screens.table_actions import TableActions
+from drillctl.viewmodel.console import AxisView, Console
+from drillctl.viewmodel.tables import FieldView, TableEditing
 
 PROPOSED_STEPS = 2400
 SCALE, PER_STEP = "columns_per_inch", "columns_per_step"
@@ -23,10 +23,10 @@ class ScaleGuide:
     """One measurement of ``axis`` on the machine called ``name``; ``then`` follows once a scale was saved."""
 
     def __init__(
-        self, console: Console, shell: Shell, desk: TableDesk, name: str, axis: str, then: Callable[[], None]
+        self, console: Console, shell: Shell, desk: TableEditing, name: str, axis: str, then: Callable[[], None]
     ):
         self._console, self._shell, self._desk = console, shell, desk
-        self._shelf = Shelf(console, shell, desk, "machines")
+        self._shelf = TableActions(console, shell, desk, "machines")
         self._name, self._axis, self._then = name, axis, then
         self._from_steps = 0
 

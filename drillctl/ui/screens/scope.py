@@ -6,16 +6,16 @@ machine is shown as it was then. Opened from the menu, and by the scope verb.
 
 import urwid
 
-from drillctl.panel.console import Console, MachineView
-from drillctl.panel.scope import BACKWARDS, FORWARDS, Find, ScopeDesk, ScopeSource
-from drillctl.ui.keys import called
-from drillctl.ui.lines import Size, boxed
+from drillctl.language.words import N_, _
 from drillctl.ui.models.rows import Rows
 from drillctl.ui.models.viewport import Viewport
 from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS, SEARCH_OF
 from drillctl.ui.screens.scope_view import Layout, Look, scope_lines
-from drillctl.ui.shell import Shell
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets.keys import called
+from drillctl.ui.widgets.lines import Size, boxed
+from drillctl.viewmodel.console import Console, MachineView
+from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, ScopeDesk, ScopeSource
 
 WHEEL = {4: CLOSER, 5: FURTHER}  # buttons of the mouse
 

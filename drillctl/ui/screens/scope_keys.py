@@ -5,9 +5,9 @@ Rule: as keys.py has it. Used by the scope screen, whose methods the rows name.
 
 from typing import NamedTuple
 
-from drillctl.panel.scope import Find
-from drillctl.ui.keys import Key
-from drillctl.ui.words import N_
+from drillctl.language.words import N_
+from drillctl.ui.widgets.keys import Key
+from drillctl.viewmodel.scope import Find
 
 PAGE_ROWS = 8
 CLOSER, FURTHER = -1, 1
@@ -25,8 +25,14 @@ class Search(NamedTuple):
 
 
 SEARCHES = (
-    Search("n", "change", N_("next change of this row"), N_("the change before"), N_("no further change of this row"),
-           N_("Next")),
+    Search(
+        "n",
+        "change",
+        N_("next change of this row"),
+        N_("the change before"),
+        N_("no further change of this row"),
+        N_("Next"),
+    ),
     Search("s", "step", N_("next step of this row's axis"), N_("the step before"), N_("no further step")),
     Search("c", "command", N_("next command"), N_("the command before"), N_("no further command")),
     Search("e", "sensor", N_("next edge of a sensor"), N_("the edge before"), N_("no further edge of a sensor")),

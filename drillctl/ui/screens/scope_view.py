@@ -9,13 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drillctl.panel.scope import AxisMoment, Ints, Lack, Moment, ScopeSignal, ScopeSource
-from drillctl.ui.lines import Line, packed
+from drillctl.language.words import N_, _
 from drillctl.ui.models.rows import Rows
 from drillctl.ui.models.viewport import Viewport
-from drillctl.ui.phase_lines import phase_line, phase_table
-from drillctl.ui.wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.phase_lines import phase_line, phase_table
+from drillctl.ui.screens.scope_wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
+from drillctl.ui.widgets.lines import Line, packed
+from drillctl.viewmodel.scope import AxisMoment, Ints, Lack, Moment, ScopeSignal, ScopeSource
 
 WIDE = 116  # columns from which the phase tables stand beside the waves
 TABLES = 36

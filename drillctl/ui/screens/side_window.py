@@ -9,12 +9,12 @@ from collections.abc import Iterable, Sequence
 
 import urwid
 
-from drillctl.panel.console import AxisView, BoardView, MachineView
-from drillctl.panel.records import Progress
-from drillctl.ui.lines import Line, Size, boxed, width_of
-from drillctl.ui.phase_lines import lamp, phase_line, phase_table
-from drillctl.ui.progress import clock
-from drillctl.ui.words import _
+from drillctl.language.figures import clock
+from drillctl.language.words import _
+from drillctl.ui.screens.phase_lines import lamp, phase_line, phase_table
+from drillctl.ui.widgets.lines import Line, Size, boxed, width_of
+from drillctl.viewmodel.console import AxisView, BoardView, MachineView
+from drillctl.viewmodel.records import Progress
 
 LABEL_WIDTH = 9
 

@@ -6,15 +6,14 @@ real machine moves, so both are asked about first. Opened from the menu.
 
 import urwid
 
-from drillctl.panel.console import Console, MachineView
-from drillctl.panel.handwork import HandDesk, SignalView
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line, Size, boxed
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, moved
-from drillctl.ui.real import asked_if_real
-from drillctl.ui.shell import Shell
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.shell import Shell, asked_if_real
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.viewmodel.console import Console, MachineView
+from drillctl.viewmodel.manual_control import ManualControl, SignalView
 
 FOOT_ROWS = 2
 
@@ -35,7 +34,7 @@ class Signals(urwid.Widget):
         Key(("page down",), "PgDn", "downwards", N_("a section of lines down"), argument=8),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: HandDesk):
+    def __init__(self, console: Console, shell: Shell, desk: ManualControl):
         self._console, self._shell, self._desk = console, shell, desk
         self._signals: tuple[SignalView, ...] = ()
         self._cursor = self._top = 0

@@ -6,15 +6,15 @@ never saved. PhaseEditor and RampEditor are made of this.
 
 import urwid
 
-from drillctl.panel.console import Console
-from drillctl.panel.tables import Checked, Kind, TableDesk
-from drillctl.ui.keys import Key, called
-from drillctl.ui.lines import Line, boxed
+from drillctl.language.sentences import told
+from drillctl.language.words import N_, _
 from drillctl.ui.models.history import History
-from drillctl.ui.screens.shelf import Shelf
-from drillctl.ui.shell import Shell, asked_to_leave
-from drillctl.ui.told import told
-from drillctl.ui.words import N_, _
+from drillctl.ui.screens.shell import Shell, asked_to_leave
+from drillctl.ui.screens.table_actions import TableActions
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.lines import Line, boxed
+from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.tables import Checked, Kind, TableEditing
 
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid has it; a box has two
 MOST_FINDINGS = 6
@@ -38,9 +38,9 @@ class TableEditor(urwid.Widget):
     title: str
     keys: tuple[Key, ...] = TABLE_KEYS
 
-    def __init__(self, console: Console, shell: Shell, desk: TableDesk, name: str, plain: bool = False):
+    def __init__(self, console: Console, shell: Shell, desk: TableEditing, name: str, plain: bool = False):
         self._console, self._shell, self._desk = console, shell, desk
-        self._shelf = Shelf(console, shell, desk, self.kind)
+        self._shelf = TableActions(console, shell, desk, self.kind)
         self._name, self._plain = name, plain
         self._open()
 

@@ -8,19 +8,19 @@ from typing import Any
 
 import urwid
 
-from drillctl.panel.console import Console
-from drillctl.panel.tables import Kind, TableDesk, TableEntry
-from drillctl.ui.keys import Key, called
+from drillctl.language.words import N_, _
 from drillctl.ui.screens.configuration import Configuration
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.ramp_editor import RampEditor
-from drillctl.ui.screens.shelf import Shelf
+from drillctl.ui.screens.shell import Shell, unsaved
+from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import ORIGINS, Size
-from drillctl.ui.shell import Shell, unsaved
-from drillctl.ui.texts import Icon
-from drillctl.ui.words import N_, _
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.texts import Icon
+from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.tables import Kind, TableEditing, TableEntry
 
-Editor = Callable[[Console, Shell, TableDesk, str, bool], urwid.Widget]
+Editor = Callable[[Console, Shell, TableEditing, str, bool], urwid.Widget]
 EDITORS: Mapping[Kind, Editor] = {"phase": PhaseEditor, "ramp": RampEditor, "machines": Configuration}
 TITLES: Mapping[Kind, str] = {
     "phase": N_("Phase tables"),
@@ -41,9 +41,9 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         Key(("x", "delete"), "X", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: TableDesk, kind: Kind, plain: bool = False):
+    def __init__(self, console: Console, shell: Shell, desk: TableEditing, kind: Kind, plain: bool = False):
         self._console, self._shell, self._desk, self._plain = console, shell, desk, plain
-        self._shelf = Shelf(console, shell, desk, kind)
+        self._shelf = TableActions(console, shell, desk, kind)
         self.kind, self.title = kind, TITLES[kind]
         self._editors: dict[str, urwid.Widget] = {}
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])

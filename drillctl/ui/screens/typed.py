@@ -8,9 +8,9 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
-from drillctl.panel.console import Problems
-from drillctl.panel.jobs import PanelOf
-from drillctl.ui.words import _
+from drillctl.language.words import _
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.jobs import PanelOf
 
 Read = TypeVar("Read")
 

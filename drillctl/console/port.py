@@ -1,0 +1,89 @@
+"""Looks at a port before anything is driven on it: who answers, what it can carry, what its inputs say.
+
+Rule: the outputs are safe from the first to the last moment, and nothing moves. Called by the screens' station.
+"""
+
+import time
+
+from drillctl.console.machine_console import MachineConsole
+from drillctl.console.machine_in_use import MachineInUse
+from drillctl.machine import Machine
+from drillctl.portio.registry import open_port, rate_of, select
+from drillctl.ports import Driver, PortError, Telling
+from drillctl.ticker.launch import wiring_of
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.ports import PortReport, PortView
+
+LISTEN_S = 0.3  # a board reports its inputs when it comes round to them
+LOOK_EVERY_S = 0.01
+
+
+def look_at_port(machine: Machine, spec: str) -> PortReport:
+    """Opens a real port ``NAME[:ADDRESS]``, asks it and gives it back. What went wrong stands in the report."""
+    try:
+        port, address = select(spec)
+        if not address and (reason := port.missing()):
+            return PortReport(spec, problem=f"{reason}; it needs {port.needs}")
+        driver = open_port(spec, wiring_of(machine))
+        try:
+            facts = (port.summary, *(driver.facts() if isinstance(driver, Telling) else ()), _rate(machine, spec))
+            return PortReport(spec, facts, sensors_of(machine, _listened(driver)))
+        finally:
+            driver.close()
+    except PortError as error:
+        return PortReport(spec, problem=str(error))
+    except OSError as error:
+        return PortReport(spec, problem=f"{spec}: {error.strerror or error}; check cable, power and rights")
+
+
+def sensors_of(machine: Machine, inputs: int) -> tuple[tuple[str, bool], ...]:
+    """Each sensor by name, True where it is reached, from an input image."""
+    return tuple((s.name, inputs >> s.bit & 1 == s.active_level) for s in machine.sensors)
+
+
+def _listened(driver: Driver) -> int:
+    """The inputs, once there was time for all of them to be told."""
+    until_s = time.monotonic() + LISTEN_S
+    while time.monotonic() < until_s:
+        driver.latch()
+        time.sleep(LOOK_EVERY_S)
+    return driver.latch()
+
+
+def _rate(machine: Machine, spec: str) -> str:
+    most_hz = rate_of(spec, wiring_of(machine))
+    carries = "any rate of this program" if most_hz is None else f"up to {most_hz} Hz with all axes moving"
+    return f"carries {carries}; the machine wants {machine.tick_hz} Hz"
+
+
+class MachinePort:
+    """A PortControl over the station's machine."""
+
+    def __init__(self, station: MachineConsole):
+        self._station = station
+
+    def port(self) -> PortView:
+        """From the machine's file and the options."""
+        return self._station.used.port
+
+    def test(self) -> PortReport:
+        """A port in use is open already, and only one can have it: what it says is in the status record."""
+        machine, port = self._station.machine, self.port()
+        if port.real:
+            reached = int(self._station.link.status()["sensors"])
+            inputs = tuple((sensor.name, bool(reached >> sensor.bit & 1)) for sensor in machine.sensors)
+            return PortReport(port.in_use, ("this port is in use: the machine runs on it",), inputs)
+        if problems := self._station.busy():
+            return PortReport(port.configured, problem=problems[0])
+        if not port.configured:
+            known = f"no port drives the card {port.card!r}; name one in its place (drillctl ports)"
+            return PortReport("", problem=known)
+        return look_at_port(machine, port.configured)
+
+    def go_real(self) -> Problems:
+        """After which the position is unknown."""
+        return self._station.go_real()
+
+    def go_simulated(self) -> Problems:
+        """After which the position is unknown."""
+        return self._station.change(MachineInUse.go_simulated)

@@ -1,0 +1,90 @@
+"""Queues of commands as the queue editor sees them (viewmodel/queues.py).
+
+Rule: a queue is checked by the parser that runs it. Created by the screen verb.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from drillctl.files.inputs import read_bytes
+from drillctl.files.outputs import write_text
+from drillctl.generation.job import names_of
+from drillctl.kmd import COMMANDS, KmdError, Names, Op, parse_program
+from drillctl.kmd.commands import BY_OP, ArgumentForm
+from drillctl.machine import Machine
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.queues import CommandHelp
+from drillctl.viewmodel.tables import Finding
+
+MOVES = (ArgumentForm.XY, ArgumentForm.MOVES)  # their arguments are steps, by axis
+LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it is checked at every key
+
+
+class QueueFiles:
+    """A QueueEditing for the machine that ``machine`` gives: the one in use when it is asked."""
+
+    def __init__(self, machine: Callable[[], Machine]):
+        self._machine = machine
+
+    def commands(self) -> list[CommandHelp]:
+        """From the one definition of the commands."""
+        return [CommandHelp(spec.name, spec.usage, spec.meaning) for spec in COMMANDS.values()]
+
+    def words(self) -> list[str]:
+        """Axes, outputs, sensors."""
+        names = self._names()
+        return [*names.axes, *names.outputs, *names.inputs]
+
+    def check_queue(self, text: str) -> tuple[Finding, ...]:
+        """Each line alone first, so that all wrong lines are told; then the whole, for what lies between lines."""
+        return tuple(_wrong_lines(text, self._names())) or tuple(_wrong(text, self._names(), 0))
+
+    def too_far(self, text: str) -> tuple[Finding, ...]:
+        """Base and place are known when the queue runs, and lie within the range: a move longer than it can't fit."""
+        return tuple(_too_far(text, self._machine())) if text.strip() else ()
+
+    def open_queue(self, file: str) -> tuple[str, Problems]:
+        """UTF-8."""
+        try:
+            data = read_bytes(file, LARGEST_QUEUE_BYTES, "a queue to be edited; run it as it is")
+            return data.decode("utf-8-sig"), ()
+        except UnicodeDecodeError:
+            return "", (f"{file}: not UTF-8 text, so not a queue",)
+        except OSError as error:
+            return "", (f"{file}: can't be read: {error.strerror}",)
+
+    def save_queue(self, file: str, text: str) -> Problems:
+        """Sound or not: a queue may be kept unfinished."""
+        return write_text(Path(file), text)
+
+    def _names(self) -> Names:
+        return names_of(self._machine())
+
+
+def _lines(text: str) -> Iterator[tuple[int, str]]:
+    """Those that hold a command, by their numbers from 1."""
+    lines = enumerate(text.split("\n"), start=1)
+    return ((number, line) for number, line in lines if line.partition("#")[0].strip())
+
+
+def _wrong_lines(text: str, names: Names) -> Iterator[Finding]:
+    for number, line in _lines(text):
+        yield from _wrong(line, names, number - 1)
+
+
+def _too_far(text: str, machine: Machine) -> Iterator[Finding]:
+    for number, line in _lines(text):
+        command = parse_program(line, names_of(machine))[0]
+        if BY_OP[Op(int(command["opcode"]))].form not in MOVES:
+            continue
+        for axis, steps in zip(machine.axes, command["args"].tolist(), strict=False):
+            if abs(steps) > (span := axis.span_steps):
+                name = axis.name.upper()
+                yield Finding(number, f"{name}: {steps} steps reach beyond the work range, which is {span} long")
+
+
+def _wrong(text: str, names: Names, lines_before: int) -> Iterator[Finding]:
+    try:
+        parse_program(text, names)
+    except KmdError as error:
+        yield Finding(lines_before + error.line, error.reason, error.column)

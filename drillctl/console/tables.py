@@ -1,0 +1,262 @@
+"""Tables and queues as the screens' editors see them (viewmodel/tables.py, viewmodel/queues.py).
+
+Rule: a text is checked by the same readers that load it; a file changes whole or not at all, and only the user's own.
+Created by the screen verb.
+"""
+
+import difflib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from drillctl.files.outputs import write_text
+from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
+from drillctl.machine.edit import (
+    UNSAVED,
+    set_pattern,
+    set_reverse,
+    set_state_row,
+    set_value,
+    with_states,
+    without_states,
+)
+from drillctl.machine.phase import NAME, parse_phase, phase_rows
+from drillctl.machine.positions import Place
+from drillctl.machine.ramp import MOST_STATES, parse_ramp, proposals, ramp_rows
+from drillctl.machine.settings import Setting, settings, wire_settings
+from drillctl.machine.source import Source
+from drillctl.machine.travel import stopping
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
+
+# What makes a text a table of its kind: a key that only this kind has.
+KEY_OF: dict[Kind, tuple[str, ...]] = {
+    "phase": ("wire",),
+    "ramp": ("state",),
+    "motor": ("windings", "pulse"),
+    "machines": ("axis",),
+}
+LONGEST_NAME = 40
+TABLES_OF_A_MOTOR = ("phase", "ramp")  # keys of an axis that name a table
+
+
+class TableFiles:
+    """A TableEditing over ``library``; edits go to ``user_folder``, which is one of the library's folders. ``machine``
+    gives the machine at hand, None for none.
+    """
+
+    def __init__(self, library: Library, user_folder: Path, machine: Callable[[], Machine | None] = lambda: None):
+        self._library, self._user_folder, self._machine = library, user_folder, machine
+
+    def tables(self, kind: Kind) -> list[TableEntry]:
+        """By name."""
+        machine = self._machine()
+        used = _used(kind, machine) if machine else set()
+        return [
+            TableEntry(name, self._origin(kind, name), self._shipped(kind, name).is_file(), name in used)
+            for name in self._library.names(kind)
+        ]
+
+    def read(self, kind: Kind, name: str) -> str:
+        """From the first folder that has it."""
+        file = self._library.find(kind, name)
+        try:
+            return Source.read(file).text if file else ""
+        except TableError:
+            return ""
+
+    def check(self, kind: Kind, text: str) -> Checked:
+        """By the readers that load tables."""
+        return self._check(kind, Source(self._own(kind, "unsaved"), text))
+
+    def save(self, kind: Kind, name: str, text: str) -> Problems:
+        """Refused too where a folder named before the user's has a table of this name: that one would still win."""
+        own = self._own(kind, name)
+        if problems := self._check(kind, Source(own, text)).problems:
+            return tuple(map(str, problems))
+        found = self._library.find(kind, name)
+        if found is not None and self._origin(kind, name) == "other":
+            return (f"{found} is looked at before your own copy; change it there, or start without that folder",)
+        return write_text(own, text)
+
+    def reset(self, kind: Kind, name: str) -> Problems:
+        """Only where there is a shipped one to go back to."""
+        own = self._own(kind, name)
+        if not own.is_file():
+            return ("there is no copy of your own to take away",)
+        if not self._shipped(kind, name).is_file():
+            return (f"{name} does not come with the program; there is nothing to go back to",)
+        return _unlinked(own)
+
+    def delete(self, kind: Kind, name: str) -> Problems:
+        """One that comes with the program is never deleted, and reset goes back to it."""
+        if self._shipped(kind, name).is_file():
+            return (f"{name} comes with the program and stays; your own copy goes by a reset",)
+        if self._origin(kind, name) != "yours":
+            return (f"{self._library.find(kind, name)}: not in your own folder; it is not deleted from here",)
+        return _unlinked(self._own(kind, name))
+
+    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+        """From an empty file for a table that does not come with the program."""
+        shipped = self._shipped(kind, name)
+        before = Source.read(shipped).text if shipped.is_file() else ""
+        names = (f"shipped {name}", f"this {name}")
+        return tuple(difflib.unified_diff(before.splitlines(), text.splitlines(), *names, lineterm=""))
+
+    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+        """The copy is named so inside as well."""
+        if not NAME.fullmatch(new_name) or len(new_name) > LONGEST_NAME:
+            return (f"{new_name!r}: a name is at most {LONGEST_NAME} letters, digits, - and _, no - or _ first",)
+        if self._library.find(kind, new_name) is not None:
+            return (f"there is a table named {new_name} already",)
+        try:
+            return self.save(kind, new_name, set_value(self.read(kind, name), ("name",), new_name))
+        except TableError as error:
+            return (str(error),)
+
+    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
+        """Of any text whose rows can be read, sound or not."""
+        try:
+            return tuple(PhaseRow(*row) for row in phase_rows(_source(text)))
+        except TableError:
+            return ()
+
+    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
+        """Comments and layout stay."""
+        for row in rows:
+            text = set_pattern(text, row.name, row.pattern)
+        return set_reverse(text, {row.name: row.reverse for row in rows if row.reverse is not None})
+
+    def ramp(self, text: str) -> RampDrawing:
+        """Its rows as long as they can be read; the drawing only of a ramp that lands exactly."""
+        source = _source(text)
+        try:
+            rows = ramp_rows(source)
+        except TableError:
+            return RampDrawing(())
+        try:
+            ramp = parse_ramp(source)
+        except TableError:
+            return RampDrawing(tuple(StateRow(*row) for row in rows))
+        states = tuple(StateRow(*row, *stopping(ramp, row[0])) for row in rows)
+        return RampDrawing(states, tuple(intervals(ramp, ramp.straight_from())))
+
+    def with_state(self, text: str, state: int, field: str, value: int) -> str:
+        """Comments and layout stay."""
+        return set_state_row(text, state, field, value)
+
+    def with_top(self, text: str, higher: bool) -> str:
+        """Numbers are tried until every move lands exactly; where none does, the editor shows what is wrong."""
+        try:
+            rows = ramp_rows(_source(text))
+        except TableError:
+            return text
+        top = rows[-1][0]
+        if not higher:
+            return without_states(text, top) if top > 1 else text
+        if top >= MOST_STATES:
+            return text
+        tried = [with_states(text, *row) for row in proposals(rows[-1])]
+        return next((changed for changed in tried if not self.check("ramp", changed).problems), tried[0])
+
+    def fields(self, text: str) -> tuple[FieldView, ...]:
+        """In the order of the paper's screen."""
+        try:
+            return tuple(map(self._field_view, settings(_source(text))))
+        except TableError:
+            return ()
+
+    def wires(self, text: str) -> tuple[FieldView, ...]:
+        """In the order of the file."""
+        try:
+            return tuple(map(self._field_view, wire_settings(_source(text))))
+        except TableError:
+            return ()
+
+    def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
+        """Comments and layout stay, and an address in hexadecimal stays so."""
+        try:
+            source = _source(text)
+            known = (*settings(source), *wire_settings(source))
+            setting = next(setting for setting in known if setting.place == place)
+            if setting.locked:
+                return text, (_locked(source, setting),)
+            return set_value(text, place, setting.parsed(typed)), ()
+        except (TableError, ValueError) as error:
+            return text, (str(error),)
+
+    def _field_view(self, setting: Setting) -> FieldView:
+        choices = self._tables_for(setting) if setting.key in TABLES_OF_A_MOTOR else setting.choices
+        return FieldView(setting.place, setting.axis, _shown(setting), choices, _bounds(setting), setting.locked)
+
+    def _tables_for(self, setting: Setting) -> tuple[str, ...]:
+        """The tables that a motor may have in place of its own: every ramp, and phase tables of the same wires."""
+        names = self._library.names(setting.key)
+        wires = {name: self._wire_names(name) for name in names} if setting.key == "phase" else {}
+        own = wires.get(str(setting.value))
+        return tuple(name for name in names if wires.get(name) == own)
+
+    def _wire_names(self, phase: str) -> frozenset[str] | None:
+        """None for a table that can't be read."""
+        file = self._library.find("phase", phase)
+        try:
+            return frozenset(parse_phase(Source.read(file)).wire_names()) if file else None
+        except TableError:
+            return None
+
+    def _check(self, kind: Kind, source: Source) -> Checked:
+        try:
+            if not set(KEY_OF[kind]) & source.tree().keys():
+                return Checked((Finding(None, f"[{KEY_OF[kind][0]}] is missing: not a table of this kind"),))
+            return Checked((), tuple(Finding(None, hazard) for hazard in self._library.check_source(source)))
+        except TableError as error:
+            ours = error.file == str(source.file)
+            return Checked((Finding(error.line, error.reason) if ours else Finding(None, str(error)),))
+
+    def _origin(self, kind: Kind, name: str) -> str:
+        places = {self._own(kind, name): "yours", self._shipped(kind, name): "shipped"}
+        found = self._library.find(kind, name)
+        return places.get(found, "other") if found else "other"
+
+    def _own(self, kind: Kind, name: str) -> Path:
+        return self._user_folder / kind / f"{name}.toml"
+
+    def _shipped(self, kind: Kind, name: str) -> Path:
+        return shipped_tables() / kind / f"{name}.toml"
+
+
+def _used(kind: Kind, machine: Machine) -> set[str]:
+    """The names of the tables that a machine is made of."""
+    if kind == "machines":
+        return {machine.name}
+    return {getattr(axis, kind).name for axis in machine.axes}
+
+
+def _source(text: str) -> Source:
+    return Source(Path(UNSAVED), text)
+
+
+def _unlinked(own: Path) -> Problems:
+    try:
+        own.unlink()
+    except OSError as error:
+        return (f"{own}: can't be taken away: {error.strerror}",)
+    return ()
+
+
+def _locked(source: Source, setting: Setting) -> str:
+    line = source.line_of("locked")
+    return f"{setting.key} is locked in line {line} of the machine's file; whoever keeps the file opens it there"
+
+
+def _shown(setting: Setting) -> str:
+    """A card's address in hexadecimal, as its switches are set; 18.0 s as 18."""
+    if setting.place[-1] == "card_address":
+        return f"0x{setting.value:X}"
+    return str(setting.value).removesuffix(".0") if setting.kind is float else str(setting.value)
+
+
+def _bounds(setting: Setting) -> str:
+    if setting.kind is str:
+        return ""
+    low = f"above {setting.above:g}" if setting.above is not None else f"{setting.least:.0f}"
+    return f"{low}..{setting.greatest:.0f}"

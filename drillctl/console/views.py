@@ -1,0 +1,129 @@
+"""Status record, machine and job as the records that screens draw. Called by station."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.files.inputs import real_path
+from drillctl.generation.job import Job, names_of
+from drillctl.kmd import Condition, to_text
+from drillctl.machine import AxisTable, Library, Machine, TableError
+from drillctl.ticker.link import Link
+from drillctl.viewmodel import fault_report
+from drillctl.viewmodel.console import AxisView, BoardView, MachineView, ToolView
+from drillctl.viewmodel.records import Estimate
+
+CONDITIONS = {
+    Condition.READY: "ready",
+    Condition.HOLDING: "holding",
+    Condition.STOPPING: "stopping",
+    Condition.RETURNING: "returning",
+    Condition.LATCHED: "latched",
+}
+
+
+def machine_list(library: Library) -> list[tuple[str, str]]:
+    """Name and description of every machine, or why it can't be loaded."""
+    found = []
+    for name in library.machine_names():
+        try:
+            found.append((name, library.machine(name).description))
+        except TableError as error:
+            found.append((name, str(error)))
+    return found
+
+
+def machine_view(
+    machine: Machine, port: str, link: Link, status: np.void, program: NDArray[np.void] | None, first: int,
+    base_steps: list[int],
+) -> MachineView:  # fmt: skip
+    """The machine at this moment; ``first`` is the sequence before the running program's."""
+    condition = CONDITIONS[Condition(int(status["condition"]))]
+    moving = bool(status["moving"])
+    image = int(status["image"])
+    code = link.lost() or int(status["fault"])
+    view = MachineView(
+        machine=machine.name,
+        port=port,
+        tick=int(status["tick"]),
+        tick_hz=machine.tick_hz,
+        condition="held" if condition == "holding" and not moving else condition,
+        moving=moving,
+        position_known=bool(status["position_known"]),
+        command=_command_text(machine, status, program, first),
+        queued=int(status["queued"]),
+        tool=int(status["tool"]),
+        axes=tuple(_axis_view(axis, i, status, image, base_steps[i]) for i, axis in enumerate(machine.axes)),
+        sensors=tuple((s.name, bool(int(status["sensors"]) >> s.bit & 1)) for s in machine.sensors),
+        outputs=tuple((name, bool(image >> bit & 1)) for name, bit in machine.outputs),
+        lost_steps=tuple(status["lost"].tolist()[: len(machine.axes)]) if link.measured else None,
+        late=int(status["late"]),
+        late_worst_ms=int(status["late_worst_ns"]) / 1e6,
+        fault=fault_report(code, bool(status["fault_kept"])) if code else None,
+        notices=tuple(link.notices()),
+        hot_s=int(status["hot_ticks"]) / machine.tick_hz,
+        cut_off=bool(status["cut_off"]),
+        paused=link.gate.paused,
+    )
+    return _gone(view) if link.lost() else view
+
+
+def _gone(view: MachineView) -> MachineView:
+    """What a ticker wrote before it was lost holds no longer: the guard has dropped the outputs."""
+    return replace(view, condition="latched", moving=False, position_known=False, command="", queued=0)
+
+
+def _axis_view(axis: AxisTable, index: int, status: np.void, image: int, base_steps: int) -> AxisView:
+    position, target = int(status["position"][index]), int(status["target"][index])
+    wires = tuple(
+        (wire.name, "".join("x" if on else "." for on in wire.forward), bool(image >> bit & 1))
+        for wire, bit in zip(axis.phase.wires, axis.wire_bits, strict=True)
+    )
+    return AxisView(
+        name=axis.name,
+        position_steps=position,
+        position_mm=(position - base_steps) / axis.steps_per_mm,
+        target_steps=target,
+        target_mm=(target - base_steps) / axis.steps_per_mm,
+        state=int(status["state"][index]),
+        top_state=axis.ramp.top,
+        column=int(status["column"][index]),
+        wires=wires,
+        steps_per_mm=axis.steps_per_mm,
+    )
+
+
+def _command_text(machine: Machine, status: np.void, program: NDArray[np.void] | None, first: int) -> str:
+    row = int(status["sequence"]) - first - 1
+    if program is None or not status["sequence"] or not 0 <= row < len(program):
+        return ""
+    return to_text(program[row], names_of(machine))
+
+
+def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None, after_end: str) -> BoardView:
+    """A planned board; a queue has none. The file is read once more for what it says of its format."""
+    from drillctl.generation.drillfile import read
+
+    drill_file = read(file, fmt=fmt, after_end=after_end)
+    work = job.work
+    assert work is not None
+    x, y = (job.machine.axis_names.index(name) for name in ("x", "y"))
+    scale = np.array([job.machine.axes[x].steps_per_mm, job.machine.axes[y].steps_per_mm])
+    tool = np.concatenate([np.full(group.stop - group.start, i) for i, group in enumerate(work.groups)])
+    return BoardView(
+        name=file.name,
+        file=str(real_path(file)),
+        xy_mm=work.steps / scale,
+        file_xy_mm=work.hits.xy_mm,
+        tool=tool.astype(np.int64),
+        tools=tuple(ToolView(g.number, g.diameter_mm, g.stop - g.start) for g in work.groups),
+        format=str(drill_file.format),
+        dialect=drill_file.format.dialect,
+        confidence=drill_file.confidence,
+        reason=drill_file.reason,
+        runner_up=str(drill_file.runner_up or ""),
+        warnings=job.warnings,
+        estimate=estimate,
+    )

@@ -1,0 +1,162 @@
+"""Commands that were foreseen: how long each takes, what is seen meanwhile, what every axis puts out.
+
+Rule: a course says and changes nothing; engine.py makes it and leaves the machine at its end. Ticks count from its
+beginning. What costs more than the foreseeing (``tapes``) is made only where somebody asks.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution.controller import Controller
+from drillctl.execution.fastforward.axis_batch import AxisBatch
+from drillctl.execution.fastforward.strokes import COUNTERS, MOTION, POSITION, REMEMBERED, Place, Stroke
+from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.trace.tapes import LAP, Count, ImagePool, Tape
+
+Touch = tuple[int, int, tuple[float, ...]]  # tool, tag of the hole begun, places of all axes in steps
+
+
+@dataclass(frozen=True, eq=False)
+class Stroked:
+    """The strokes of a course: in the commands ``rows`` (k,) the kind ``which`` (k,), from the place ``begin`` on."""
+
+    heads: tuple[int, ...]
+    begin: Place
+    rows: NDArray[np.intp]
+    which: NDArray[np.intp]
+    kinds: tuple[Stroke, ...]
+
+    @classmethod
+    def of(cls, heads: tuple[int, ...], begin: Place, rows: NDArray[np.intp], strokes: Sequence[Stroke]) -> "Stroked":
+        """From what is carried out in these rows."""
+        numbers = {stroke: number for number, stroke in enumerate(dict.fromkeys(strokes))}
+        which = np.fromiter(map(numbers.__getitem__, strokes), np.intp, len(strokes))
+        return cls(heads, begin, rows, which, tuple(numbers))
+
+    def of_kinds(self, values: Sequence[int]) -> Count:
+        """A value for each kind as one for each stroke, (k,)."""
+        return np.array(values, np.int64)[self.which]
+
+    def tape(self, reel: ImagePool, number: int, ticks: Count) -> Tape:
+        """What a head puts out, by its number: between strokes it rests where the last one left it."""
+        rests = [reel.steady(place.rests[number]) for place in (self.begin, *(kind.after for kind in self.kinds))]
+        strokes_before = np.cumsum(np.bincount(self.rows, minlength=len(ticks))) if len(self.rows) else 0 * ticks
+        start = np.array(rests)[np.concatenate(([0], self.which + 1))][strokes_before]
+        lap = np.full(len(ticks), LAP)
+        start[self.rows] = self.of_kinds([kind.strips[number] for kind in self.kinds])
+        lap[self.rows] = np.maximum(ticks[self.rows], LAP + 1)
+        return Tape.of(start, ticks, lap)
+
+    def motion(self, number: int, starts: Count) -> Count:
+        """What a head does, by its number, as Journey.motion has it."""
+        parts = [np.array([[-1, *self.begin.motion(number)]], np.int64).T]
+        for which, kind in enumerate(self.kinds):
+            begins = starts[self.rows[self.which == which]]
+            once = np.array(kind.motions[number], np.int64).reshape(-1, 1 + len(MOTION)).T
+            ticks = (begins[:, None] + once[0]).ravel()
+            parts.append(np.stack((ticks, *np.tile(once[1:], len(begins)))))
+        motion = np.concatenate(parts, axis=1)
+        return motion[:, np.argsort(motion[0], kind="stable")]
+
+    def leave(self, m: Controller, world: PlantFacts, last_row: int) -> None:
+        """The heads as they stand after the command ``last_row``."""
+        place = self.kinds[self.which[-1]].after if len(self.rows) else self.begin
+        times = np.bincount(self.which, minlength=len(self.kinds)).tolist()
+        for number, head in enumerate(self.heads):
+            axis = m.axes[head]
+            for slot, value in zip(REMEMBERED, place.axes[number], strict=True):
+                setattr(axis, slot, value)
+            turned_at = [each.motion(number)[POSITION] for each in (self.begin, *(kind.after for kind in self.kinds))]
+            axis.was_at(min(turned_at), max(turned_at))
+            for counter, name in enumerate(COUNTERS):
+                grown = sum(n * kind.grown[number][counter] for n, kind in zip(times, self.kinds, strict=True))
+                setattr(axis, name, getattr(axis, name) + grown)
+            if len(self.rows) and self.rows[-1] == last_row:
+                axis.cooling, axis.bits = self.kinds[self.which[-1]].last[number]
+            world.recall(head, place.memories[number])
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """n commands, at least one.
+
+    commands  dtype kmd.RECORD (n,); ``ticks`` int64 (n,) of each
+    journeys  by axis; None where the axis is a head and ``stroked`` says what it does
+    switched  (n,) output bits that are no axis's, during each command
+    tools     (n,) the tool in hand, ``holes`` (n,) the hole begun, in each command
+    inputs_before  the input image that the first tick latches; ``still_inputs`` the part that no stroke changes
+    """
+
+    commands: NDArray[np.void]
+    ticks: Count
+    journeys: Sequence[AxisBatch | None]
+    stroked: Stroked
+    switched: NDArray[np.uint64]
+    tools: Count
+    holes: Count
+    inputs_before: int
+    still_inputs: int
+
+    @cached_property
+    def starts(self) -> Count:
+        """The first tick of each command, and behind them the end: (n+1,)."""
+        return np.concatenate(([0], np.cumsum(self.ticks)))
+
+    @property
+    def end(self) -> int:
+        """How many ticks it takes."""
+        return int(self.starts[-1])
+
+    def inputs(self) -> tuple[Count, Count]:
+        """Ticks and input images where the inputs may change, tick 0 first."""
+        parts = [np.array([[0], [self.inputs_before]], np.int64)]
+        for number, kind in enumerate(self.stroked.kinds):
+            begins = self.starts[self.stroked.rows[self.stroked.which == number]]
+            offsets, seen = np.array(kind.inputs, np.int64).T
+            seen |= self.still_inputs
+            parts.append(np.stack(((begins[:, None] + offsets).ravel(), np.tile(seen, len(begins)))))
+        ticks, seen = np.concatenate(parts, axis=1)
+        inside = np.flatnonzero(ticks < self.end)
+        order = inside[np.argsort(ticks[inside], kind="stable")]
+        return ticks[order], seen[order]
+
+    def touches(self) -> list[Touch]:
+        """Where the bit met the board, in order."""
+        found: list[tuple[int, Touch]] = []
+        for number, kind in enumerate(self.stroked.kinds):
+            rows = self.stroked.rows[self.stroked.which == number]
+            for offset, head_places in kind.touches:
+                begins, tools, holes = (each[rows].tolist() for each in (self.starts, self.tools, self.holes))
+                places = [j.position[rows].astype(float) if j is not None else None for j in self.journeys]
+                for head, place in zip(self.stroked.heads, head_places, strict=True):
+                    places[head] = np.full(len(rows), place)
+                by_row = zip(*(each.tolist() for each in places if each is not None), strict=True)
+                told = zip(begins, tools, holes, by_row, strict=True)
+                found += [(begin + offset, (tool, hole, where)) for begin, tool, hole, where in told]
+        found.sort(key=lambda touch: touch[0])
+        return [touch for _, touch in found]
+
+    def motion(self, index: int) -> Count:
+        """Tick, column (from 0), position and state of an axis in tick 0 and wherever they may change, (4, k)."""
+        journey = self.journeys[index]
+        if journey is None:
+            motion = self.stroked.motion(self.stroked.heads.index(index), self.starts)
+        else:
+            motion = journey.motion(self.starts)
+        motion[0, 0] = 0
+        at_once = motion.shape[1] > 1 and motion[0, 1] == 0
+        return motion[:, 1:] if at_once else motion
+
+    def tapes(self, reel: ImagePool) -> list[Tape]:
+        """What each axis puts out, then the switched outputs: tapes from this reel, all as long as the course."""
+        tapes = [
+            self.stroked.tape(reel, self.stroked.heads.index(index), self.ticks)
+            if journey is None else Tape.of(*map(np.ravel, journey.slices(reel, self.ticks)))
+            for index, journey in enumerate(self.journeys)
+        ]  # fmt: skip
+        switched = np.array([reel.steady(image) for image in self.switched.tolist()])
+        return [*tapes, Tape.of(switched, self.ticks, np.full(len(switched), LAP))]

@@ -1,0 +1,115 @@
+"""Files that a run will write. Reserved before anything moves, complete or absent afterwards.
+
+Rule: a result goes to a temporary file beside its place and is renamed when whole; a path that can't be written
+refuses the run. What killed runs have left in that folder goes. Called by the verbs.
+"""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+from drillctl.files import scratch
+
+
+class OutputError(Exception):
+    """A file that can't be written. ``str()`` is ``FILE: reason``."""
+
+
+class Output:
+    """One reserved file; ``write`` fills it and puts it in place, through a link where the path is one."""
+
+    def __init__(self, path: Path):
+        self.path = path
+        self._place = Path(os.path.realpath(path))
+        self._temporary: Path | None = None
+        self._handle = -1
+        try:
+            if path.exists() and not path.is_file():
+                path.open("a").close()  # a device or a pipe: written as it is; a folder raises
+                return
+            scratch.sweep(self._place.parent)
+            self._handle, self._temporary = scratch.make_file(self._place)
+        except OSError as error:
+            raise OutputError(f"{path}: can't be written: {error.strerror}") from error
+
+    def write(self, fill: Callable[[TextIO], object]) -> None:
+        """Calls ``fill`` with an open text file (LF ends). Raises OutputError; the old file then still stands."""
+        target = os.dup(self._handle) if self._temporary else self.path
+        try:
+            with open(target, "w", encoding="utf-8", newline="\n") as file:
+                fill(file)
+                file.flush()
+            if self._temporary:
+                os.fchmod(self._handle, 0o666 & ~_umask())
+                self._temporary.replace(self._place)
+                self._temporary = None
+                self.drop()
+        except OSError as error:
+            raise OutputError(f"{self.path}: can't be written: {error.strerror}") from error
+
+    def write_bytes(self, data: bytes) -> None:
+        """As ``write``, for a file that is no text."""
+        self.write(lambda file: file.buffer.write(data))
+
+    def drop(self) -> None:
+        """Takes the reservation back; nothing stays behind."""
+        if self._temporary:
+            self._temporary.unlink(missing_ok=True)
+            self._temporary = None
+        if self._handle >= 0:
+            os.close(self._handle)
+            self._handle = -1
+
+
+@contextmanager
+def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Iterator[list[Output | None]]:
+    """Outputs for the paths given (None stays None). Raises OutputError, also where a path would hit an input."""
+    taken = {os.path.realpath(path) for path in inputs if path is not None}
+    for wanted in filter(None, paths):
+        place = os.path.realpath(wanted)
+        if place in taken:
+            raise OutputError(f"{wanted}: would overwrite a file that this run reads or writes")
+        taken.add(place)
+    outputs: list[Output | None] = []
+    try:
+        for path in paths:
+            outputs.append(Output(path) if path is not None else None)
+        yield outputs
+    finally:
+        for output in outputs:
+            if output is not None:
+                output.drop()
+
+
+def unwritten(*writes: Callable[[], None]) -> list[str]:
+    """Writes each result of a run; why some could not be. The machine has moved: nothing is refused any more."""
+    problems = []
+    for write in writes:
+        try:
+            write()
+        except OutputError as error:
+            problems.append(str(error))
+    return problems
+
+
+def write_text(path: Path, text: str) -> tuple[str, ...]:
+    """A text at a path, whole or not at all, its folder made where need be; the reason where it can't be written."""
+    output = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        output = Output(path)
+        output.write(lambda file: print(text, end="", file=file))
+    except (OSError, ValueError, OutputError) as error:  # ValueError: a null character in the path
+        return (str(error),)
+    finally:
+        if output is not None:
+            output.drop()
+    return ()
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,52 @@
+"""What Ctrl-C and SIGTERM do, and the exit code that tells of them.
+
+Rule: within a job they ask the machine to stop; anywhere else they end the verb by an exception, so that every
+``finally`` on the way out is run. Called by the CLI and, while a machine runs, by desk.
+"""
+
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+CAUGHT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+Handler = Callable[[int, FrameType | None], None]
+
+
+@contextmanager
+def caught(handler: Handler) -> Iterator[None]:
+    """Both signals go to ``handler``, and afterwards where they went before. For the main thread only."""
+    previous = {number: signal.signal(number, handler) for number in CAUGHT}
+    try:
+        yield
+    finally:
+        for number, before in previous.items():
+            signal.signal(number, before)
+
+
+def leave(number: int, frame: FrameType | None) -> None:
+    """A handler: raises KeyboardInterrupt with the signal's number, for ``exit_code``."""
+    raise KeyboardInterrupt(number)
+
+
+@contextmanager
+def remembered() -> Iterator[list[int]]:
+    """As ``leave``, and noted too: an exception raised in the midst of foreign code may be lost there."""
+    came: list[int] = []
+
+    def handler(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+        leave(number, frame)
+
+    with caught(handler):
+        try:
+            yield came
+        except OSError as error:  # a terminal that has gone can't be left as it was found
+            if not came:
+                raise
+            raise KeyboardInterrupt(came[0]) from error
+
+
+def exit_code(number: int = signal.SIGINT) -> int:
+    """130 for Ctrl-C, 143 for SIGTERM, 129 for a closed terminal, as shells have it."""
+    return 128 + number

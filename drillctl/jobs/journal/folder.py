@@ -1,0 +1,97 @@
+"""A folder of journals: the jobs in it that were cut off, and giving one of them up.
+
+Rule: a journal that a run still writes belongs to that run; it is neither offered nor taken away. Called by station
+and by the resume verb.
+"""
+
+import fcntl
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from drillctl.files.inputs import opened
+from drillctl.jobs.journal.account import Account
+from drillctl.jobs.journal.chain import JournalError
+from drillctl.jobs.journal.reader import LAST_LINE_BYTES, ended_well, read_journal
+
+MOST_LOOKED_AT = 20
+
+
+class JournalInUse(JournalError):
+    """One that a run still writes."""
+
+
+def unfinished(folder: Path) -> list[tuple[Path, Account]]:
+    """Those that can be gone on with, the newest first; damaged ones and those in use are passed over."""
+    found = []
+    for file in _newest(folder):
+        try:
+            if (account := _unfinished(file)) is not None:
+                found.append((file, account))
+        except JournalError:
+            continue
+    return found
+
+
+def newest_unfinished(folder: Path) -> tuple[Path, Account] | None:
+    """The one to go on with where none is named. Raises JournalError for a newer one that can't be read: it may be the
+    one that is meant. Those in use are passed over.
+    """
+    for file in _newest(folder):
+        try:
+            if (account := _unfinished(file)) is not None:
+                return file, account
+        except JournalInUse:
+            continue
+        except JournalError as error:
+            raise JournalError(f"{error}; to go on with another journal, name it") from error
+    return None
+
+
+def give_up(file: Path) -> None:
+    """The job is not gone on with: its journal goes. Raises JournalError."""
+    try:
+        with _alone(file):
+            file.unlink()
+    except OSError as error:
+        raise JournalError(f"{file}: can't be taken away: {error.strerror}") from error
+
+
+def _newest(folder: Path) -> list[Path]:
+    try:
+        found = [entry for entry in os.scandir(folder) if entry.name.endswith(".journal") and entry.is_file()]
+        dated = [(entry.stat().st_mtime, Path(entry)) for entry in found]
+    except OSError:
+        return []
+    return [file for _, file in sorted(dated, reverse=True)[:MOST_LOOKED_AT]]
+
+
+def _unfinished(file: Path) -> Account | None:
+    """What it says; None for a finished one, and one in which nothing was begun. Raises JournalError."""
+    try:
+        if _ended_well(file):
+            return None
+        with _alone(file):
+            account = read_journal(file)
+    except OSError as error:
+        raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+    return account if account.unfinished else None
+
+
+def _ended_well(file: Path) -> bool:
+    """Told by its end alone, so that finished journals cost nothing."""
+    with opened(file) as stream:
+        stream.seek(max(0, os.fstat(stream.fileno()).st_size - LAST_LINE_BYTES))
+        return ended_well(stream.read(LAST_LINE_BYTES))
+
+
+@contextmanager
+def _alone(file: Path) -> Iterator[None]:
+    """As long as nobody writes it; lets go of it afterwards. Raises JournalInUse, OSError."""
+    with opened(file) as stream:
+        try:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise JournalInUse(f"{file}: is being written by a run that is still going on") from error
+        yield

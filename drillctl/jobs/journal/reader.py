@@ -1,0 +1,107 @@
+"""A journal file read: every line in its chain and its place, or nothing. Called by writer, folder, session and cli."""
+
+import hashlib
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from drillctl.files.inputs import opened, read_bytes, real_path
+from drillctl.generation.job import Job
+from drillctl.jobs.journal.account import Account, Head, OutOfPlace, head_of_line, site_of_line
+from drillctl.jobs.journal.chain import NO_SEAL, Damaged, JournalError, unsealed
+
+FORMAT = 2
+NAME = "drillctl-journal"
+MAGIC = b'{"drillctl-journal": '  # how the first line begins
+VERSION = re.compile(rb'\{"drillctl-journal": (\d{1,9}), ')
+FINISHED = re.compile(rb'\{"ended": "done"(, "chain": "[0-9a-f]{16}")?\}\n')  # the last line, of version 1 too
+LAST_LINE_BYTES = 64
+LARGEST_JOURNAL_BYTES = 256 * 1024 * 1024
+
+
+def read_journal(file: Path) -> Account:
+    """What a journal says. Raises JournalError; nothing is guessed."""
+    return account_of(bytes_of(file), file)
+
+
+def account_of(data: bytes, file: Path) -> Account:
+    """What the bytes of a journal say; ``file`` is named in what is refused. Raises JournalError."""
+    lines = data.split(b"\n")
+    rest = lines.pop()
+    account = _begun(lines[0] if lines else b"", file)
+    for number, line in enumerate(lines[1:], start=2):
+        try:
+            told, seal = unsealed(line, account.seal)
+            account = replace(account.with_line(told), seal=seal)
+        except Damaged as error:
+            raise JournalError(f"{file}:{number}: damaged: not what was written behind the line above") from error
+        except OutOfPlace as error:
+            raise JournalError(f"{file}:{number}: {error}") from error
+    return replace(account, torn=bool(rest))
+
+
+def whole_bytes(data: bytes) -> int:
+    """Up to the end of the last line that is whole. A beginning of ours that was cut off in its first line is none."""
+    whole = data.rfind(b"\n") + 1
+    return whole if whole or data.startswith(MAGIC) else len(data)
+
+
+def ended_well(data: bytes) -> bool:
+    """Whether a journal, or the end of one, ends as a finished job's does, whichever version wrote it."""
+    return FINISHED.fullmatch(data[data.rfind(b"\n", 0, len(data) - 1) + 1 :]) is not None
+
+
+def bytes_of(file: Path) -> bytes:
+    """All of it. Raises JournalError."""
+    try:
+        return read_bytes(file, LARGEST_JOURNAL_BYTES, "a journal")
+    except OSError as error:
+        raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+
+
+def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
+    """The first line for a job that was made from a file. Raises JournalError where that can't be read."""
+    try:
+        with opened(file) as stream:
+            file_digest = hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError as error:
+        raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+    program_digest = hashlib.sha256(job.program.tobytes()).hexdigest()
+    machine = job.machine
+    where = str(real_path(file))
+    return Head(where, file_digest, program_digest, machine.name, machine.digest, job.holes_total, options)
+
+
+def check_same(journal: Path, then: Head, now: Head) -> None:
+    """Raises JournalError unless the job made now is the one that the journal began with."""
+    compared = (
+        ("file_digest", f"{then.job} has changed since the job was begun"),
+        ("machine_digest", f"machine {then.machine} is not the one that the job was begun on"),
+        ("program_digest", "the placing, the order or a table beside the job has changed since it was begun"),
+        ("holes", "the placing, the order or a table beside the job has changed since it was begun"),
+    )
+    for name, reason in compared:
+        if getattr(then, name) != getattr(now, name):
+            raise JournalError(f"{journal}: {reason}; what is left of it can't be told")
+
+
+def _begun(line: bytes, file: Path) -> Account:
+    """From the first line."""
+    version = VERSION.match(line)
+    if version is None:
+        raise JournalError(f"{file}: not a journal of this program")
+    if int(version[1]) != FORMAT:
+        raise JournalError(
+            f"{file}: a journal of version {int(version[1])}, and this program goes on with those of version {FORMAT}; "
+            "go on with the drillctl that wrote it, or delete the file to begin the board anew"
+        )
+    try:
+        told, seal = unsealed(line, NO_SEAL)
+        del told[NAME]
+        return Account(site=site_of_line(told.pop("site", None)), head=head_of_line(told), seal=seal)
+    except Damaged as error:
+        raise JournalError(f"{file}:1: damaged: its first line is not the one that was written") from error
+    except OutOfPlace as error:
+        raise JournalError(f"{file}:1: damaged: {error}") from error

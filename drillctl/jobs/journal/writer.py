@@ -1,0 +1,156 @@
+"""A journal that is open: a run writes into it what it is about to do, and what was done.
+
+Rule: each line is on the disk before what it announces may happen, and is checked as a reader will check it. Called by
+desk and session.
+"""
+
+import fcntl
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+from drillctl.jobs.journal.account import Account, Head, OutOfPlace
+from drillctl.jobs.journal.chain import NO_SEAL, JournalError, sealed
+from drillctl.jobs.journal.reader import (
+    FORMAT,
+    MAGIC,
+    NAME,
+    account_of,
+    bytes_of,
+    ended_well,
+    read_journal,
+    whole_bytes,
+)
+from drillctl.viewmodel.jobs import Site
+
+
+class Journal:
+    """An open journal, locked: no second run may write or go on with it. Every method has its line on the disk when
+    it returns. Raises JournalError; a file that holds anything worth keeping is left as it is then.
+    """
+
+    def __init__(self, file: Path, known: Head | Account, site: Site):
+        """A Head begins a new journal, where there is none or one that is finished; an Account goes on with the one
+        it was read from. That it is gone on with, and where, is written with the first line that follows: a run that
+        never came to move leaves the journal as it was.
+        """
+        self.file = file
+        self._resumption: dict[str, Any] | None = None
+        self._broken = False
+        try:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            flags = os.O_RDWR | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT if isinstance(known, Head) else 0)
+            self._handle = os.open(file, flags, 0o644)
+        except OSError as error:
+            raise JournalError(f"{file}: can't be written: {error.strerror}") from error
+        try:
+            self._lock()
+            self._account = self._go_on(known, site) if isinstance(known, Account) else self._begin(known, site)
+        except BaseException:
+            self.close()
+            raise
+
+    def begun(self, hole: int) -> None:
+        """Before the head may come down at a hole."""
+        self._tell({"begun": hole})
+
+    def done(self, holes: list[int]) -> None:
+        """Execution has confirmed these."""
+        for hole in holes:
+            self._tell({"done": hole})
+
+    def ended(self, how: str) -> None:
+        """The run is over: ``done``, ``stopped`` or a fault's name."""
+        self._tell({"ended": how})
+
+    def close(self) -> None:
+        """Nothing more is written; the lock goes with it."""
+        os.close(self._handle)
+
+    def _begin(self, head: Head, site: Site) -> Account:
+        _check_finished(self.file)
+        self._cut(0)
+        seal = self._append({NAME: FORMAT, **vars(head), "site": asdict(site)}, NO_SEAL)
+        _sync_folder(self.file.parent)
+        return Account(head, site, seal=seal)
+
+    def _go_on(self, account: Account, site: Site) -> Account:
+        """What was read before the lock was had must still hold."""
+        if read_journal(self.file) != account:
+            raise JournalError(f"{self.file}: another run has gone on with it meanwhile; resume again")
+        self._resumption = {"resumed": asdict(site), "again": account.again}
+        return replace(account, torn=False)
+
+    def _lock(self) -> None:
+        """The children of a paced run inherit it: it lasts until the last of them has ended."""
+        try:
+            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            raise JournalError(f"{self.file}: is being written by a run that is still going on") from error
+
+    def _tell(self, line: Mapping[str, Any]) -> None:
+        """The first one of a run that goes on has its resumption before it, in place of a torn line."""
+        if self._resumption is not None:
+            self._cut(whole_bytes(bytes_of(self.file)))
+            self._tell_one(self._resumption)
+            self._resumption = None
+        self._tell_one(line)
+
+    def _tell_one(self, line: Mapping[str, Any]) -> None:
+        try:
+            account = self._account.with_line(line)
+        except OutOfPlace as error:
+            raise JournalError(f"{self.file}: not written: {error}") from error
+        self._account = replace(account, seal=self._append(line, self._account.seal))
+
+    def _append(self, line: Mapping[str, Any], before: str) -> str:
+        """Returns the line's seal. A line that is not on the disk whole is taken back, so that the journal ends as it
+        did; where that can't be, nothing more is written.
+        """
+        if self._broken:
+            raise JournalError(f"{self.file}: can't be written: its last line is torn")
+        data, seal = sealed(line, before)
+        size_bytes = os.fstat(self._handle).st_size
+        reason = "the disk is full"
+        try:
+            whole = os.write(self._handle, data) == len(data)
+            os.fsync(self._handle)
+        except OSError as error:
+            whole, reason = False, str(error.strerror)
+        if not whole:
+            self._broken = True
+            self._cut(size_bytes)
+            self._broken = False
+            raise JournalError(f"{self.file}: can't be written: {reason}")
+        return seal
+
+    def _cut(self, size_bytes: int) -> None:
+        try:
+            os.ftruncate(self._handle, size_bytes)
+            os.fsync(self._handle)
+        except OSError as error:
+            raise JournalError(f"{self.file}: can't be written: {error.strerror}") from error
+
+
+def _check_finished(file: Path) -> None:
+    """Raises JournalError for a file that is not to be overwritten: an unfinished journal, or no journal at all."""
+    data = bytes_of(file)
+    if whole_bytes(data) == 0 or (data.startswith(MAGIC) and ended_well(data)):
+        return
+    account = account_of(data, file)
+    if account.unfinished:
+        raise JournalError(
+            f"{file}: holds a job that is not finished: {account.holes_done} of {account.head.holes} holes of "
+            f"{account.head.job} are drilled; go on with `drillctl resume {file}`, or delete the file to begin anew"
+        )
+
+
+def _sync_folder(folder: Path) -> None:
+    """A new file's name is on the disk only when its folder is."""
+    handle = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,67 @@
+"""Where a job runs, as its journal names it, and whether a run that goes on with it runs there too.
+
+Rule: a job goes on where it ran; on another port, at another pace or before another plant it does so only where a
+person said so. Called by session, by the resume verb and by station.
+"""
+
+import os
+from dataclasses import dataclass
+
+from drillctl.plant import IDEAL_PLANT, PlantChoice, PlantRefused
+from drillctl.plant.choice import DYNAMIC, NONE
+from drillctl.portio.registry import select
+from drillctl.ports import PortRefused
+from drillctl.ticker.launch import RunSettings, files_of, pace_of
+from drillctl.viewmodel.jobs import Site
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What was asked for of a site; None: as the job ran."""
+
+    port: str | None = None
+    pace: str | None = None
+    plant: PlantChoice | None = None
+
+
+def site_of(running: RunSettings) -> Site:
+    """The site of a run. Raises PortRefused for a port or a pace that can't be had."""
+    port, pace = _whole(running.port), pace_of(running)
+    if select(port)[0].real:
+        return Site(port, pace, NONE)
+    choice = running.plant
+    seed = choice.seed if choice.kind == DYNAMIC else 0
+    return Site(port, pace, " ".join((choice.kind, *sorted(choice.faults))), seed)
+
+
+def running_at(site: Site, asked: Asked) -> RunSettings:
+    """A run at this site, but for what was asked for. On another port pace and plant are that port's own, unless they
+    were asked for too. Raises PortRefused.
+    """
+    port = site.port if asked.port is None else _whole(asked.port)
+    same = port == site.port
+    real = select(port)[0].real
+    plant = asked.plant or (IDEAL_PLANT if real else _plant_at(site))
+    return RunSettings(port, asked.pace or (site.pace if same else None), plant=plant)
+
+
+def moved(ran: Site, here: Site) -> str:
+    """Why a job would go on elsewhere, in a sentence; empty where it would not."""
+    if ran == here:
+        return ""
+    if ran.real and not here.real:
+        return f"the job ran with {ran}; what {here} drills is simulated, and would count as drilled"
+    return f"the job ran with {ran}, and not with {here}"
+
+
+def _whole(spec: str) -> str:
+    """With a file's address absolute, whatever folder it was named from. Raises PortRefused."""
+    files = files_of(spec)
+    return f"{spec.partition(':')[0]}:{os.path.abspath(files[0])}" if files else spec
+
+
+def _plant_at(site: Site) -> PlantChoice:
+    try:
+        return PlantChoice.of_header(site.plant, str(site.seed))
+    except PlantRefused as error:
+        raise PortRefused(site.port, str(error)) from error

@@ -1,0 +1,139 @@
+"""A recorded run once more on the dynamic plant: where an axis was, how fast, its currents, and where holes came.
+
+Rule: the port images are those of the trace. A run that was made on the dynamic plant is had again to the bit, with
+its faults and its seed; of any other run this is what motors with inertia would have made of it. Called by plots.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.lab.errors import LabError
+from drillctl.lab.tables import axis_index
+from drillctl.machine import AxisTable, Library, Machine
+from drillctl.plant.choice import DYNAMIC
+from drillctl.plant.dynamic.plant import DynamicPlant
+from drillctl.plant.dynamic.recorder import Recorded, Recorder
+from drillctl.plant.faults import PlantRefused
+from drillctl.ports import CARD_BITS
+from drillctl.replay.rerun import with_columns
+from drillctl.replay.stimuli import choice_of, machine_of, same_tables
+from drillctl.replay.trace_files import read_trace
+from drillctl.trace import Trace, dense
+
+MOST_TICKS = 5_000_000  # 120 bytes each, and some minutes of the plant
+
+Counts = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Watched:
+    """One axis of a run, a value a tick.
+
+    commanded  (ticks,) columns put out since power-up, forward counted
+    rotor      what its motor did meanwhile
+    sent_mm, drilled_mm   (holes, 2): where X and Y were sent, and where they were, when the bit met the board
+    as_run     the run was made on this very plant
+    """
+
+    machine: Machine
+    table: AxisTable
+    commanded: Counts
+    rotor: Recorded
+    sent_mm: Floats
+    drilled_mm: Floats
+    as_run: bool
+
+    @property
+    def columns_per_mm(self) -> float:
+        """Columns of the phase table to a millimetre of travel, negative where the motor is mounted the other way."""
+        return self.table.columns_per_step * self.table.steps_per_mm * (-1 if self.table.invert else 1)
+
+
+def watch(file: Path, library: Library, axis_name: str | None = None) -> Watched:
+    """Runs a trace on the dynamic plant; ``axis_name`` None: the axis that went farthest.
+
+    Raises TraceError for a file that is no trace or can't be run, TableError for its machine, LabError for a machine
+    without dynamics, an axis that it hasn't, or other tables than the recorded ones.
+    """
+    recorded = read_trace(file)
+    machine = machine_of(recorded, file, library)
+    if recorded.end > MOST_TICKS:
+        raise LabError(f"{file}: {recorded.end} ticks; a picture takes at most {MOST_TICKS}")
+    if not same_tables(recorded, machine, file):
+        reason = f"recorded with other tables of {machine.name}; record it again, or give them (--tables)"
+        raise LabError(f"{file}: {reason}")
+    if recorded.has("pace"):
+        raise LabError(f"{file}: the tick rate was changed on the way (PACE); a picture has one scale of time")
+    again = with_columns(recorded, machine, file)
+    columns = [_unwrapped(dense(again, f"{axis.name}.column"), axis.phase.columns) for axis in machine.axes]
+    index = axis_index(machine, axis_name) if axis_name else _farthest(columns)
+    plant, as_run = _plant(recorded, machine)
+    rotor, sent_mm, drilled_mm = _driven(plant, recorded, machine, index, columns)
+    return Watched(machine, machine.axes[index], columns[index], rotor, sent_mm, drilled_mm, as_run)
+
+
+def _unwrapped(column: Counts, length: int) -> Counts:
+    """Columns put out since power-up from the column shown in each tick; at most one is put out a tick."""
+    turned = np.diff(column, prepend=length)
+    return np.cumsum((turned + length // 2) % length - length // 2)
+
+
+def _farthest(columns: list[Counts]) -> int:
+    return int(np.argmax([float(np.ptp(each)) if len(each) else 0.0 for each in columns]))
+
+
+def _plant(recorded: Trace, machine: Machine) -> tuple[DynamicPlant, bool]:
+    try:
+        choice = choice_of(recorded)
+        as_run = choice.kind == DYNAMIC
+        return DynamicPlant(machine, choice.faults if as_run else (), choice.seed), as_run
+    except PlantRefused as error:
+        raise LabError(str(error)) from error
+
+
+def _driven(
+    plant: DynamicPlant, recorded: Trace, machine: Machine, index: int, columns: list[Counts]
+) -> tuple[Recorded, Floats, Floats]:
+    """All ticks of the run, with the eyes on one motor and on the bit."""
+    recorder, touches, places = Recorder(plant.motors[index]), 0, []
+    for tick, image in enumerate(_images(recorded, machine).tolist()):
+        plant.drive(image)
+        recorder.sample()
+        if plant.touches != touches:
+            touches = plant.touches
+            places.append((tick, [plant.position_steps(axis) for axis in _plane(machine)]))
+    return recorder.finish(), *_holes(places, machine, columns)
+
+
+def _images(recorded: Trace, machine: Machine) -> Counts:
+    """The port image of each tick, all cards in one number."""
+    words = (dense(recorded, f"out.{card}") << CARD_BITS * card for card in range(machine.cards))
+    return np.bitwise_or.reduce([*words])
+
+
+def _plane(machine: Machine) -> tuple[int, ...]:
+    """The two axes that a board lies under."""
+    return tuple(axis for axis in range(len(machine.axes)) if axis not in machine.drill_axes)[:2]
+
+
+def _holes(places: list[tuple[int, list[float]]], machine: Machine, columns: list[Counts]) -> tuple[Floats, Floats]:
+    """Sent and drilled, in mm from the start; a hole that is come to again (peck after peck) counts once."""
+    sent: list[list[float]] = []
+    drilled: list[list[float]] = []
+    for tick, reached in places:
+        plane = [(machine.axes[axis], int(columns[axis][tick])) for axis in _plane(machine)]
+        wanted = [table.start_steps + _steps(table, travelled) for table, travelled in plane]
+        if not sent or wanted != sent[-1]:
+            sent.append(wanted)
+            drilled.append(reached)
+    scale = np.array([machine.axes[axis].steps_per_mm for axis in _plane(machine)])
+    shape = (len(sent), len(scale))  # a machine may have no axis that positions the board
+    return np.array(sent).reshape(shape) / scale, np.array(drilled).reshape(shape) / scale
+
+
+def _steps(table: AxisTable, columns: int) -> float:
+    return columns * (-1 if table.invert else 1) / table.columns_per_step

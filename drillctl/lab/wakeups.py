@@ -1,0 +1,119 @@
+"""How late one process woke, in memory that another can read: a histogram of lateness, and every late wake.
+
+Rule: of fixed size and made before the fork; ``add`` keeps nothing else, and what no longer fits is counted.
+Filled by the loops of latency, read by whoever started them.
+"""
+
+import mmap
+import os
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.viewmodel.latency import Bar, Lateness
+
+Spans = NDArray[np.int64]  # (n, 2): from, to, in ns of the monotonic clock
+LONGEST_US = 100_000  # later than that is counted with it; the greatest is known all the same
+MOST_LATE = 1 << 16
+MOST_TEXT = 1024
+LOG = np.dtype(
+    [
+        ("counts", "<i8", LONGEST_US + 1),  # of wakes, by whole microseconds of lateness
+        ("late", "<i8", (MOST_LATE, 2)),  # monotonic ns: the deadline, and when it came to it
+        ("late_wakes", "<i8"),
+        ("worst_ns", "<i8"),
+        ("cpu_ns", "<i8"),
+        ("from_ns", "<i8"),
+        ("to_ns", "<i8"),
+        ("refused", f"S{MOST_TEXT}"),
+        ("ready", "<i8"),
+        ("go", "<i8"),
+        ("leave", "<i8"),
+    ]
+)
+
+
+class WakeLog:
+    """The log of one process, made by its parent. Times are nanoseconds of the monotonic clock.
+
+    ``record`` (LOG) also carries what the two say to each other: ready, go, leave.
+    """
+
+    def __init__(self) -> None:
+        self._owner = os.getpid()
+        memory = mmap.mmap(-1, LOG.itemsize)
+        self.record: np.void = np.frombuffer(memory, LOG, 1)[0]
+        self._counts: NDArray[np.int64] = self.record["counts"]
+        self._late: NDArray[np.int64] = self.record["late"]
+
+    def add(self, begun_ns: int, late_ns: int, period_ns: int) -> None:
+        """A wake at ``begun_ns``, so much after its deadline; late from more than a period on."""
+        self._counts[min(late_ns // 1000, LONGEST_US)] += 1
+        self.record["worst_ns"] = max(int(self.record["worst_ns"]), late_ns)
+        if late_ns > period_ns:
+            kept = int(self.record["late_wakes"])
+            if kept < MOST_LATE:
+                self._late[kept] = begun_ns - late_ns, begun_ns
+            self.record["late_wakes"] = kept + 1
+
+    @property
+    def wanted(self) -> bool:
+        """For the child: go on. False once it is told to leave, or whoever made the log is gone."""
+        return not self.record["leave"] and os.getppid() == self._owner
+
+    @property
+    def wakes(self) -> int:
+        """All of them."""
+        return int(self._counts.sum())
+
+    @property
+    def elapsed_ns(self) -> int:
+        """From the first deadline's sleep to the end."""
+        return int(self.record["to_ns"] - self.record["from_ns"])
+
+    def late_spans(self) -> Spans:
+        """From the deadline to the wake, of the first MOST_LATE late wakes."""
+        return self._late[: min(int(self.record["late_wakes"]), MOST_LATE)].copy()
+
+
+def quantile_us(counts: NDArray[np.int64], share: float) -> int:
+    """The lateness that ``share`` of the wakes did not exceed, in whole microseconds, rounded down; 0 for no wakes."""
+    reached = np.cumsum(counts)
+    return int(np.searchsorted(reached, share * reached[-1])) if reached[-1] else 0
+
+
+def lateness(logs: list[WakeLog]) -> Lateness:
+    """Percentiles over the wakes of all these processes together."""
+    counts = np.sum([log.record["counts"] for log in logs], axis=0)
+    p50_us, p99_us, p999_us = (quantile_us(counts, share) for share in (0.5, 0.99, 0.999))
+    worst_ns = max(int(log.record["worst_ns"]) for log in logs)
+    return Lateness(int(counts.sum()), p50_us, p99_us, p999_us, worst_ns // 1000)
+
+
+def bars(counts: NDArray[np.int64]) -> tuple[Bar, ...]:
+    """The histogram in doubling steps, from the first that holds a wake to the last."""
+    edges = [0, *(1 << power for power in range(LONGEST_US.bit_length()))]
+    sums = np.add.reduceat(counts, edges).tolist()
+    rows = [Bar(low, high, ticks) for low, high, ticks in zip(edges, [*edges[1:], None], sums, strict=True)]
+    held = np.flatnonzero(sums)
+    return tuple(rows[held[0] : held[-1] + 1]) if len(held) else ()
+
+
+def overlapping(spans: Spans, others: Spans) -> NDArray[np.bool_]:
+    """(n,): which of ``spans`` (n, 2) overlap one of ``others`` (m, 2). Touching is not overlapping."""
+    if not len(others):
+        return np.zeros(len(spans), bool)
+    others = others[np.argsort(others[:, 0])]
+    ends = np.maximum.accumulate(others[:, 1])
+    begun_before = np.searchsorted(others[:, 0], spans[:, 1])
+    return (begun_before > 0) & (ends[begun_before - 1] > spans[:, 0])
+
+
+def covered_ns(spans: Spans, from_ns: int, to_ns: int) -> int:
+    """How much of the time between the two is in at least one of ``spans`` (n, 2)."""
+    if not len(spans):
+        return 0
+    spans = np.clip(spans[np.argsort(spans[:, 0])], from_ns, to_ns)
+    ends = np.maximum.accumulate(spans[:, 1])
+    begins = np.maximum(spans[:, 0], np.concatenate([[from_ns], ends[:-1]]))
+    return int(np.maximum(spans[:, 1] - begins, 0).sum())

@@ -1,0 +1,91 @@
+"""Words in the operator's language. Source strings are English; other languages are catalogues in ``drillctl/locale``.
+
+Rule: a catalogue is the ``.po`` file itself, as translators' tools write it; nothing is compiled, so nothing can be
+stale. The standard library reads only compiled catalogues, hence ``catalogue`` below. Used by everything on the screen.
+"""
+
+import ast
+import gettext
+import os
+import re
+import unicodedata
+from collections.abc import Mapping
+from pathlib import Path
+
+from drillctl.files.inputs import read_bytes
+
+LARGEST_CATALOGUE_BYTES = 1 << 22
+LOCALE = Path(__file__).resolve().parent.parent / "locale"
+LANGUAGES = ("en", "pl")
+ENTRY = re.compile(r'^msgid ((?:".*"\s*)+)^msgstr ((?:".*"\s*)+)', re.MULTILINE)
+QUOTED = re.compile(r'".*"')
+
+
+class Catalogue(gettext.NullTranslations):
+    """A language's words by English source; what is missing stays English."""
+
+    def __init__(self, words: Mapping[str, str]):
+        super().__init__()
+        self.words = words
+
+    def gettext(self, message: str) -> str:
+        """The word, or the English one."""
+        return self.words.get(message) or message
+
+
+_spoken = Catalogue({})
+
+
+def catalogue(text: str) -> dict[str, str]:
+    """A ``.po`` file's entries by source string, without its header. Plural forms are not used here."""
+    found = {_joined(source): _joined(word) for source, word in ENTRY.findall(text)}
+    return {source: word for source, word in found.items() if source}
+
+
+def use(language: str, plain: bool = False) -> None:
+    """From now on ``_`` speaks this language, one of LANGUAGES; ``plain``: without accents, for a poor terminal."""
+    words = {} if language == "en" else catalogue(_text(language))
+    if plain:
+        words = {source: _without_accents(word) for source, word in words.items()}
+    _spoken.words = words
+
+
+def spoken_words() -> Mapping[str, str]:
+    """The catalogue in use: words by English source; none for English itself."""
+    return _spoken.words
+
+
+def _text(language: str) -> str:
+    return read_bytes(_file(language), LARGEST_CATALOGUE_BYTES, "a catalogue").decode()
+
+
+def _file(language: str) -> Path:
+    return LOCALE / language / "LC_MESSAGES" / "drillctl.po"
+
+
+def _without_accents(text: str) -> str:
+    """The letters that are left when accents fall off; the Polish l has none that could."""
+    letters = unicodedata.normalize("NFKD", text.replace("ł", "l").replace("Ł", "L"))
+    return letters.encode("ascii", "ignore").decode("ascii")
+
+
+def language_of(environment: Mapping[str, str] = os.environ) -> str:
+    """As LANGUAGE, LC_ALL, LC_MESSAGES and LANG have it, in the order of gettext; English where they name no other."""
+    for name in ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"):
+        if wish := environment.get(name, "")[:2]:
+            return wish if wish in LANGUAGES else "en"
+    return "en"
+
+
+def _(message: str) -> str:
+    """The message in the operator's language."""
+    return _spoken.gettext(message) if message else ""
+
+
+def N_(message: str) -> str:
+    """Marks a message of a table, which is translated where it is shown."""
+    return message
+
+
+def _joined(quoted: str) -> str:
+    return "".join(ast.literal_eval(part) for part in QUOTED.findall(quoted))

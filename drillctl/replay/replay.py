@@ -1,0 +1,146 @@
+"""A recorded run again, without plant, clock or process; and the plugin's re-recording.
+
+Rule: inputs, requests and gaps in time come from the trace, everything else from the tables at hand; two traces are
+compared by what they put out. Called by the replay verb, by the pytest plugin, and where a trace changes its form.
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from drillctl.files.outputs import Output
+from drillctl.machine import Library, Machine
+from drillctl.plant import PlantChoice, PlantRefused
+from drillctl.replay.stimuli import Player, check_tick, header_value, machine_of, playback, same_tables
+from drillctl.replay.trace_files import read_record, read_trace, takes_segments, whole_trace, write_record
+from drillctl.ticker.fast_ticker import TICK, FastTicker
+from drillctl.ticker.sampler import wire_names
+from drillctl.ticker.ticker import Ticker
+from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What came of a replay. ``same_tables``: the trace was recorded with the tables it was replayed with;
+    ``from_tick``: what came before was not judged.
+    """
+
+    machine: Machine
+    recorded: Trace
+    actual: Trace
+    difference: Difference | None
+    same_tables: bool
+    from_tick: int = 0
+
+    def failed(self, same_tables_wanted: bool = False) -> bool:
+        """The behaviour differs, or (where that was asked for) the tables do."""
+        return self.difference is not None or (same_tables_wanted and not self.same_tables)
+
+    def headline(self) -> str:
+        """What is wrong, in a line: where the runs part, in which command; or that the tables are others."""
+        found = self.difference
+        if found is None:
+            return "recorded with other tables"
+        command = _command_line(self.recorded, found.command)
+        return f"differs at tick {found.tick}, " + (f"in command {command}" if command else "between commands")
+
+    def remark(self) -> str:
+        """How many ticks, on what, from where on, and whether the tables were others."""
+        since = f", judged from tick {self.from_tick} on" if self.from_tick else ""
+        others = "" if self.same_tables else "; recorded with other tables, judged by behaviour"
+        return f"{self.recorded.end} ticks on {self.machine.name}{since}{others}"
+
+    def message(self) -> str:
+        """The first difference, in a dozen lines."""
+        if self.difference is None:
+            return "the tables are not those of the recording (--same-tables)"
+        return render(self.difference, wire_names(self.machine))
+
+
+def replay(file: Path, library: Library, engine: str | None = None, from_tick: int = 0) -> Verdict:
+    """Runs a trace again, by this engine (None: fast where it can), and judges it from a tick on; on the ideal plant
+    what comes before is passed in whole commands, whatever the engine. Raises TraceError for a file that is no trace,
+    can't be run or is shorter, TableError for its machine.
+    """
+    kept = read_record(file)
+    head = kept.rest if isinstance(kept, Segments) else kept
+    machine = machine_of(head, file, library)
+    check_tick(head, file, from_tick)
+    same = same_tables(head, machine, file)
+    if isinstance(kept, Segments) and engine != TICK and taped_again(head, machine, file).like(kept):
+        return Verdict(machine, head, head, None, same, from_tick)
+    recorded = whole_trace(kept, file) if isinstance(kept, Segments) else kept
+    actual = _actual(recorded, machine, file, engine, from_tick)
+    return Verdict(machine, recorded, actual, first_difference(recorded, actual, from_tick=from_tick), same, from_tick)
+
+
+def in_form_of(file: Path, trace: Trace, machine: Machine) -> Trace | Segments:
+    """A trace as a file of this name keeps it: as few segments as may be, where it asks for segments."""
+    if not takes_segments(file, machine.cards):
+        return trace
+    taped = taped_again(trace, machine, file)
+    return taped if taped.change_count == len(trace.ticks) and taped.trace() == trace else Segments.of_trace(trace)
+
+
+def taped_again(recorded: Trace, machine: Machine, file: Path) -> Segments:
+    """A run's commands, requests and gaps on the ideal plant, in the segment form. Raises TraceError."""
+    ticker = FastTicker.ideal(machine, taped=True)
+    _run(Player(ticker, recorded, machine, file), recorded.end)
+    segments = ticker.record(recorded.header)
+    assert isinstance(segments, Segments)
+    return segments
+
+
+def record_again(file: Path, library: Library) -> None:
+    """Runs a trace's commands and requests on its simulated machine and writes the file anew. Raises as replay."""
+    old = read_trace(file)
+    machine = machine_of(old, file, library)
+    try:
+        choice = PlantChoice.of_header(header_value(old, "plant", file), header_value(old, "seed", file))
+        ticker = Ticker.simulated(machine, traced=True, plant_choice=choice)
+    except PlantRefused as error:
+        raise TraceError(str(file), None, str(error)) from error
+    _run(Player(ticker, old, machine, file), old.end)
+    header = [(key, machine.digest if key == "digest" else value) for key, value in old.header]
+    recorded = _trace_of(ticker, old)
+    write_record(in_form_of(file, replace(recorded, header=tuple(header)), machine), Output(file))
+
+
+def _actual(recorded: Trace, machine: Machine, file: Path, engine: str | None, from_tick: int) -> Trace:
+    """What the tables at hand make of the recorded inputs. Where the ideal plant gives just these, it may answer."""
+    ticker = Ticker(machine, playback(recorded, machine, file), traced=True)
+    if engine != TICK or from_tick:
+        foreseen = FastTicker.ideal(machine, traced=True)
+        player = Player(foreseen, recorded, machine, file)
+        _run(player, from_tick)
+        foreseen.foresees = engine != TICK
+        _run(player, recorded.end)
+        actual = _trace_of(foreseen, recorded)
+        if all(_same_changes(recorded, actual, f"in.{number}") for number in range(machine.cards)):
+            return actual
+    _run(Player(ticker, recorded, machine, file), recorded.end)
+    return _trace_of(ticker, recorded)
+
+
+def _command_line(recorded: Trace, shown: str) -> str:
+    """A command as its trace shows it (``6:KMD_GOTOdXdY``) with its arguments: ``6 KMD_GOTOdXdY 30 0``; none: empty."""
+    number, _, name = shown.partition(":")
+    lines = (value for key, value in recorded.header if key == "command")
+    return next((line for line in lines if line.startswith(f"{number} ")), f"{number} {name}" if name else "")
+
+
+def _same_changes(first: Trace, second: Trace, name: str) -> bool:
+    return all(map(np.array_equal, first.changes_of(name), second.changes_of(name)))
+
+
+def _run(player: Player, end: int) -> None:
+    for _ticks in player.up_to(end):
+        pass
+
+
+def _trace_of(ticker: Ticker, recorded: Trace) -> Trace:
+    """What came of it, under the header of the recorded run."""
+    trace = ticker.finished_trace(recorded.header)
+    assert trace is not None
+    return trace

@@ -1,0 +1,209 @@
+"""A ticker that goes through its queue as fast as may be, on the ideal plant, with the same result to the byte.
+
+Rule: what execution/fastforward foresees is taken over whole, everything else is ticked by ``tick``, a command at a
+time. Holes, trace and status come out as if all had been ticked. Created by link and by the lab where nothing live is
+attached.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution.fastforward import Batch, Engine
+from drillctl.kmd import Condition, Queue
+from drillctl.machine import Machine
+from drillctl.plant import IdealPlant
+from drillctl.plant.foreseen import ForeseenPlant
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.ports import CARD_BITS
+from drillctl.ticker.sampler import Sampler, signals
+from drillctl.ticker.ticker import NEVER, Ticker
+from drillctl.trace import Recorder, Segments, Signal, Trace
+from drillctl.trace.segments import OUTPUT, without_outputs
+from drillctl.trace.tapes import DARK, ImagePool, Images, Tape, images
+
+FAST, TICK = "fast", "tick"
+MOST_TICKS = 1 << 22  # of a course whose images are put together at once; a command that is longer is ticked
+FAR_SIGHT = 4096  # commands that may wait: a look ahead costs the same for few as for many
+
+Records = NDArray[np.void]
+
+
+@dataclass
+class FastTicker(Ticker):
+    """As Ticker, with a simulated card and the ideal plant behind it. Of derived signals its trace has no rotors.
+
+    foresees  False: every command is ticked through
+    taped     the record is kept in the segment form, in place of a trace
+    """
+
+    foresees: bool = True
+    taped: bool = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        assert isinstance(self.plant, IdealPlant) and isinstance(self.queue, Queue)
+        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant))
+        if self.derived:
+            self.sampler = Sampler(self.controller, None, True, self.keeper)
+        if self.taped:
+            kept = signals(self.machine, (), derived=False)
+            recorder = TapeRecorder(kept, self.engine.reel, len(self.machine.axes) + 1)
+            self.sampler = Sampler(self.controller, self.plant, False, recorder)
+
+    def load(self, machine: Machine) -> None:
+        """What was foreseen was by the old tables."""
+        super().load(machine)
+        self._foresee_anew()
+
+    def follow_rate(self) -> None:
+        """What was foreseen was by the old limits of time."""
+        super().follow_rate()
+        self._foresee_anew()
+
+    def _foresee_anew(self) -> None:
+        assert isinstance(self.plant, IdealPlant)
+        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant), self.engine.reel)
+
+    @classmethod
+    def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,
+              taped: bool = False, keeper: Recorder | None = None) -> "FastTicker":  # fmt: skip
+        """The machine on the simulated card, with the ideal plant behind it, and a queue of this capacity.
+
+        keeper  takes every signal, derived ones too; whoever made it empties it
+        """
+        plant = IdealPlant(machine)
+        return cls(
+            machine, SimulatedCard(plant), plant, traced, keeper is not None, Queue(capacity), keeper=keeper,
+            foresees=foresees, taped=taped,
+        )  # fmt: skip
+
+    def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
+        """Through all that waits in the queue; where nothing can be foreseen, as many ticks as it is sure to last, or
+        until something can be again.
+        """
+        first = self.controller.tick
+        for _ in self.courses(before):
+            if until is not None and until():
+                break
+        return self.controller.tick - first or super().turn(lambda: self._may_stop(until), before)
+
+    def _may_stop(self, until: Callable[[], bool] | None) -> bool:
+        return self.engine.between or (until is not None and until())
+
+    def courses(self, before: int = NEVER) -> Iterator[Batch | None]:
+        """Carries out what waits, while nothing else is going on: each course, or None after a ticked command."""
+        assert isinstance(self.queue, Queue)
+        while len(self.queue) and not self.gate.paused and self.engine.between:
+            waiting, left = self.queue.waiting(), before - self.controller.tick
+            if self.traced and not self.taped:
+                left = min(left, MOST_TICKS)
+            course = self.engine.course(waiting) if self.foresees else None
+            if course is not None and course.end > left:
+                course = self.engine.course(waiting[: np.searchsorted(course.starts, left, side="right") - 1])
+            if course is not None:
+                self.queue.drop(len(course.commands))
+                self._pass(course)
+            elif left > 0:
+                self._tick_through(waiting[:1], before)
+            else:
+                return
+            yield course
+
+    def _pass(self, course: Batch) -> None:
+        """A course as if ticked: its record, its holes, and where it leaves the machine."""
+        first, tapes = self.controller.tick, course.tapes(self.engine.reel) if self.sampler is not None else []
+        if self.sampler is not None:
+            self.sampler.sample_course(course, None if self.taped else self._images(course, tapes), first)
+        touches = course.touches()
+        for touch in touches:
+            self.touch(*touch)
+        self._touches += len(touches)
+        self.engine.leave(course)
+        if self.sampler is not None and isinstance(self.sampler.recorder, TapeRecorder):
+            self.sampler.recorder.lay(first, tapes, self.controller.tick, self.controller.image)
+
+    def _images(self, course: Batch, tapes: list[Tape]) -> Images:
+        reel = self.engine.reel.images
+        return images(reel, tapes, np.empty(course.end, reel.dtype))
+
+    def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
+        """As Ticker; segments where it was taped."""
+        if self.sampler is None or not isinstance(self.sampler.recorder, TapeRecorder):
+            return super().record(header)
+        return self.sampler.recorder.segments(self.controller.tick, header)
+
+    def _tick_through(self, command: Records, before: int) -> None:
+        """One command by tick, noted where it may come again."""
+        m = self.controller
+        recording = self.engine.recording(command)
+        if recording is None:
+            self.run(before - m.tick, lambda: not self._goes_on())
+            return
+        going_on = True
+        while going_on:
+            touches = self._touches
+            self.run(1)
+            recording.note(self.places() if self._touches != touches else None)
+            going_on = self._goes_on() and m.tick < before
+        if self._undisturbed() and not m.busy:
+            recording.end()
+
+    def _goes_on(self) -> bool:
+        return self.controller.busy and self._undisturbed()
+
+    def _undisturbed(self) -> bool:
+        """No stop, no fault, and nothing was asked in this tick."""
+        m = self.controller
+        return m.condition == Condition.READY and not (m.served or m.late)
+
+
+class TapeRecorder(Recorder):
+    """A Recorder whose outputs go onto ``tapes`` tapes of a reel."""
+
+    def __init__(self, signals: Sequence[Signal], reel: ImagePool, tapes: int) -> None:
+        super().__init__(signals)
+        self._cards = {n: int(m[1]) for n, s in enumerate(signals) if (m := OUTPUT.fullmatch(s.name))}
+        self._reel = reel
+        self._tapes: list[list[Tape]] = [[] for _ in range(tapes)]
+        self._until = 0  # what comes before is on the tapes
+        self._images = [0]  # of the ticked stretch since then, and the ticks they begin at
+        self._begins = [0]
+
+    def set(self, index: int, tick: int, value: int) -> None:
+        """As a Recorder does; a card's outputs are put into the image of the tick."""
+        if index not in self._cards:
+            super().set(index, tick, value)
+            return
+        shift, image = CARD_BITS * self._cards[index], self._images[-1]
+        changed = image ^ (value ^ (image >> shift & (1 << CARD_BITS) - 1)) << shift
+        if changed != image:
+            self._images.append(changed)
+            self._begins.append(tick)
+
+    def lay(self, first: int, tapes: Sequence[Tape], end: int, image: int) -> None:
+        """A course's tapes, from tick ``first`` up to ``end``, which leaves this image standing."""
+        self._wind(first)
+        for kept, tape in zip(self._tapes, tapes, strict=True):
+            kept.append(tape)
+        self._until, self._images, self._begins = end, [image], [end]
+
+    def segments(self, end: int, header: Iterable[tuple[str, str]]) -> Segments:
+        """The run of ``end`` ticks."""
+        self._wind(end)
+        trace = self.finish(end, header)
+        reel = self._reel.images.copy()
+        return Segments(without_outputs(trace), trace.signals, reel, tuple(map(Tape.joined, self._tapes)))
+
+    def _wind(self, end: int) -> None:
+        """What was ticked up to ``end``, as one strip on the first tape."""
+        ticks = end - self._until
+        if not ticks:
+            return
+        shown_for = np.diff(np.array([*self._begins, end]))
+        start = self._reel.add(np.repeat(np.array(self._images, np.uint64), shown_for))
+        for number, tape in enumerate(self._tapes):
+            tape.append(Tape.steady(self._reel.steady(DARK), ticks) if number else Tape.whole(start, ticks))
+        self._until, self._images, self._begins = end, self._images[-1:], [end]

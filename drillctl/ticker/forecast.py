@@ -1,0 +1,41 @@
+"""What a program will take on the ideal plant, to the tick, from the machine file's start position.
+
+Rule: exact. The program is run as it would be run, as fast as may be (execution/fastforward), and nothing is recorded
+but the ticks of each command. Called by estimate and by run, for the time left.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.machine import Machine
+from drillctl.ticker.fast_ticker import TICK, FastTicker
+
+Ticks = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Forecast:
+    """``ticks`` (n,) of each command, as far as they are run; ``fault`` is the code that ends the program, or 0."""
+
+    ticks: Ticks
+    fault: int
+
+    @property
+    def total_ticks(self) -> int:
+        """Ticks of the whole program."""
+        return int(self.ticks.sum())
+
+
+def forecast(program: NDArray[np.void], machine: Machine, engine: str | None = None) -> Forecast:
+    """The ticks of a program, dtype kmd.RECORD, numbered from 1; with the engine ``tick`` by ticking through it."""
+    ticker = FastTicker.ideal(machine, capacity=len(program), foresees=engine != TICK)
+    ticker.queue.put(program)
+    ticks, m = np.zeros(len(program), np.int64), ticker.controller
+    for course in ticker.courses():
+        if course is None:
+            ticks[m.command.sequence - 1] = m.elapsed
+        else:
+            ticks[course.commands["sequence"] - 1] = course.ticks
+    return Forecast(ticks, m.fault)

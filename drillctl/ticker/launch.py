@@ -1,0 +1,162 @@
+"""Opens the port that was asked for and puts a ticker behind it, in this process or in its own.
+
+Rule: everything that can be refused is refused here, before anything moves. Called by the verbs that run a machine.
+"""
+
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from drillctl.kmd import Queue
+from drillctl.machine import Machine
+from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice, PlantRefused
+from drillctl.portio.registry import check_rate as check_port_rate
+from drillctl.portio.registry import open_port, port_of_card, select
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.ports import Driver, PortLayout, PortRefused
+from drillctl.ticker.fast_ticker import FAR_SIGHT, FAST, TICK, FastTicker
+from drillctl.ticker.link import Link, LocalLink
+from drillctl.ticker.realtime import most_ticks_hz
+from drillctl.ticker.ticker import Ticker
+from drillctl.trace.ring import RingRecorder
+
+FREE, REAL = "free", "real"
+SIMULATED = "simulated"
+FILE = "FILE"  # how an address that is one begins in the registry
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """How a machine is to be run: on which port, at which pace (None: as the port wants), what is kept of it, and what
+    stands behind a simulated card."""
+
+    port: str = SIMULATED
+    pace: str | None = None
+    traced: bool = False
+    derived: bool = False
+    plant: PlantChoice = IDEAL_PLANT
+    engine: str | None = None  # tick or fast; None: fast where it may
+    taped: bool = False  # where it goes fast, the record is kept in the segment form
+    kept: bool = False  # by a screen, from job to job; else its desk may not fall silent after the job either
+
+
+def port_of_mode(machine: Machine) -> str:
+    """The port that a machine's file asks for by its ``mode``. Raises PortRefused for a card that no port drives."""
+    if machine.configuration.mode == "SIMULATED":
+        return SIMULATED
+    port = port_of_card(machine.configuration.card)
+    if not port:
+        reason = f"mode REAL, and no port drives the card {machine.configuration.card!r}"
+        raise PortRefused(machine.name, f"{reason}; name a port as card (drillctl ports), or say --port")
+    return port
+
+
+def card_port(machine: Machine) -> str:
+    """The port of a machine's card, whatever its mode; empty where none drives it."""
+    return port_of_card(machine.configuration.card)
+
+
+def on_port(running: RunSettings, port: str) -> RunSettings:
+    """The same on another, real port."""
+    return replace(running, port=port, pace=REAL)
+
+
+def simulated(running: RunSettings) -> RunSettings:
+    """The same on a simulated card."""
+    return running if not select(running.port)[0].real else replace(running, port=SIMULATED)
+
+
+def files_of(spec: str) -> tuple[Path, ...]:
+    """Files that a port ``NAME[:ADDRESS]`` reads or writes by its address. Raises PortRefused."""
+    port, address = select(spec)
+    return (Path(address),) if address and port.address.startswith(FILE) else ()
+
+
+def pace_of(running: RunSettings) -> str:
+    """Free for a simulated card, real for a real one. Raises PortRefused for a real port that nobody paces."""
+    port, _ = select(running.port)
+    if port.real and running.pace == FREE:
+        raise PortRefused(running.port, "a real machine can't run free; leave --pace out, or say --pace real")
+    pace = running.pace or (REAL if port.real else FREE)
+    if pace == REAL and not sys.platform.startswith("linux"):
+        raise PortRefused(running.port, "real pace needs Linux; elsewhere machines are simulated, running free")
+    return pace
+
+
+def is_soon_over(running: RunSettings) -> bool:
+    """Whether a run takes no longer than foreseeing it would: nobody needs to be told the time left."""
+    plain = running.plant == IDEAL_PLANT and not running.derived
+    return plain and running.engine != TICK and pace_of(running) == FREE
+
+
+def start(machine: Machine, running: RunSettings, status_file: Path, keeper: RingRecorder | None = None) -> Link:
+    """A running ticker. Raises PortError for a port, a rate or a pace that is not to be had, or a plant;
+    nothing has moved then.
+
+    status_file  the mapped file between the two processes of a paced run
+    keeper       takes every signal of the run, derived ones too, in place of a trace; whoever made it empties it
+    """
+    pace = pace_of(running)
+    check_rate(machine, running)
+    plant = plant_of(machine, running)
+    driver = open_port(running.port, wiring_of(machine), SimulatedCard(plant) if plant else None)
+    if _goes_fast(running, pace, driver, plant, keeper):
+        return LocalLink(
+            FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
+        )
+    if pace == FREE:
+        traced, derived = running.traced or keeper is not None, running.derived or keeper is not None
+        return LocalLink(Ticker(machine, driver, plant, traced, derived, keeper=keeper))
+    from drillctl.ticker.paced_link import PacedLink
+    from drillctl.ticker.paced_ticker import DESK_IDLE_NS, DESK_SAFE_NS
+
+    idle_ns = DESK_IDLE_NS if running.kept else DESK_SAFE_NS
+    try:
+        return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns)
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        raise PortRefused(running.port, f"no process of its own for the ticks: {where}{error.strerror}") from error
+
+
+def check_rate(machine: Machine, running: RunSettings) -> None:
+    """Raises PortRefused for a machine at a tick rate that its port, or this computer, does not carry."""
+    check_port_rate(running.port, wiring_of(machine))
+    if pace_of(running) == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
+        reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
+        raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
+
+
+def _goes_fast(
+    running: RunSettings, pace: str, driver: Driver, plant: Plant | None, keeper: RingRecorder | None
+) -> bool:
+    """Whether the fast engine may run it. Raises PortRefused where it was asked for and may not."""
+    foreseen = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
+    may = foreseen and pace == FREE and not running.derived and keeper is None
+    if running.engine == FAST and not may:
+        reason = "--engine fast foresees the ideal plant on a simulated card, running free and without --vcd"
+        raise PortRefused(running.port, f"{reason}; leave --engine out, or say --engine tick")
+    return may and running.engine != TICK
+
+
+def plant_of(machine: Machine, running: RunSettings) -> Plant | None:
+    """What stands behind the card; None behind a real port. Raises PortRefused."""
+    port, _ = select(running.port)
+    if not port.real:
+        try:
+            return running.plant.build(machine)
+        except PlantRefused as error:
+            raise PortRefused(running.port, str(error)) from error
+    if running.plant != IDEAL_PLANT:
+        raise PortRefused(running.port, "a real machine is no plant; leave --plant, --fault and --seed out")
+    return None
+
+
+def wiring_of(machine: Machine) -> PortLayout:
+    """What a driver must know of a machine."""
+    return PortLayout(
+        tick_hz=machine.tick_hz,
+        card_address=machine.configuration.card_address,
+        axis_outputs=tuple(sum(1 << bit for bit in axis.wire_bits) for axis in machine.axes),
+        other_outputs=sum(1 << bit for _, bit in machine.outputs),
+        inputs=sum(1 << sensor.bit for sensor in machine.sensors),
+    )

@@ -1,0 +1,176 @@
+"""A ticker in a process of its own, paced by the wall clock, with a guard beside it: the desk's end. Linux.
+
+    desk  ──commands, requests──►  ticker        guard watches the ticker's heartbeat and holds the port too;
+          ◄──status, touches─────                the ticker watches the desk's, the desk the guard's.
+
+Rule: no thread anywhere; the port is opened before the forks, so that all three can make it safe. Every way out ends
+the children, by their ids, with the outputs safe.
+"""
+
+import os
+import time
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+
+from drillctl.kmd import Fault, Request
+from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
+from drillctl.machine import Machine
+from drillctl.plant import Plant
+from drillctl.ports import Driver
+from drillctl.ticker.guard_process import SILENCE_NS, run_guard
+from drillctl.ticker.link import Touch, header_of
+from drillctl.ticker.paced_ticker import DESK_IDLE_NS, TOUCH, PacedTicker
+from drillctl.ticker.processes import Child
+from drillctl.ticker.sampler import signals
+from drillctl.ticker.table_loading import TableSlot
+from drillctl.trace import Trace
+from drillctl.trace.ring import CHANGE, RingRecorder
+
+GUARD_SILENCE_NS = 2 * SILENCE_NS
+START_NS = 5_000_000_000  # granted to the ticker before its first beat
+TURN_S = 0.01
+LEAVE_S = 3.0
+LOAD_S = 2.0  # granted to the ticker for checking edited tables
+UNGUARDED = "the guard's process was lost; the job was stopped"
+
+
+class PacedLink:
+    """A Link (link.Link) to a ticker in its own process. Raises OSError where it can't be started.
+
+    keeper  takes the record in place of ``trace``; whoever made it empties it
+    """
+
+    def __init__(self, machine: Machine, port: Driver, plant: Plant | None, file: Path,
+                 traced: bool, derived: bool, keeper: RingRecorder | None = None,
+                 idle_ns: int = DESK_IDLE_NS):  # fmt: skip
+        self.measured = plant is not None
+        self.plant_lanes = plant.lanes if plant else ()
+        self.plant_header = header_of(plant)
+        self._channel = Channel(file, create=True)
+        self._status = self._channel.status()
+        self.queue = SharedQueue(self._channel)
+        self.gate = SharedGate(self._channel)
+        self._slot = TableSlot()
+        self._requests = SharedRequests(self._channel)
+        self._signals = signals(machine, self.plant_lanes, derived) if traced else None
+        self._ring = RingRecorder(len(self._signals)) if self._signals else None
+        self._changes: list[np.ndarray] = []
+        self._port = port
+        self._unguarded = False
+        self._noticed: list[str] = []
+        self._channel["tick_ns"] = 1_000_000_000 // machine.tick_hz
+        now_ns = self._beat()
+        self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
+        self._guard = Child(lambda: run_guard(self._channel, port))
+        self._touched, touch_end = os.pipe()
+        self._notices, notice_end = os.pipe()
+        for end in (self._touched, self._notices):
+            os.set_blocking(end, False)
+        ring, derived = keeper or self._ring, derived or keeper is not None
+        body = PacedTicker(
+            machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end, idle_ns
+        )
+        self._ticker = Child(body.run)
+        self._channel["ticker_pid"] = self._ticker.pid
+        os.close(touch_end)
+        os.close(notice_end)
+
+    def post(self, request: Request) -> None:
+        """Overtakes the queue."""
+        self._requests.post(request)
+
+    def set_output(self, bit: int, value: int) -> bool:
+        """In line, overtaking the queue."""
+        return self._requests.set_output(bit, value)
+
+    def set_rate(self, tick_hz: int) -> bool:
+        """In line, overtaking the queue."""
+        return self._requests.set_rate(tick_hz)
+
+    def load(self, text: str) -> str:
+        """Down to the ticker's process, which answers."""
+        if not self._slot.offer(text):
+            return "the tables are too long"
+        until_s = time.monotonic() + LOAD_S
+        while self._slot.waiting:
+            if self._ticker.gone or time.monotonic() > until_s:
+                return "the ticker does not answer"
+            self.turn()
+        return self._slot.reply()
+
+    def turn(self) -> None:
+        """A moment of wall-clock time; says that the desk lives, and sees whether the children do."""
+        time.sleep(TURN_S)
+        now_ns = self._beat()
+        self._drain()
+        if not self._unguarded and not self._channel["ended"] and self._guard_is_lost(now_ns):
+            self._unguarded = True
+            self._guard.end(patience_s=0)
+            self.post(Request.STOP)
+        if self._unguarded and now_ns - self._channel["ticker_beat_ns"] > SILENCE_NS + self._channel["tick_ns"]:
+            self._ticker.end(patience_s=0)  # in the guard's place; close makes the outputs safe
+
+    def status(self) -> np.void:
+        """Whole, or the last that was whole."""
+        with suppress(OSError):
+            self._status = self._channel.status()
+        return self._status
+
+    def touches(self) -> list[Touch]:
+        """From the pipe, as many as have come."""
+        found = []
+        with suppress(BlockingIOError):
+            while data := os.read(self._touched, TOUCH.size):
+                tool, tag, axes, *places = TOUCH.unpack(data)
+                found.append(Touch(tool, tag, tuple(places[:axes])))
+        return found
+
+    def lost(self) -> int:
+        """TICKER_LOST once the ticker has gone without a fault that says why."""
+        return Fault.TICKER_LOST if self._ticker.gone and not self.status()["fault"] else Fault.NONE
+
+    def trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
+        """What came through the ring, as far as the status goes. A trace with a hole says so, and replay refuses it."""
+        if self._ring is None or self._signals is None:
+            return None
+        self._drain()
+        status = self.status()
+        changes = np.concatenate([np.zeros(0, CHANGE), *self._changes])
+        changes = changes[changes["tick"] < status["tick"]]  # a ticker that was killed in a tick has not published it
+        trailer = [f"late {status['late']} worst_ns {status['late_worst_ns']}"]
+        overrun = [("overrun", "1")] if self._ring.overrun else []
+        columns = (changes["tick"], changes["signal"], changes["value"])
+        return Trace.of_changes([*header, *overrun], self._signals, *columns, int(status["tick"]), trailer)
+
+    def notices(self) -> list[str]:
+        """What the ticker has said: before its first tick what was refused of real-time running; why a port is lost."""
+        with suppress(BlockingIOError):
+            self._noticed += os.read(self._notices, 4096).decode().splitlines()
+        return [*self._noticed, *([UNGUARDED] if self._unguarded else ())]
+
+    def close(self) -> None:
+        """Asks the ticker to leave; ends it where it does not; the guard follows it. The port is given back."""
+        self._channel["leave"] = 1
+        for child in (self._ticker, self._guard):
+            child.end(LEAVE_S, meanwhile=self._beat)
+        with suppress(OSError):  # a port that was lost; the outcome has told of it
+            self._port.close()
+        os.close(self._touched)
+        os.close(self._notices)
+
+    def _guard_is_lost(self, now_ns: int) -> bool:
+        """It ends when the ticker has ended, and not before."""
+        silent = now_ns - self._channel["guard_beat_ns"] > GUARD_SILENCE_NS
+        return (silent or self._guard.gone) and not self._channel["guarded"]
+
+    def _beat(self) -> int:
+        now_ns = time.monotonic_ns()
+        self._channel["desk_beat_ns"] = now_ns
+        return now_ns
+
+    def _drain(self) -> None:
+        if self._ring is not None:
+            self._changes.append(self._ring.drain())

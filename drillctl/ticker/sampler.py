@@ -1,0 +1,176 @@
+"""What of a run is recorded. Looks at the controller after each tick and writes changes into a trace.
+
+Rule: tick() knows no trace; this module alone knows which number becomes which signal (docs/SPEC.md, section 3).
+Called by ticker after each tick, and by replay.
+"""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.execution import Controller
+from drillctl.execution.fastforward import Batch
+from drillctl.kmd import Fault, Op, Request, RequestBit
+from drillctl.kmd.commands import BY_OP
+from drillctl.kmd.queue import pace_of
+from drillctl.machine import Machine
+from drillctl.machine.shape import MOST_CARDS
+from drillctl.plant import Plant
+from drillctl.plant.base import CURRENT_LANES, PLACE_LANES
+from drillctl.ports import CARD_BITS, CARD_MASK, word
+from drillctl.trace import Recorder, Signal, VcdVar, pack_command
+
+HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
+EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
+QUIET = 5  # signals in which a course has nothing: request, hand, late, fault, pace
+_REQUESTS = [request.name for request in Request if request]
+REQUEST_WORDS = tuple(
+    "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
+    for mask in range(1 << len(_REQUESTS))
+)
+_FAULT_WORDS = tuple(Fault(code).name if code else "-" for code in range(len(Fault)))
+_COMMAND_WORDS = tuple(BY_OP[Op(op)].name if op else "-" for op in range(len(Op)))
+
+
+class Keeper(Protocol):
+    """What a sampler writes to: a Recorder, or a ring that another process empties."""
+
+    def set(self, index: int, tick: int, value: int) -> None:
+        """Signal ``index`` has ``value`` in ``tick``; kept if that is news."""
+
+
+class Sampler:
+    """Fills a Recorder from one controller; with ``derived`` also columns, positions, states and rotors."""
+
+    def __init__(self, controller: Controller, plant: Plant | None, derived: bool, recorder: Keeper | None = None):
+        self._m = controller
+        self._cards = range(controller.machine.cards)
+        self._plant = plant
+        self._derived = derived
+        self.signals = signals(controller.machine, plant.lanes if plant else (), derived)
+        self.recorder = Recorder(self.signals) if recorder is None else recorder
+
+    def follow(self, controller: Controller) -> None:
+        """From now on this one, of the same axes and wires."""
+        self._m = controller
+
+    def sample(self) -> None:
+        """After a tick: its index is one below the controller's count."""
+        m, put = self._m, self.recorder.set
+        tick = m.tick - 1
+        index = 0
+        for card in self._cards:
+            put(index, tick, word(m.inputs, card))
+            put(index + 1, tick, word(m.image, card))
+            index += 2
+        put(index, tick, pack_command(m.running, m.command.opcode) if m.running else 0)
+        put(index + 1, tick, m.served >> 1)
+        put(index + 2, tick, m.requests.hand if m.served & RequestBit.OUTPUT else 0)
+        put(index + 3, tick, m.late)
+        put(index + 4, tick, m.fault)
+        put(index + 5, tick, pace_of(m.requests.hand) if m.served & RequestBit.PACE else 0)
+        if self._derived:
+            self._sample_axes(index + 1 + QUIET, tick)
+
+    def sample_course(self, course: Batch, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
+        """After a course that began at tick ``first``; into a Recorder, no rotors. Without its ``images``
+        (ticks,) the outputs are kept elsewhere.
+        """
+        assert isinstance(self.recorder, Recorder) and not (self._derived and self._plant)
+        index = 0
+        input_ticks, inputs = course.inputs()
+        for card in self._cards:
+            self.recorder.extend(index, first + input_ticks, inputs >> CARD_BITS * card & CARD_MASK)
+            if images is not None:
+                put_out = images >> np.array(CARD_BITS * card, images.dtype) & np.array(CARD_MASK, images.dtype)
+                changes = np.flatnonzero(np.append(True, put_out[1:] != put_out[:-1]))
+                self.recorder.extend(index + 1, first + changes, put_out[changes].astype(np.int64))
+            index += 2
+        running = pack_command(course.commands["sequence"].astype(np.int64), course.commands["opcode"])
+        self.recorder.extend(index, first + course.starts[:-1], running)
+        index += 1
+        for quiet in range(index, index + QUIET):
+            self.recorder.set(quiet, first, 0)
+        if self._derived:
+            self._extend_axes(self.recorder, index + QUIET, course, first)
+
+    def _extend_axes(self, recorder: Recorder, index: int, course: Batch, first: int) -> None:
+        for axis in range(len(course.journeys)):
+            ticks, column, position, state = course.motion(axis)
+            for values in (column + 1, position, state):
+                recorder.extend(index, first + ticks, values)
+                index += 1
+
+    def _sample_axes(self, index: int, tick: int) -> None:
+        put = self.recorder.set
+        for number, axis in enumerate(self._m.axes):
+            put(index, tick, axis.column + 1)
+            put(index + 1, tick, axis.position)
+            put(index + 2, tick, axis.state)
+            index += 3
+            if self._plant is not None:
+                for value in self._plant.lane_values(number, axis.travelled):
+                    put(index, tick, value)
+                    index += 1
+
+
+def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list[Signal]:
+    """The signals of a machine's traces, in the order in which Sampler counts them. ``plant_lanes``: as a plant has
+    them, none without one.
+    """
+    found = []
+    for card in range(machine.cards):
+        found += [Signal(f"in.{card}", "word", True), Signal(f"out.{card}", "word", False)]
+    found += [
+        Signal("kmd", "command", False, names=_COMMAND_WORDS),
+        Signal("request", "name", True, names=REQUEST_WORDS),
+        Signal("hand", "name", True, names=HAND_WORDS),
+        Signal("late", "count", True),
+        Signal("fault", "name", False, names=_FAULT_WORDS),
+        Signal("pace", "count", True, optional=True),
+    ]
+    if derived:
+        for name in machine.axis_names:
+            found += [Signal(f"{name}.{field}", "count", False, True) for field in ("column", "position", "state")]
+            found += [Signal(f"plant.{name}{lane}", "count", False, True) for lane in plant_lanes]
+    return found
+
+
+def wire_names(machine: Machine) -> dict[str, list[str]]:
+    """The bits of each card's output word by name, from bit 0: ``x.2a`` as the phase table calls the wire, an output as
+    the machine's file does; empty where nothing is connected.
+    """
+    names = {f"out.{card}": [""] * CARD_BITS for card in range(machine.cards)}
+    wires = [
+        (f"{axis.name}.{wire}", bit)
+        for axis in machine.axes
+        for wire, bit in zip(axis.phase.wire_names(), axis.wire_bits, strict=True)
+    ]
+    for name, bit in (*wires, *machine.outputs):
+        names[f"out.{bit // CARD_BITS}"][bit % CARD_BITS] = name
+    return names
+
+
+def vcd_layout(machine: Machine) -> list[VcdVar]:
+    """Scopes of the VCD form: an axis's wires as its phase table names them, then sensors, kmd, and all that any plant
+    has.
+    """
+    layout = []
+    for axis in machine.axes:
+        for wire, bit in zip(axis.phase.wire_names(), axis.wire_bits, strict=True):
+            layout.append(VcdVar(axis.name, wire, "wire", f"out.{bit // CARD_BITS}", bit=bit % CARD_BITS))
+        for field in ("column", "position", "state"):
+            layout.append(VcdVar(axis.name, field, "integer", f"{axis.name}.{field}"))
+    for sensor in machine.sensors:
+        card, bit = divmod(sensor.bit, CARD_BITS)
+        inverted = sensor.active_level == 0
+        layout.append(VcdVar("sensors", sensor.name, "wire", f"in.{card}", bit=bit, invert=inverted))
+    layout += [
+        VcdVar("kmd", "seq", "integer", "kmd", part="seq"),
+        VcdVar("kmd", "opcode", "integer", "kmd", part="opcode"),
+        VcdVar("kmd", "running", "string", "kmd", part="running"),
+    ]
+    fields = [f"{name}{lane}" for name in machine.axis_names for lane in EVERY_LANE]
+    return [*layout, *(VcdVar("plant", field, "integer", f"plant.{field}") for field in fields)]

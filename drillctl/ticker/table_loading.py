@@ -1,0 +1,95 @@
+"""Edited tables on their way into a running ticker (LOAD), as text, in memory that two processes share.
+
+Rule: checked by machine/ in the process that ticks, taken at rest and whole, or refused with nothing changed.
+Made by paced; the links of both kinds take tables by ``take_tables``.
+"""
+
+import mmap
+from dataclasses import replace
+
+import numpy as np
+
+from drillctl.machine import Machine, TableError
+from drillctl.machine.bundle import unbundle
+from drillctl.ticker.ticker import Ticker
+
+MOST_BYTES = 1024 * 1024
+MOST_REPLY_BYTES = 4096
+SLOT = np.dtype(
+    [
+        ("offered", "<u4"),  # how many texts were put there; desk
+        ("length", "<u4"),  # of the newest; desk
+        ("answered", "<u4"),  # how many were answered; ticker
+        ("reply_length", "<u4"),  # of the newest answer; ticker
+        ("reply", "u1", (MOST_REPLY_BYTES,)),  # empty: taken; ticker
+        ("text", "u1", (MOST_BYTES,)),  # desk
+    ]
+)
+OTHER_MACHINE = "more than phase and ramp tables has changed"
+AT_WORK = "the machine is at work; tables are taken at rest"
+
+
+class TableSlot:
+    """Room for one text and its answer. Inherited over a fork: desk offers, the ticker answers."""
+
+    def __init__(self) -> None:
+        self._fields = np.frombuffer(mmap.mmap(-1, SLOT.itemsize), SLOT, 1)
+
+    def offer(self, text: str) -> bool:
+        """False, and nothing offered, for a text that is too long."""
+        data = text.encode()
+        if len(data) > MOST_BYTES:
+            return False
+        self._fields["text"][0, : len(data)] = np.frombuffer(data, np.uint8)
+        self._fields["length"] = len(data)
+        self._fields["offered"] += 1
+        return True
+
+    @property
+    def waiting(self) -> bool:
+        """A text was offered and not answered yet."""
+        return bool(self._fields["offered"][0] != self._fields["answered"][0])
+
+    def text(self) -> str:
+        """What was offered."""
+        return bytes(self._fields["text"][0, : int(self._fields["length"][0])]).decode()
+
+    def answer(self, reason: str) -> None:
+        """Empty: it was taken."""
+        data = reason.encode("utf-8", "backslashreplace")[:MOST_REPLY_BYTES]
+        self._fields["reply"][0, : len(data)] = np.frombuffer(data, np.uint8)
+        self._fields["reply_length"] = len(data)
+        self._fields["answered"] = self._fields["offered"]
+
+    def reply(self) -> str:
+        """Why the last text was not taken; empty where it was."""
+        return bytes(self._fields["reply"][0, : int(self._fields["reply_length"][0])]).decode("utf-8", "replace")
+
+
+def take_tables(ticker: Ticker, text: str) -> str:
+    """Loads the machine of a bundle in place of the one that runs; the reason where it is refused."""
+    try:
+        machine = unbundle(text).at_rate(ticker.machine.tick_hz)
+    except TableError as error:
+        return str(error)
+    if not same_but_tables(machine, ticker.machine):
+        return OTHER_MACHINE
+    if not ticker.resting:
+        return AT_WORK
+    ticker.load(machine)
+    return ""
+
+
+def same_but_tables(machine: Machine, other: Machine) -> bool:
+    """Whether two machines differ in nothing but patterns and ramps: same wires on same bits, same rate."""
+    wires = [axis.phase.wire_names() for axis in other.axes]
+    if [axis.phase.wire_names() for axis in machine.axes] != wires:
+        return False
+    pairs = zip(machine.axes, other.axes, strict=True)
+    axes = tuple(replace(axis, phase=like.phase, ramp=like.ramp) for axis, like in pairs)
+    return _bare(replace(machine, axes=axes)) == _bare(other)
+
+
+def _bare(machine: Machine) -> Machine:
+    """Without where it was read from."""
+    return replace(machine, files=(), shipped=False, description="")

@@ -1,0 +1,156 @@
+"""Wiring of layers 3 and 4: runs the ticks of one machine on one port, and watches what the plant sees.
+
+Rule: no decision about motion is taken here; between ticks it samples, counts holes and writes the status record.
+Created by desk for a job and by the tests.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from drillctl.execution import Controller, loaded, look, report, tick
+from drillctl.kmd import STATUS, CommandQueue, Condition, Gate, Mailbox, Queue, Requests, TickGate
+from drillctl.machine import Machine
+from drillctl.plant import IDEAL_PLANT, Plant, PlantChoice
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.ports import Driver
+from drillctl.ticker.sampler import Keeper, Sampler
+from drillctl.trace import Recorder, Segments, Trace
+
+NEVER = 1 << 62  # a tick that doesn't come
+
+
+@dataclass
+class Ticker:
+    """One machine on one port. ``touched`` grows by a hole when the plant's bit first meets the board there:
+    (tool, tag of the hole begun, place in steps from machine zero by axis, lost steps taken off)."""
+
+    machine: Machine
+    port: Driver
+    plant: Plant | None = None
+    traced: bool = False
+    derived: bool = False
+    queue: CommandQueue = field(default_factory=Queue)
+    requests: Mailbox = field(default_factory=Requests)
+    gate: TickGate = field(default_factory=Gate)
+    keeper: Keeper | None = None
+
+    def __post_init__(self) -> None:
+        self.controller = Controller(self.machine, self.queue, self.requests, self.port)
+        self.status: np.void = np.zeros(1, dtype=STATUS)[0]
+        self.touched: list[tuple[int, int, tuple[float, ...]]] = []
+        self._touches = 0
+        self._tags: set[int] = set()
+        self.sampler = Sampler(self.controller, self.plant, self.derived, self.keeper) if self.traced else None
+
+    @classmethod
+    def simulated(cls, machine: Machine, traced: bool = False, derived: bool = False,
+                  plant_choice: PlantChoice = IDEAL_PLANT) -> "Ticker":  # fmt: skip
+        """The machine on the simulated card, with a plant behind it. Raises PlantRefused."""
+        plant = plant_choice.build(machine)
+        return cls(machine, SimulatedCard(plant), plant, traced, derived)
+
+    def run(self, ticks: int, until: Callable[[], bool] | None = None) -> int:
+        """Runs up to so many wakes, fewer when ``until`` says so after one; returns how many ticks came of them."""
+        m, plant, sampler = self.controller, self.plant, self.sampler
+        first = m.tick
+        for _ in range(ticks):
+            before = m.tick
+            tick(m)
+            if m.served and m.tick_hz != self.machine.tick_hz:
+                self.follow_rate()
+            if sampler is not None and m.tick != before:
+                sampler.sample()
+            if plant is not None and plant.touches != self._touches:
+                self._touches = plant.touches
+                self.touch(m.tool, m.hole_begun, self.places())
+            if until is not None and until():
+                break
+        return m.tick - first
+
+    def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:
+        """``run`` as far as the gate lets; where it is shut the inputs alone are looked at."""
+        if not self.gate.paused:
+            return self.run(wakes, until)
+        if self.waits:
+            look(self.controller)
+            return 0
+        ticks = self.run(1)
+        self.gate.passed(ticks)
+        return ticks
+
+    def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
+        """As many ticks as the queue is sure to last for (a tick takes one command at most), up to tick ``before``."""
+        return self.advance(min(max(1, len(self.queue)), before - self.controller.tick), until)
+
+    @property
+    def waits(self) -> bool:
+        """The gate is shut. What was asked, a machine that brakes or returns, and what would burn don't wait for it."""
+        shut = self.gate.paused and not self.gate.left
+        waits = shut and not self.requests.waiting and self.controller.condition == Condition.READY
+        return waits and not self.controller.hot_until
+
+    @property
+    def resting(self) -> bool:
+        """Outside a job, nothing moves and no command waits."""
+        m = self.controller
+        return m.condition == Condition.READY and not (m.busy or m.job or m.moving) and len(self.queue) == 0
+
+    def load(self, machine: Machine) -> None:
+        """The same machine with other phase and ramp tables (ticker/table_loading.py checks that), at rest."""
+        self.machine, self.controller = machine, loaded(machine, self.controller)
+        if self.sampler is not None:
+            self.sampler.follow(self.controller)
+
+    def follow_rate(self) -> None:
+        """The controller has another tick rate (PACE): so has everything that counts its ticks as time."""
+        self.machine = self.controller.machine = self.machine.at_rate(self.controller.tick_hz)
+        if self.plant is not None:
+            self.plant.set_rate(self.machine.tick_hz)
+
+    def over(self) -> bool:
+        """The job has ended, and everything rests: at KMD_KONIEC, by a stop, or latched by a fault."""
+        m = self.controller
+        if m.condition == Condition.LATCHED:
+            return not m.moving
+        return m.condition == Condition.READY and not m.job and not m.moving
+
+    def report(self) -> np.void:
+        """The status record, written anew; what the plant has lost is told while everything rests."""
+        report(self.controller, self.status)
+        if self.plant is not None and not self.controller.moving:
+            lost = self.lost_steps()
+            self.status["lost"][: len(lost)] = np.rint(lost)
+        return self.status
+
+    def late(self, count: int, worst_ns: int) -> None:
+        """How punctual the ticks were so far, for the status record."""
+        self.status["late"], self.status["late_worst_ns"] = count, worst_ns
+
+    def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
+        """The record of the run so far, in the form in which it is kept."""
+        return self.finished_trace(header)
+
+    def finished_trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
+        """The record of the run so far, where it is kept in this process."""
+        if self.sampler is None or not isinstance(self.sampler.recorder, Recorder):
+            return None
+        return self.sampler.recorder.finish(self.controller.tick, header)
+
+    def touch(self, tool: int, tag: int, places: tuple[float, ...]) -> None:
+        """The bit meets the board; a hole that is come to again (a peck after a peck) is counted once."""
+        if tag == 0 or tag not in self._tags:
+            self._tags.add(tag)
+            self.touched.append((tool, tag, places))
+
+    def lost_steps(self) -> tuple[float, ...]:
+        """By axis: how far the plant is behind the controller, in steps. Needs a plant."""
+        assert self.plant is not None
+        return tuple(self.plant.lost_steps(i, axis.travelled) for i, axis in enumerate(self.controller.axes))
+
+    def places(self) -> tuple[float, ...]:
+        """By axis: where the plant stands, in the controller's steps from machine zero. Needs a plant."""
+        assert self.plant is not None
+        axes = enumerate(self.controller.axes)
+        return tuple(axis.position - self.plant.behind_steps(i, axis.travelled) for i, axis in axes)

@@ -1,0 +1,58 @@
+"""A motor's phases as lines of text: what is on stands in brackets. Functions of an axis, live or at a tick of a run.
+
+Used by the drilling screen's side window and by the scope.
+"""
+
+from typing import Protocol
+
+from drillctl.language.words import _
+from drillctl.ui.widgets.lines import Line
+
+
+class Phases(Protocol):
+    """What an axis puts out: AxisView and AxisMoment both tell it."""
+
+    @property
+    def name(self) -> str:
+        """The axis."""
+
+    @property
+    def column(self) -> int:
+        """Of the phase table, from 1."""
+
+    @property
+    def state(self) -> int:
+        """Of the ramp, signed."""
+
+    @property
+    def top_state(self) -> int:
+        """The ramp's greatest."""
+
+    @property
+    def wires(self) -> tuple[tuple[str, str, bool], ...]:
+        """Name, row of the phase table in x and ., lit."""
+
+
+def phase_line(axis: Phases) -> Line:
+    """One line a motor: column, ramp state, and its wires."""
+    wires = [lamp(name, lit) for name, _row, lit in axis.wires]
+    return [("title", f"{axis.name.upper():2} "), f"{axis.column:2} {axis.state:+d} ", *wires]
+
+
+def phase_table(axis: Phases) -> list[Line]:
+    """The table as printed, a wire a line, the column that is put out in brackets."""
+    top = _("column {column}, ramp {state} of {top}").format(
+        column=axis.column, state=f"{axis.state:+d}", top=axis.top_state
+    )
+    return [[("title", f"{axis.name.upper():2} "), top], *(_wire_line(axis.column - 1, *wire) for wire in axis.wires)]
+
+
+def lamp(name: str, lit: bool) -> tuple[str, str]:
+    """A name, in brackets while it is on."""
+    return ("lit", f"[{name}]") if lit else ("dark", f" {name} ")
+
+
+def _wire_line(column: int, name: str, row: str, lit: bool) -> Line:
+    before, cell, after = row[:column], row[column : column + 1], row[column + 1 :]
+    name_cell = f"[{name}]" if lit else f" {name} "
+    return [("lit" if lit else "dark", f"   {name_cell:8}"), ("dark", before), ("lit", f"[{cell}]"), ("dark", after)]

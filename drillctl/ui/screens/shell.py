@@ -1,0 +1,78 @@
+"""What the frame offers to a screen. A screen is made with a Console and a Shell, and knows no more.
+
+Rule: the shell owns the terminal, the menus and the dialogs; a screen owns its own widgets and its own keys.
+Implemented by app.py; the tests have a shell of their own.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Protocol, runtime_checkable
+
+import urwid
+
+from drillctl.language.words import _
+from drillctl.ui.widgets.forms import Field
+from drillctl.viewmodel.console import MachineView, Problems
+from drillctl.viewmodel.manual_control import ManualControl
+
+
+class Shell(Protocol):
+    """Where a screen stands: it can tell, ask, and lead on to another screen and back."""
+
+    def message(self, title: str, lines: Sequence[str]) -> None:
+        """A dialog that tells something, until Enter or Esc."""
+
+    def ask(self, question: str, yes: Callable[[], None]) -> None:
+        """A dialog of yes and no; ``yes`` is called when that was the answer. No is what Enter and Esc mean."""
+
+    def open(self, screen: urwid.Widget) -> None:
+        """Another screen over this one."""
+
+    def back(self) -> None:
+        """Closes the screen on top; the first one stays."""
+
+    def show(self, name: str) -> urwid.Widget | None:
+        """One of the program's screens, by its name in the menus."""
+
+    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
+        """A dialog of several lines to type in. It stays open, and shows why, while ``accept`` finds problems."""
+
+    def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
+        """One of several lines; ``chosen`` is called with its number, from 0."""
+
+    def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
+        """Tells, and offers ways on, a button each, beside the one that does nothing."""
+
+    def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
+        """A dialog with a line to type in, ``text`` to begin with; ``accept`` is called with what was typed."""
+
+
+@runtime_checkable
+class Live(Protocol):
+    """A screen that shows the machine: it is handed the newest view some twenty times a second."""
+
+    def refresh(self, view: MachineView) -> None:
+        """Redraws what changed."""
+
+
+def unsaved(screen: urwid.Widget | None) -> bool:
+    """Whether a screen holds something that would be lost with it: those that can, have ``changed``."""
+    return bool(getattr(screen, "changed", False))
+
+
+def asked_to_leave(screen: urwid.Widget, shell: Shell, key: str, give_up: Callable[[], None]) -> bool:
+    """Whether ``key`` is Esc and would lose something: then it was asked about, and ``give_up`` follows on a yes."""
+    if key != "esc" or not unsaved(screen):
+        return False
+    shell.ask(_("Leave without saving?"), give_up)
+    return True
+
+
+def asked_if_real(desk: ManualControl, shell: Shell, what: str, act: Callable[[], None], warning: str = "") -> None:
+    """Does it at once on a simulated machine, without a ``warning``; else after a yes."""
+    port = desk.real_port()
+    real = _("A real machine hangs on {port}.").format(port=port) if port else ""
+    reasons = " ".join(filter(None, (real, warning)))
+    if reasons:
+        shell.ask(f"{reasons} {what}", act)
+    else:
+        act()

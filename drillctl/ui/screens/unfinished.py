@@ -1,0 +1,92 @@
+"""Jobs that were cut off, offered to be gone on with: at the start of the program, in Files, before a new start.
+
+Rule: says first what will be drilled again, and asks before a job goes on elsewhere than it ran; nothing moves and
+nothing is taken away but by a button of its own. Called by app.py, files.py and drilling.py.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from drillctl.language.sentences import told
+from drillctl.language.words import _
+from drillctl.ui.screens.shell import Shell
+from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.jobs import Site, UnfinishedJob
+
+
+def offer_unfinished(console: Console, shell: Shell) -> bool:
+    """All there are; False where there is none."""
+    jobs = console.unfinished()
+    if len(jobs) == 1:
+        offer_job(jobs[0], console, shell)
+    elif jobs:
+        lines = [f"{Path(job.file).name}  {_counted(job)}  {job.machine}" for job in jobs]
+        shell.choose(_("Interrupted jobs"), lines, lambda index: offer_job(jobs[index], console, shell))
+    return bool(jobs)
+
+
+def offer_job(job: UnfinishedJob, console: Console, shell: Shell, anew: Callable[[], object] | None = None) -> None:
+    """Go on, or give it up; with ``anew``, which is called then, to begin again from the first hole."""
+
+    def go_on(elsewhere: bool) -> None:
+        if problems := console.go_on(job.journal, elsewhere):
+            shell.message(_("Refused"), [told(problem) for problem in problems])
+        else:
+            shell.show("drilling")
+
+    def go_on_where_it_ran() -> None:
+        if question := elsewhere_question(job):
+            shell.ask(question, lambda: go_on(elsewhere=True))
+        else:
+            go_on(elsewhere=False)
+
+    def give_up() -> None:
+        if problems := console.give_up(job.journal):
+            shell.message(_("Refused"), [told(problem) for problem in problems])
+        elif anew is not None:
+            anew()
+
+    label = _("Give up") if anew is None else _("Anew")
+    shell.offer(_("Interrupted job"), job_lines(job), [(_("Go on"), go_on_where_it_ran), (label, give_up)])
+
+
+def job_lines(job: UnfinishedJob) -> list[str]:
+    """What the journal says, and what going on with it means."""
+    lines = [f"{job.file}", _("on {machine}: {counted}").format(machine=job.machine, counted=_counted(job))]
+    lines.append(site_words(job.ran))
+    if job.torn:
+        lines.append(_("The last line of its journal is torn, and left out."))
+    if job.again:
+        again = ", ".join(map(str, job.again))
+        lines.append(_("Hole {numbers} was cut off in the middle; it will be drilled again.").format(numbers=again))
+    if job.doubtful is not None:
+        lines.append(_("Hole {number} may have been begun; it will be drilled again.").format(number=job.doubtful))
+    if job.spotted:
+        lines.append(_("Holes of the tool in hand may bear their spot already; they are marked again."))
+    meaning = _("Going on initialises, takes the same working base and drills the rest. The board must lie as it lay.")
+    return [*lines, "", meaning]
+
+
+def elsewhere_question(job: UnfinishedJob) -> str:
+    """Asked before a job goes on elsewhere than it ran; empty where it does not."""
+    if job.ran == job.here:
+        return ""
+    sites = {"ran": site_words(job.ran), "here": site_words(job.here)}
+    parts = [_("The job ran with {ran}. It would go on with {here}.").format(**sites)]
+    if job.ran.real and not job.here.real:
+        parts.append(_("What a simulated machine drills counts as drilled."))
+    return " ".join([*parts, _("Go on all the same?")])
+
+
+def site_words(site: Site) -> str:
+    """Port, pace and plant."""
+    form = _("port {port}, pace {pace}, plant {plant}")
+    if site.real:
+        form = _("port {port}, pace {pace}")
+    elif site.seed:
+        form = _("port {port}, pace {pace}, plant {plant}, seed {seed}")
+    return form.format(port=site.port, pace=site.pace, plant=site.plant, seed=site.seed)
+
+
+def _counted(job: UnfinishedJob) -> str:
+    return _("{done} of {total} holes are drilled").format(done=job.holes_done, total=job.holes_total)

@@ -1,0 +1,128 @@
+"""Dialogs: tell something, ask yes or no, ask for a line of text. Boxes over what was there before.
+
+Rule: a dialog is closed by every way out of it, before its answer is acted upon. Made by app.py and the screens.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import urwid
+
+from drillctl.language.words import _
+from drillctl.ui.widgets.lines import Size
+from drillctl.ui.widgets.texts import Box, Button, Edit, Text
+
+WIDEST = 72
+
+Act = Callable[[], object]
+Part = Text | urwid.AttrMap[Any]  # text, or a field or a line to be picked, in its colours
+
+
+class Dialog(urwid.WidgetWrap[urwid.Widget]):
+    """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc only closes."""
+
+    def __init__(self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act):
+        self._closing = closing
+        self._first = self._closed_by(buttons[0][1])
+        self._row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
+        self._parts: list[Part | urwid.Divider | urwid.GridFlow] = [*body, urwid.Divider(), self._row]
+        self._list = urwid.ListBox(urwid.SimpleFocusListWalker(self._parts))
+        self._list.set_focus(_first_selectable(body, len(body) + 1))
+        self._title = title
+        self._frame = Box(urwid.Padding(self._list, left=1, right=1), title)
+        super().__init__(urwid.AttrMap(self._frame, "body"))
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """Nothing passes a dialog. Who comes down to the buttons comes to the first, wherever the cursor stood."""
+        above = self._list.focus is not self._row
+        if key == "esc":
+            self._closing()
+        elif super().keypress(size, key) == "enter":
+            self._first()
+        elif above and self._list.focus is self._row:
+            self._row.focus_position = 0
+        return None
+
+    def from_the_top(self) -> None:
+        """Shows its first line: for text longer than the terminal. Enter is the first button wherever one reads."""
+        self._list.set_focus(0)
+        self._frame.set_title(_("{title} (PgDn: more)").format(title=self._title))
+
+    def wanted_rows(self, columns: int) -> int:
+        """Rows for all of it in a box so wide."""
+        inner = (columns - 4,)
+        return sum(widget.rows(inner) for widget in self._parts) + 2
+
+    def _button(self, label: str, act: Act) -> urwid.AttrMap[Button]:
+        pressed = self._closed_by(act)
+        return urwid.AttrMap(Button(label, lambda _button: pressed()), "key", "focus")
+
+    def _closed_by(self, act: Act) -> Act:
+        def both() -> None:
+            self._closing()
+            act()
+
+        return both
+
+
+def nothing() -> None:
+    """What a button does that only closes."""
+
+
+def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing) -> Dialog:
+    """Tells; ``then`` follows on Enter."""
+    return Dialog(title, [Text(line) for line in lines], [(_("OK"), then)], closing)
+
+
+def question(text: str, yes: Act, closing: Act) -> Dialog:
+    """No stands first, so that Enter alone does nothing."""
+    return Dialog(_("Question"), [Text(text)], [(_("No"), nothing), (_("Yes"), yes)], closing)
+
+
+def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], closing: Act) -> Dialog:
+    """Asks for a line of text; Enter in the field or OK hands it over."""
+    field = _Field(("body", f"{prompt} "), text)
+    dialog = Dialog(
+        title,
+        [urwid.AttrMap(field, "field")],
+        [(_("OK"), lambda: accept(field.edit_text)), (_("Cancel"), nothing)],
+        closing,
+    )
+
+    def entered() -> None:
+        closing()
+        accept(field.edit_text)
+
+    field.entered = entered
+    return dialog
+
+
+class _Field(Edit):
+    """A line of text with something to do on Enter. A character typed first takes the place of what was proposed."""
+
+    entered: Act = staticmethod(nothing)
+    _untouched = True
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        assert len(size) == 1
+        if key == "enter":
+            self.entered()
+            return None
+        if self._untouched and self.valid_char(key):
+            self.set_edit_text("")
+        self._untouched = False
+        return super().keypress(size, key)
+
+
+def _first_selectable(body: Sequence[Part], otherwise: int) -> int:
+    return next((i for i, widget in enumerate(body) if widget.selectable()), otherwise)
+
+
+def over(dialog: Dialog, below: urwid.Widget, columns: int, rows: int) -> urwid.Widget:
+    """The dialog in the middle of a terminal of this size, as high as its text needs and the terminal allows."""
+    width = min(WIDEST, columns - 2)
+    wanted = dialog.wanted_rows(width)
+    height = min(wanted, rows - 2)
+    if height < wanted:
+        dialog.from_the_top()
+    return urwid.Overlay(dialog, below, "center", width, "middle", height)

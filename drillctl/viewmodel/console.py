@@ -1,0 +1,196 @@
+"""What a screen may see and ask. The screens know this protocol and these records, and nothing else of the program.
+
+Rule: asking never blocks and never raises for what a person did: it answers with problems, a line each; an empty tuple
+means it was accepted. Millimetres are from the working base, as the operator counts.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
+from drillctl.viewmodel.records import Estimate, FaultReport, Progress
+
+Problems = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisView:
+    """One axis: where it is and goes, its ramp state, its phases as they stand on the wires, the whole table."""
+
+    name: str
+    position_steps: int
+    position_mm: float
+    target_steps: int
+    target_mm: float
+    state: int
+    top_state: int
+    column: int  # from 1
+    wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table in x and ., lit now
+    steps_per_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class ToolWanted:
+    """A tool that the job waits for, the machine at rest; ``drill_mm``: the drill at hand that serves it."""
+
+    number: int
+    diameter_mm: float | None
+    drill_mm: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MachineView:
+    """The machine at this moment. ``condition``: ready, holding, held, stopping, returning, latched."""
+
+    machine: str
+    port: str
+    tick: int
+    tick_hz: int
+    condition: str
+    moving: bool
+    position_known: bool
+    command: str  # in execution, as text; empty when there is none
+    queued: int
+    tool: int
+    axes: tuple[AxisView, ...]
+    sensors: tuple[tuple[str, bool], ...]
+    outputs: tuple[tuple[str, bool], ...]
+    lost_steps: tuple[int, ...] | None
+    late: int
+    late_worst_ms: float
+    fault: FaultReport | None
+    notices: tuple[str, ...]
+    tool_wanted: ToolWanted | None = None
+    real_wanted: str = ""  # the port that the machine's file asks for (mode REAL) while a simulated one is in use
+    at_work: bool = False  # a job, a jog or an initialisation is on its way
+    local: bool = False  # some of its tables are neither the shipped ones nor named by the operator
+    hot_s: float = 0.0  # after which what was switched on by hand and would burn a winding goes off; 0: nothing is
+    cut_off: bool = False  # that has happened, and no output was set since
+    paused: bool = False  # ticks come only as they are granted (viewmodel/manual_control.py)
+
+
+@dataclass(frozen=True, slots=True)
+class ToolView:
+    """A tool of the board: number, diameter, holes."""
+
+    number: int
+    diameter_mm: float | None
+    holes: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BoardView:
+    """The board that is loaded, in drilling order: xy_mm (n, 2) from the working base, file_xy_mm (n, 2) as its file
+    has them, tool (n,) index into tools. ``format`` is how its digits are read, ``dialect`` what such a file is called.
+    """
+
+    name: str
+    file: str
+    xy_mm: NDArray[np.float64]
+    file_xy_mm: NDArray[np.float64]
+    tool: NDArray[np.int64]
+    tools: tuple[ToolView, ...]
+    format: str
+    dialect: str
+    confidence: float
+    reason: str
+    runner_up: str
+    warnings: tuple[str, ...]
+    estimate: Estimate
+
+
+class Console(Protocol):
+    """The operator's desk, as screens use it. ``turn`` is called some twenty times a second."""
+
+    def turn(self) -> bool:
+        """Lets the machine's news in: call it often; it returns at once. True: at work, and bound by no clock, it gets
+        on as often as it is called.
+        """
+
+    def view(self) -> MachineView:
+        """The machine now."""
+
+    def board(self) -> BoardView | None:
+        """The board that is loaded."""
+
+    def progress(self) -> Progress | None:
+        """The job that runs, or ran last."""
+
+    def machines(self) -> Sequence[tuple[str, str]]:
+        """Name and description of every machine that can be chosen."""
+
+    def choose_machine(self, name: str) -> Problems:
+        """Another machine, from its start position. Refused while something moves."""
+
+    def go_real(self) -> Problems:
+        """The machine on the port that its file asks for. Refused while something moves."""
+
+    def load(self, file: str, asked: Asked) -> Problems:
+        """Reads a drill file and plans it. Refused with its reasons; the board loaded before then stays."""
+
+    def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
+        """What measured holes say of where the board lies; nothing is changed."""
+
+    def recent(self) -> Sequence[RecentJob]:
+        """The drill files opened last, with their settings; the newest first."""
+
+    def unfinished(self) -> Sequence[UnfinishedJob]:
+        """Jobs that were cut off, the newest first. Looks on the disk."""
+
+    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
+        """Initialises, goes to the same base and drills what is left. Refused where anything is not the same;
+        ``elsewhere``: but for port, pace and plant.
+        """
+
+    def give_up(self, journal: str) -> Problems:
+        """An unfinished job is not gone on with: its journal goes."""
+
+    def start(self, dry: bool) -> Problems:
+        """Drills the board; ``dry``: goes to every hole with the drill up."""
+
+    def run_queue(self, text: str) -> Problems:
+        """Runs KMD commands."""
+
+    def set_tick_hz(self, hz: int) -> Problems:
+        """So many ticks a second, at rest; the position stays. ``view`` has the rate in force. Refused where the port
+        or this computer can't carry it, with the rate that they can.
+        """
+
+    def initialise(self) -> Problems:
+        """Head up, then X=0, Y=0 by the limit sensors."""
+
+    def jog(self, axis: str, steps: int) -> Problems:
+        """So many steps from here, with ramps; one further step waits. Asked as fast as a key held down repeats, it
+        is one move, until the asking ends.
+        """
+
+    def go_to(self, x_mm: float, y_mm: float) -> Problems:
+        """To a place from the working base, the drill up."""
+
+    def set_base(self) -> Problems:
+        """This place is the working base."""
+
+    def tool_changed(self) -> Problems:
+        """The tool that the job waits for is in."""
+
+    def hold(self) -> Problems:
+        """Brakes; the job stays."""
+
+    def resume(self) -> Problems:
+        """Goes on after a hold."""
+
+    def stop(self) -> Problems:
+        """Ends the job; the position is kept."""
+
+    def emergency_stop(self) -> Problems:
+        """At once. Never refused."""
+
+    def acknowledge(self) -> Problems:
+        """The operator has seen the fault."""
+
+    def close(self) -> None:
+        """The outputs are safe, and everything that was started has ended."""

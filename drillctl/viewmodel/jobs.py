@@ -1,0 +1,128 @@
+"""What a person may ask of a board, and what is kept of jobs. Plain records; lengths in mm.
+
+Rule: a request holds what was asked, whether or not it can be done; who is asked says so. Made by the screens, kept
+by the station.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredHole:
+    """A hole of the board, in the file's coordinates, and where it was found, from machine zero."""
+
+    file_x_mm: float
+    file_y_mm: float
+    machine_x_mm: float
+    machine_y_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class PanelOf:
+    """The same board, so many times along X and Y, at these pitches."""
+
+    columns: int
+    rows: int
+    pitch_x_mm: float
+    pitch_y_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """How a board is to be placed and drilled. With ``measured`` holes these alone say where it lies.
+
+    peck_mm, spot_mm  depths below the board's surface; ``drills``: the file of the drills at hand
+    """
+
+    format: str | None = None
+    origin: str = "base"
+    mirror: str | None = None
+    rotate_deg: float = 0.0
+    offset_mm: tuple[float, float] = (0.0, 0.0)
+    order: str = "file"
+    panel: PanelOf | None = None
+    measured: tuple[MeasuredHole, ...] = ()
+    peck_mm: float | None = None
+    spot_mm: float | None = None
+    skip_tools: tuple[int, ...] = ()
+    drills: str | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class AlignmentReport:
+    """What measured holes say. ``matrix`` (2, 3) takes the file's mm to mm from machine zero.
+
+    kind         'rigid': shift and turn; 'affine': scale and shear as well
+    residual_mm  of each measured hole; ``rejected``: why this can't be the board, nothing where it can
+    """
+
+    kind: str
+    matrix: NDArray[np.float64]
+    residual_mm: tuple[float, ...]
+    turn_deg: float
+    scale: tuple[float, float]
+    warnings: tuple[str, ...]
+    rejected: tuple[str, ...]
+
+    def place_mm(self, file_xy_mm: ArrayLike) -> tuple[float, float]:
+        """Where a hole is to be looked for, from machine zero."""
+        x_mm, y_mm = self.matrix @ np.append(np.asarray(file_xy_mm, np.float64), 1.0)
+        return float(x_mm), float(y_mm)
+
+
+@dataclass(frozen=True, slots=True)
+class RecentJob:
+    """A drill file that was opened, and how."""
+
+    file: str
+    asked: Asked
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """Where a job is run, and how: two runs of one site meet the same machine.
+
+    port   NAME[:ADDRESS], an address that is a file absolute
+    pace   'free' or 'real'
+    plant  as a trace's header has it: 'ideal', 'dynamic' with its faults, 'none' on a real port; ``seed`` is its own
+    """
+
+    port: str
+    pace: str
+    plant: str
+    seed: int = 0
+
+    @property
+    def real(self) -> bool:
+        """A real machine stands behind the port."""
+        return self.plant == "none"
+
+    def __str__(self) -> str:
+        plant = "" if self.real else f", plant {self.plant}"
+        seed = f", seed {self.seed}" if self.seed else ""
+        return f"port {self.port}, pace {self.pace}{plant}{seed}"
+
+
+@dataclass(frozen=True, slots=True)
+class UnfinishedJob:
+    """A job that was cut off, as its journal has it.
+
+    again     holes that were under way, to be drilled again
+    doubtful  the hole that may have been, by a torn last line; None where there is no doubt
+    ran, here where it ran last, and where it would go on
+    """
+
+    journal: str
+    file: str
+    machine: str
+    holes_done: int
+    holes_total: int
+    again: tuple[int, ...]
+    torn: bool
+    spotted: bool
+    doubtful: int | None
+    ran: Site
+    here: Site

@@ -1,0 +1,139 @@
+"""What the scope may see and ask: the signals of a run, windows of them, and the machine at any of its ticks.
+
+Rule: as console.py has it: nothing raises for what a person did. A signal is named by its index in ``signals``; ticks
+count from 0 as in a trace, and a value at a tick is that after its flush.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.viewmodel.console import Problems
+
+Ints = NDArray[np.int64]
+Shape = Literal["wire", "count", "words"]
+Find = Literal["change", "step", "command", "sensor", "request", "late", "fault"]
+Lack = Literal["forgotten", "behind", "running", "underivable", "too long", "other tables", "other rate"]
+FORWARDS, BACKWARDS = 1, -1
+
+
+@dataclass(frozen=True, slots=True)
+class ScopeSignal:
+    """A lane of the scope. ``group``: an axis's name, sensors, outputs, kmd, run or plant."""
+
+    group: str
+    name: str
+    shape: Shape
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Changes:
+    """A signal in a window of ticks: the value that stands at its start, then every change; (n,) each, ticks rising."""
+
+    ticks: Ints
+    values: Ints
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Strip:
+    """A signal in n stretches of ticks, as many as there are columns to draw: the value at the end of each, and how
+    often it changed in it, (n,) each. A pulse is counted however short it is."""
+
+    values: Ints
+    changes: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class AxisMoment:
+    """An axis at a tick: as AxisView has it, without a target, which no trace tells."""
+
+    name: str
+    position_steps: int
+    position_mm: float
+    state: int
+    top_state: int
+    column: int  # from 1
+    wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table in x and ., lit then
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """The machine at a tick. ``values``: of every signal, None where it is not known; ``axes``: those that are."""
+
+    tick: int
+    command: str
+    values: tuple[int | None, ...]
+    axes: tuple[AxisMoment, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """What a run lacks, and the number or reason that belongs to it."""
+
+    lack: Lack
+    value: int | str = ""
+
+
+class ScopeSource(Protocol):
+    """One run: it may go on, and its oldest part may be forgotten, while it is looked at."""
+
+    @property
+    def name(self) -> str:
+        """What it is a run of."""
+
+    @property
+    def tick_hz(self) -> int:
+        """Ticks a second."""
+
+    @property
+    def first_tick(self) -> int:
+        """The earliest that is kept."""
+
+    @property
+    def last_tick(self) -> int:
+        """The latest; below ``first_tick`` while nothing has run."""
+
+    @property
+    def opening_tick(self) -> int:
+        """Where a finished run is looked at first."""
+
+    def turn(self) -> None:
+        """Lets what is new in; returns soon."""
+
+    def notices(self) -> Sequence[Notice]:
+        """What is missing, and why."""
+
+    def signals(self) -> Sequence[ScopeSignal]:
+        """The lanes from top to bottom; always the same ones."""
+
+    def shown(self, signal: int, value: int, tick: int) -> str:
+        """A value as people read it, which the signal has in a tick."""
+
+    def known_to(self, signal: int) -> int:
+        """The first tick for which the signal is not known, or not yet."""
+
+    def window(self, signal: int, from_tick: int, to_tick: int) -> Changes:
+        """Every change in from_tick..to_tick-1; none as long as nothing is known of the signal."""
+
+    def strip(self, signal: int, edges: Ints) -> Strip:
+        """The stretches between rising ``edges``, (n+1,): as quick for a whole run as for a moment of it."""
+
+    def at(self, tick: int) -> Moment:
+        """The machine at a tick, without running up to it."""
+
+    def find(self, what: Find, tick: int, direction: int, signal: int) -> int | None:
+        """The nearest tick after (or before) ``tick`` with such an event: ``change`` is one of the signal; ``step`` is
+        one of the signal's axis, or of any where the signal is of none."""
+
+
+class ScopeDesk(Protocol):
+    """Runs that can be looked at."""
+
+    def running(self) -> ScopeSource:
+        """The run of the machine at hand, from when it was chosen."""
+
+    def open_trace(self, file: str) -> tuple[ScopeSource | None, Problems]:
+        """The run in a file, or why it can't be read."""

@@ -1,0 +1,144 @@
+"""What the table editors may see and ask: tables as text, and what can be drawn of them.
+
+Rule: as console.py has it: nothing raises for what a person did. A table is its text; an edit is a new text, and
+nothing reaches a file before ``save`` has found it sound. Edits go to the user's own folder, never to the shipped one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from drillctl.viewmodel.console import Problems
+
+Kind = Literal["phase", "ramp", "motor", "machines"]
+Place = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TableEntry:
+    """A table that can be opened. ``origin``: shipped, yours (a copy that wins), or other (a folder named first).
+
+    ``ships``: one of this name comes with the program, to go back to. ``in_use``: the machine at hand is driven by it.
+    """
+
+    name: str
+    origin: str
+    ships: bool = True
+    in_use: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Something about a text: its line from 1 (None: the whole), its column from 1 where one is known."""
+
+    line: int | None
+    text: str
+    column: int | None = None
+
+    def __str__(self) -> str:
+        place = ":".join(str(number) for number in (self.line, self.column) if number is not None)
+        return f"{place}: {self.text}" if place else self.text
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """Problems forbid saving; warnings are for a valid but dangerous table."""
+
+    problems: tuple[Finding, ...] = ()
+    warnings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class PhaseRow:
+    """A wire of a phase table: ``x`` on, ``.`` off; ``reverse`` is its row for motion backwards, None for the same."""
+
+    name: str
+    volts: float
+    pattern: str
+    reverse: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StateRow:
+    """A state of a ramp as its file has it, and what stopping from it takes (None while the ramp is unsound)."""
+
+    state: int
+    accelerate: int
+    brake: int
+    interval: int
+    stop_steps: int | None = None
+    stop_ticks: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RampDrawing:
+    """The states from -n to n, and the ticks before each step of a long move (none while the ramp is unsound)."""
+
+    states: tuple[StateRow, ...]
+    intervals: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FieldView:
+    """One value of a machine's file: its place there, its axis ("" for none), as text, and what it may be."""
+
+    place: Place
+    axis: str
+    value: str
+    choices: tuple[str, ...] = ()
+    bounds: str = ""  # such as "1..100000"
+    locked: bool = False  # in the file, by whoever keeps it
+
+
+class TableEditing(Protocol):
+    """Tables as screens edit them. What takes a text draws or changes that text; files change by save and reset."""
+
+    def tables(self, kind: Kind) -> Sequence[TableEntry]:
+        """All tables of a kind, sorted by name."""
+
+    def read(self, kind: Kind, name: str) -> str:
+        """The text that is in force; empty where the file can't be read, which ``check`` then tells."""
+
+    def check(self, kind: Kind, text: str) -> Checked:
+        """What is wrong, and what is dangerous."""
+
+    def save(self, kind: Kind, name: str, text: str) -> Problems:
+        """To the user's own copy, whole or not at all; an invalid text is refused."""
+
+    def reset(self, kind: Kind, name: str) -> Problems:
+        """The user's copy goes; the shipped table is in force again."""
+
+    def delete(self, kind: Kind, name: str) -> Problems:
+        """A table of the user's own that does not come with the program goes for good."""
+
+    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+        """The lines of a unified difference from the shipped table to this text; none where they are the same."""
+
+    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+        """A table of the user's own, under a name that is free."""
+
+    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
+        """The wires of a phase table; none for a text that is no phase table."""
+
+    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
+        """The text with these patterns; its wires are the same."""
+
+    def ramp(self, text: str) -> RampDrawing:
+        """The ramp of a text; no states for a text that is no ramp."""
+
+    def with_state(self, text: str, state: int, field: str, value: int) -> str:
+        """The text with one number of a state changed: accelerate, brake or interval."""
+
+    def with_top(self, text: str, higher: bool) -> str:
+        """The text with a pair of states more, numbers proposed, or with its outermost pair less; a ramp keeps three
+        states. The same text where that can't be.
+        """
+
+    def fields(self, text: str) -> tuple[FieldView, ...]:
+        """What can be configured in a machine's text; none for a text that is no machine."""
+
+    def wires(self, text: str) -> tuple[FieldView, ...]:
+        """The output bit of every motor's wire in a machine's text; none for a text that is no machine."""
+
+    def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
+        """The text with what was typed at a place, or unchanged with the reason."""

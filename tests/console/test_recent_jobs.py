@@ -1,0 +1,72 @@
+"""The list of recent jobs: what was opened comes back, and no file in its place ever stops anything."""
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from drillctl.console.recent_jobs import LARGEST_LIST_BYTES, MOST_RECENT, RecentJobs
+from drillctl.viewmodel.jobs import Asked, Measured, PanelOf
+
+ASKED = Asked(
+    format="inch,2:4,trailing", origin="file", mirror="x", rotate_deg=90.0, offset_mm=(1.5, -2.0), order="nearest",
+    panel=PanelOf(2, 1, 40.0, 0.0), measured=(Measured(1.0, 2.0, 3.0, 4.0),), peck_mm=0.5, spot_mm=0.2,
+    skip_tools=(2, 3), drills="/drills.toml",
+)  # fmt: skip
+KEYS = st.sampled_from(["recent", "file", "asked", "panel", "measured", "order", "offset_mm", "columns", "x"])
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=4),
+    max_leaves=12,
+)
+
+
+def test_what_was_opened_comes_back_with_all_its_settings(tmp_path: Path) -> None:
+    recent = RecentJobs(tmp_path / "state" / "recent.json")
+    assert recent.read() == []
+    recent.add(Path("/boards/a.drl"), ASKED)
+    (job,) = recent.read()
+    assert (job.file, job.asked) == ("/boards/a.drl", ASKED)
+
+
+def test_the_newest_stands_first_each_file_once_and_not_too_many(tmp_path: Path) -> None:
+    recent = RecentJobs(tmp_path / "recent.json")
+    for number in range(MOST_RECENT + 3):
+        recent.add(Path(f"/boards/{number}.drl"), Asked())
+    recent.add(Path("/boards/5.drl"), ASKED)
+    files = [job.file for job in recent.read()]
+    assert files[0] == "/boards/5.drl" and files.count("/boards/5.drl") == 1 and len(files) == MOST_RECENT
+    assert recent.read()[0].asked == ASKED
+
+
+def test_a_name_that_is_no_text_is_left_out(tmp_path: Path) -> None:
+    recent = RecentJobs(tmp_path / "recent.json")
+    recent.add(Path("/boards/a.drl"), Asked())
+    recent.add(Path("/boards/\udc80.drl"), Asked())
+    assert [job.file for job in recent.read()] == ["/boards/a.drl"]
+
+
+def test_a_place_that_cannot_be_written_stops_nothing(tmp_path: Path) -> None:
+    (tmp_path / "state").write_text("a file where the folder should be")
+    recent = RecentJobs(tmp_path / "state" / "recent.json")
+    recent.add(Path("/boards/a.drl"), Asked())
+    assert recent.read() == []
+
+
+@given(data=st.binary(max_size=200) | JSON.map(lambda value: json.dumps(value).encode()))
+def test_any_file_reads_as_a_list(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    file = tmp_path_factory.getbasetemp() / "recent.json"
+    file.write_bytes(data)
+    assert isinstance(RecentJobs(file).read(), list)
+
+
+def test_a_huge_or_deep_file_reads_as_an_empty_list(tmp_path: Path) -> None:
+    file = tmp_path / "recent.json"
+    for data in (b" " * (LARGEST_LIST_BYTES + 1), b'{"recent": ' + b"[" * 20000, b"\xff\xfe"):
+        file.write_bytes(data)
+        assert RecentJobs(file).read() == []
+    file.unlink()
+    file.mkdir()
+    assert RecentJobs(file).read() == []
