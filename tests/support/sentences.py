@@ -10,6 +10,7 @@ import drillctl
 PACKAGE = Path(drillctl.__file__).parent
 FIELD = re.compile(r"\{[^{}]*\}")
 OF_MSGSPEC = {"expected {}, got {}", "expected {}", "invalid enum value {}", "unknown key {}", "{} is missing"}
+TELLING = ("console", "files", "generation", "jobs", "kmd", "language", "machine", "portio", "replay", "ticker", "viewmodel")
 ERRORS = {"JobError", "PlacingError", "AlignmentError", "JournalError"}
 
 
@@ -31,15 +32,16 @@ def texts(node: ast.AST) -> Iterator[str]:
 
 
 def trees(*rooms: str) -> Iterator[ast.Module]:
+    """The modules of each room, which must have some."""
     for room in rooms:
-        for file in sorted((PACKAGE / room).rglob("*.py")) or [PACKAGE / f"{room}.py"]:
-            yield ast.parse(file.read_text("utf-8"))
+        files = sorted((PACKAGE / room).rglob("*.py"))
+        assert files, f"no room {room}"
+        yield from (ast.parse(file.read_text("utf-8")) for file in files)
 
 
 def all_forms() -> set[str]:
     """Every string below the screen that might be told; what msgspec says of a table is put plainly by machine."""
-    rooms = trees("generation", "station", "wiring", "machine", "kmd", "inputs", "portio", "panel", "wording")
-    return {without_place(text) for tree in rooms for text in texts(tree)} | OF_MSGSPEC
+    return {without_place(text) for tree in trees(*TELLING) for text in texts(tree)} | OF_MSGSPEC
 
 
 def refusals() -> set[str]:
@@ -53,7 +55,8 @@ def refusals() -> set[str]:
 
 def editors_findings() -> set[str]:
     """What the editors of queues, tables and the configuration find wrong with a text, or dangerous."""
-    trees_read = [ast.parse((PACKAGE / "kmd/text.py").read_text("utf-8")), *trees("machine", "inputs")]
+    readers = (ast.parse((PACKAGE / name).read_text("utf-8")) for name in ("kmd/text.py", "files/inputs.py"))
+    trees_read = [*readers, *trees("machine")]
     nodes = [node for tree in trees_read for node in ast.walk(tree)]
     called = [node for node in nodes if isinstance(node, ast.Call) and _name(node.func) in {"TableError", "error"}]
     forms = {form for node in nodes if isinstance(node, ast.JoinedStr) for form in texts(node)}
