@@ -10,7 +10,21 @@ import drillctl
 PACKAGE = Path(drillctl.__file__).parent
 FIELD = re.compile(r"\{[^{}]*\}")
 OF_MSGSPEC = {"expected {}, got {}", "expected {}", "invalid enum value {}", "unknown key {}", "{} is missing"}
-TELLING = ("console", "files", "generation", "jobs", "kmd", "language", "machine", "portio", "replay", "ticker", "viewmodel")
+TELLING = (
+    *(
+        "console",
+        "files",
+        "generation",
+        "jobs",
+        "kmd",
+        "language",
+        "machine",
+        "portio",
+        "replay",
+        "ticker",
+        "viewmodel",
+    ),
+)
 ERRORS = {"JobError", "PlacingError", "AlignmentError", "JournalError"}
 
 
