@@ -62,3 +62,50 @@ def test_ci_runs_the_readme_test_command() -> None:
 def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text("utf-8")):
         assert (page.parent / target).exists(), f"{page.name} links to {target}"
+
+
+def sources() -> str:
+    return "\n".join(file.read_text("utf-8") for file in sorted((ROOT / "drillctl").rglob("*.py")))
+
+
+def glossary_rows() -> list[list[str]]:
+    lines = (ROOT / "docs" / "GLOSSARY.md").read_text("utf-8").splitlines()
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
+    return [row for row in rows if row[0] != "term"]
+
+
+def test_every_name_of_the_glossary_is_in_the_code() -> None:
+    words = set(re.findall(r"\w+", sources()))
+    rows = glossary_rows()
+    assert len(rows) > 80 and all(len(row) == 4 and all(row) for row in rows)
+    names = {name for row in rows for name in re.findall(r"`(\w+)`", row[3])}
+    assert sorted(names - words) == []
+    assert all(re.search(r"`\w+`", row[3]) for row in rows), "a term without a name in code"
+
+
+def test_no_term_of_the_glossary_stands_twice() -> None:
+    terms = [term.strip() for row in glossary_rows() for term in row[0].split(",")]
+    assert sorted(terms) == sorted(set(terms))
+
+
+def places_named(page: str) -> set[tuple[str, str]]:
+    """Modules that a page names in backticks, with the name behind each: ``execution/axis.py: Axis.hold``."""
+    text = (ROOT / "docs" / page).read_text("utf-8")
+    return set(re.findall(r"`(?:drillctl/)?((?:[a-z_0-9]+/)*[a-z_0-9]+\.py)(?:: ([\w.]+))?`", text))
+
+
+@pytest.mark.parametrize("page", ["ARCHITECTURE.md", "CHANGING.md"])
+def test_modules_and_names_that_a_page_points_at_exist(page: str) -> None:
+    places = places_named(page)
+    assert len(places) > 30
+    missing = []
+    for module, name in places:
+        beside = [file for file in [ROOT / "drillctl" / module, ROOT / module] if file.is_file()]
+        if not beside and "/" not in module:  # `heads.py` beside a module that is named in full
+            beside = sorted((ROOT / "drillctl").rglob(module))
+        text = beside[0].read_text("utf-8") if beside else ""
+        defined = set(re.findall(r"(?:def|class) (\w+)|^(\w+)\s*(?::[^=\n]+)?=", text, re.M))
+        words = {word for pair in defined for word in pair if word}
+        if not beside or not set(filter(None, name.split("."))) <= words:
+            missing.append((module, name))
+    assert missing == []
