@@ -1,14 +1,14 @@
-"""The door between generation and execution: commands down the queue, requests past it, one status record up.
+"""The door between generation and execution: commands go down the queue, requests past it, one status record comes up.
 
-    commands.py  the KMD set, defined once: record, opcodes, arguments, what each does
-    text.py      the ``.kmd`` text form, both ways, from that definition
-    queue.py     the bounded FIFO, and the mailbox of requests that overtake it
-    gate.py      lets ticks through one by one
-    channel.py   all of these and the status between two processes, in one mapped file
-    status.py    the small fixed record that comes up
-    faults.py    fault codes: reaction, position kept or lost (their words live above: panel)
+    commands.py  the KMD commands, defined once: record, opcodes, arguments, what each does
+    text.py      the ``.kmd`` text form, read and written, from that definition
+    queue.py     the bounded queue, and the mailbox of requests that overtake it
+    gate.py      stops the ticks and lets single ones through
+    channel.py   all of these and the status in one mapped file, shared by two processes
+    status.py    the fixed-size record that comes up
+    faults.py    fault codes: reaction, position kept or lost (their texts: viewmodel/fault_texts.py)
 
-Rule: integers only; neither side sees the other's objects. Imports nothing of ours.
+Rule: integers only; neither side sees the other's objects.
 """
 
 from drillctl.kmd.commands import COMMANDS, RECORD, Command, Names, Op

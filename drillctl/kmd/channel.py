@@ -1,8 +1,8 @@
-"""The doors as shared memory: queue, requests, gate and status between desk and ticker, in one mapped file.
+"""Queue, requests, gate and status in one mapped file, shared by the desk's process, the ticker's and the guard.
 
-Rule: every field has one writer, and nobody waits: counters only rise, the status is copied under a sequence lock and
-read again when it was torn. The file outlives both sides, so that what the ticker confirmed last can be read after a
-crash; it stays locked while a process of its run has it mapped. Created by the wiring before it forks; a program in one
+Rule: each field has one writer, named beside it, and nobody waits: counters only rise, and the status is copied under a
+sequence lock and read again when the copy was torn. The file is made before the processes part and outlives them, so
+that the last status can be read after a crash; it stays locked while a process of its run has it mapped. A run in one
 process uses the plain Queue, Requests and Gate instead.
 """
 
@@ -50,7 +50,9 @@ CHANNEL = np.dtype(
 
 
 class Channel:
-    """One mapped file of dtype CHANNEL. Raises OSError where it can't be made or is no such file."""
+    """One mapped file of dtype CHANNEL. Raises OSError where it can't be made, or where the file is
+    not of this kind.
+    """
 
     def __init__(self, file: Path, create: bool):
         # A new one is made whole beside its place, then put there: whoever looks finds a whole one, and whoever
@@ -77,7 +79,7 @@ class Channel:
             raise OSError(f"{file}: not a channel of this program")
 
     def status(self) -> np.void:
-        """A whole copy of the newest status record, never a torn one. Raises OSError if its writer died in it."""
+        """Returns a whole copy of the newest status record. Raises OSError if the ticker died while it wrote one."""
         for _ in range(MOST_READS):
             before = int(self.fields["lock"][0])
             copy = self.fields["status"][0].copy()
@@ -86,7 +88,7 @@ class Channel:
         raise OSError(f"{self.file}: the status record was left half written")
 
     def publish(self, status: np.void) -> None:
-        """Puts a new status record up; called by the ticker alone."""
+        """Makes this the newest status record. For the ticker only."""
         self.fields["lock"] += 1
         self.fields["status"][0] = status
         self.fields["lock"] += 1
@@ -99,7 +101,7 @@ class Channel:
 
 
 def _fill(handle: int, file: Path) -> None:
-    """Takes the room on the disk now: a page that finds none when it is written first is a bus error."""
+    """Writes the file full of zeros, so that the disk has room for it: a mapped page without room is a bus error."""
     try:
         with open(handle, "wb", closefd=False) as whole:
             whole.write(bytes(CHANNEL.itemsize))
@@ -108,7 +110,7 @@ def _fill(handle: int, file: Path) -> None:
 
 
 class SharedQueue:
-    """The Queue of a channel: desk puts, ticker takes."""
+    """The command queue of a channel: the desk puts records, the ticker takes them."""
 
     def __init__(self, channel: Channel):
         self._ring = channel.fields["ring"][0]
@@ -120,11 +122,11 @@ class SharedQueue:
 
     @property
     def room(self) -> int:
-        """How many records may be put now."""
+        """How many records can be put now."""
         return CAPACITY - len(self)
 
     def put(self, records: NDArray[np.void]) -> int:
-        """Takes as many of the records as there is room for; returns how many. They count once they are whole."""
+        """Puts as many of the records as there is room for, and returns how many. They count once they are whole."""
         count = min(len(records), self.room)
         written = int(self._written[0])
         self._ring[(written + np.arange(count)) % CAPACITY] = records[:count]
@@ -132,7 +134,7 @@ class SharedQueue:
         return count
 
     def take(self, command: Command) -> bool:
-        """Overwrites ``command`` with the oldest record; False where there is none."""
+        """Loads the oldest record into ``command``; returns False where the queue is empty."""
         taken = int(self._taken[0])
         if taken == int(self._written[0]):
             return False
@@ -142,10 +144,10 @@ class SharedQueue:
 
 
 class SharedRequests:
-    """The mailbox of a channel: desk counts up what it asks, the ticker sees what has risen.
+    """The requests of a channel: the desk counts each up, the ticker sees which counts have risen.
 
-    own   what the ticker asks of itself, beside the desk: a mailbox of the process that takes
-    hand  what the last OUTPUT or PACE taken was about
+    own   requests that the ticker's process makes itself, beside the desk's
+    hand  the value of the OUTPUT or PACE taken last (``hand_of``, ``pace_of``)
     """
 
     def __init__(self, channel: Channel):
@@ -162,11 +164,11 @@ class SharedRequests:
         return self.own.waiting or bool((self._asked != self._seen).any()) or self._hands_waiting > 0
 
     def post(self, request: Request) -> None:
-        """Asks for something; called by desk alone."""
+        """Makes a request. For the desk only."""
         self._asked[request] += 1
 
     def take(self) -> int:
-        """The requests asked since the last call, as bits."""
+        """Returns the requests made since the last call, as bits of RequestBit. For the ticker only."""
         if not self.waiting:
             return 0
         asked = self._asked.copy()
@@ -175,11 +177,11 @@ class SharedRequests:
         return self.own.take() | sum(1 << request for request in risen) | self._take_hand()
 
     def set_output(self, bit: int, value: int) -> bool:
-        """Asks for OUTPUT, in line; called by desk alone. False, and nothing asked, where too many wait."""
+        """Requests OUTPUT. Returns False, and requests nothing, where too many wait already. For the desk only."""
         return self._line_up(hand_of(bit, value))
 
     def set_rate(self, tick_hz: int) -> bool:
-        """Asks for PACE, in the same line; called by desk alone. False, and nothing asked, where too many wait."""
+        """Requests PACE, as ``set_output``. For the desk only."""
         return self._line_up(pace_of(tick_hz))
 
     def _line_up(self, hand: int) -> bool:
@@ -204,31 +206,31 @@ class SharedRequests:
 
 
 class SharedGate:
-    """The Gate of a channel: desk shuts it and grants, the ticker counts what passed."""
+    """The gate of a channel: the desk shuts it and grants ticks, the ticker counts those that it ran."""
 
     def __init__(self, channel: Channel):
         self._channel = channel
 
     @property
     def paused(self) -> bool:
-        """Only granted ticks pass."""
+        """Whether the gate is shut: only granted ticks are run."""
         return self._channel["paused"] != 0
 
     @property
     def left(self) -> int:
-        """Granted ticks that have not passed yet."""
+        """How many granted ticks have not been run yet."""
         return max(0, self._channel["granted"] - self._channel["passed"]) if self.paused else 0
 
     def grant(self, ticks: int) -> None:
-        """From now on only granted ticks pass, so many more; called by desk alone."""
+        """Shuts the gate, and lets so many more ticks through. For the desk only."""
         before = self._channel["granted"] if self.paused else self._channel["passed"]
         self._channel["granted"] = before + ticks
         self._channel["paused"] = 1
 
     def open(self) -> None:
-        """All ticks pass again; called by desk alone."""
+        """Opens the gate: all ticks are run. For the desk only."""
         self._channel["paused"] = 0
 
     def passed(self, ticks: int) -> None:
-        """So many of those granted were run; called by the ticker alone."""
+        """Counts so many granted ticks as run. For the ticker only."""
         self._channel["passed"] += ticks

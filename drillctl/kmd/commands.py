@@ -1,7 +1,7 @@
-"""The KMD set, defined once. docs/KMD.md, the text form and the opcodes all come from ``COMMANDS``.
+"""The KMD commands, defined once: docs/KMD.md, the text form and the opcodes all come from ``COMMANDS``.
 
-Rule: a command is one fixed-size record of integers; an array of records is a *program*.
-The paper names KMD_GOTOdXdY, KMD_GOTO_X_Y and KMD_WIERTLO_DOL; the others are ours, in its style.
+Rule: a command is one fixed-size record of integers; an array of records is a *program*. The paper names KMD_GOTOdXdY,
+KMD_GOTO_X_Y and KMD_WIERTLO_DOL; the others are ours, in its style.
 """
 
 from collections.abc import Mapping
@@ -62,7 +62,7 @@ class Flag(IntFlag):
 
 
 class ArgumentForm(IntEnum):
-    """What may stand behind a command's name in text."""
+    """Which arguments follow a command's name in the text form."""
 
     NOTHING = 0
     XY = 1  # two integers, for the axes x and y
@@ -75,7 +75,9 @@ class ArgumentForm(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """One command: name, opcode, form of its arguments, how to write them, flags, meaning, least number."""
+    """One command: name, opcode, form of its arguments, how they are written, what it does, flags, least number
+    allowed.
+    """
 
     name: str
     op: Op
@@ -132,7 +134,7 @@ BY_OP: Mapping[Op, Spec] = {spec.op: spec for spec in _ALL}
 
 @dataclass(frozen=True)
 class Names:
-    """The names that a machine gives to what commands address, by axis index and by bit."""
+    """The names that a machine gives to axes (by index), outputs and inputs (by bit)."""
 
     axes: tuple[str, ...]
     outputs: Mapping[str, int] = field(default_factory=dict)
@@ -140,7 +142,7 @@ class Names:
 
 
 class Command:
-    """One record unpacked, allocated once: execution's current command is overwritten in place."""
+    """One record unpacked. Allocated once: ``load`` overwrites it in place."""
 
     __slots__ = ("args", "axes", "epoch", "flags", "floor_ticks", "opcode", "sequence", "tag")
 

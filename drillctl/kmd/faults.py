@@ -1,7 +1,7 @@
-"""Fault codes: what the machine does and whether its position still holds. Codes only; words live in panel.
+"""Fault codes: what the machine does on each, and whether its position is still known. Texts: viewmodel/fault_texts.py.
 
-Rule: a code once given keeps its number. execution/guard raises them; docs/FAULTS.md is made from this table.
-Reactions are the reading of the paper's section 3: "in chosen emergency states" the head returns to X=0, Y=0.
+Rule: a code keeps its number. docs/FAULTS.md is made from this table. The reactions are our reading of the paper's
+section 3: "in chosen emergency states" the head returns to X=0, Y=0.
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ class Reaction(IntEnum):
 
 
 class Fault(IntEnum):
-    """Fault codes, 0 is none."""
+    """Fault codes; 0 is no fault."""
 
     NONE = 0
     LIMIT = 1
@@ -44,7 +44,7 @@ class Fault(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class FaultSpec:
-    """One fault: its reaction, and whether a position that was known is still known."""
+    """One fault: its reaction, and whether a position that was known stays known."""
 
     fault: Fault
     reaction: Reaction

@@ -1,50 +1,51 @@
-"""The clock's gate (TICKS): ticks may be stopped, let through one by one, and let go again.
+"""The clock's gate (TICKS): stops the ticks, lets a number of them through, and opens again.
 
-Rule: a tick that does not come is no tick: nothing counts, nothing acts, and a run that was paused is the run that was
-not. What was granted and is left when the gate opens lapses. Asked by the ticker between ticks, never by tick itself.
+Rule: a tick that does not come is no tick: nothing counts, nothing acts, and a run that was paused gives the same trace
+as one that was not. Granted ticks that are left when the gate opens lapse. The ticker looks at the gate between ticks;
+``tick`` knows nothing of it.
 """
 
 from typing import Protocol
 
 
 class TickGate(Protocol):
-    """A gate in one process or between two: one side grants, the other counts."""
+    """A gate in one process or between two: the desk grants ticks, the ticker counts those that it ran."""
 
     @property
     def paused(self) -> bool:
-        """Only granted ticks pass."""
+        """Whether the gate is shut: only granted ticks are run."""
 
     @property
     def left(self) -> int:
-        """Granted ticks that have not passed yet."""
+        """How many granted ticks have not been run yet."""
 
     def grant(self, ticks: int) -> None:
-        """From now on only granted ticks pass, so many more."""
+        """Shuts the gate, and lets so many more ticks through."""
 
     def open(self) -> None:
-        """All ticks pass again."""
+        """Opens the gate: all ticks are run."""
 
     def passed(self, ticks: int) -> None:
-        """So many of those granted were run."""
+        """Counts so many granted ticks as run."""
 
 
 class Gate:
-    """The gate of one process; open at first."""
+    """A gate within one process; open at first."""
 
     def __init__(self) -> None:
         self.paused = False
         self.left = 0
 
     def grant(self, ticks: int) -> None:
-        """From now on only granted ticks pass, so many more."""
+        """Shuts the gate, and lets so many more ticks through."""
         self.paused = True
         self.left += ticks
 
     def open(self) -> None:
-        """All ticks pass again."""
+        """Opens the gate: all ticks are run."""
         self.paused = False
         self.left = 0
 
     def passed(self, ticks: int) -> None:
-        """So many of those granted were run."""
+        """Counts so many granted ticks as run."""
         self.left = max(0, self.left - ticks)

@@ -1,6 +1,7 @@
-"""The queue of commands between the layers, and the requests that overtake it.
+"""The queue of commands between generation and execution, and the requests that overtake it.
 
-Rule: neither grows nor waits. generation puts, execution alone takes; a full queue says so and takes nothing.
+Rule: neither grows nor waits. Generation puts commands, execution takes them; a full queue takes no more and says how
+many it took.
 """
 
 from collections import deque
@@ -17,26 +18,26 @@ MOST_HANDS = 16  # outputs and rates set by hand that may wait: one is served a 
 
 
 class CommandQueue(Protocol):
-    """A bounded FIFO of records, in one process or between two: one side puts, the other takes."""
+    """A bounded FIFO of command records, in one process or between two: generation puts, execution takes."""
 
     def __len__(self) -> int:
-        """Records that wait."""
+        """How many records wait."""
 
     @property
     def room(self) -> int:
-        """How many records may be put now."""
+        """How many records can be put now."""
 
     def put(self, records: NDArray[np.void]) -> int:
-        """Takes as many of the records (shape (n,)) as there is room for; returns how many."""
+        """Puts as many of the records (shape (n,)) as there is room for, and returns how many."""
 
     def take(self, command: Command) -> bool:
-        """Overwrites ``command`` with the oldest record; False where there is none."""
+        """Loads the oldest record into ``command``; returns False where the queue is empty."""
 
 
 class Mailbox(Protocol):
     """Requests on their way past the queue, in one process or between two.
 
-    hand  what the last OUTPUT or PACE taken was about (``hand_of``, ``pace_of``)
+    hand  the value of the OUTPUT or PACE taken last (``hand_of``, ``pace_of``)
     """
 
     hand: int
@@ -46,20 +47,22 @@ class Mailbox(Protocol):
         """Whether a request waits to be taken."""
 
     def post(self, request: "Request") -> None:
-        """Asks for something; asked twice before the next tick is asked once."""
+        """Makes a request. Made twice before the next tick, it is served once."""
 
     def set_output(self, bit: int, value: int) -> bool:
-        """Asks for OUTPUT; these wait in line. False, and nothing asked, where too many do."""
+        """Requests OUTPUT; several wait in line. Returns False, and requests nothing, where too many wait already."""
 
     def set_rate(self, tick_hz: int) -> bool:
-        """Asks for PACE, in the same line. False, and nothing asked, where too many wait."""
+        """Requests PACE, in the same line and with the same answer as ``set_output``."""
 
     def take(self) -> int:
-        """The requests asked since the last call, as bits; of OUTPUT and PACE the oldest alone, told in ``hand``."""
+        """Returns the requests made since the last call, as bits of RequestBit; of OUTPUT and PACE only the oldest, its
+        value in ``hand``.
+        """
 
 
 class Queue:
-    """A ring of records, allocated once, 256 of them where a machine is run. One side puts, the other takes."""
+    """A ring of records, allocated once: 256 of them where a machine is run. One side puts, the other takes."""
 
     __slots__ = ("_ring", "_taken", "_written")
 
@@ -73,11 +76,11 @@ class Queue:
 
     @property
     def room(self) -> int:
-        """How many records may be put now."""
+        """How many records can be put now."""
         return len(self._ring) - len(self)
 
     def put(self, records: NDArray[np.void]) -> int:
-        """Takes as many of the records (shape (n,)) as there is room for; returns how many."""
+        """Puts as many of the records (shape (n,)) as there is room for, and returns how many."""
         count = min(len(records), self.room)
         slots = (self._written + np.arange(count)) % len(self._ring)
         self._ring[slots] = records[:count]
@@ -85,7 +88,7 @@ class Queue:
         return count
 
     def take(self, command: Command) -> bool:
-        """Overwrites ``command`` with the oldest record; False where there is none."""
+        """Loads the oldest record into ``command``; returns False where the queue is empty."""
         if self._taken == self._written:
             return False
         command.load(self._ring[self._taken % len(self._ring)])
@@ -93,11 +96,11 @@ class Queue:
         return True
 
     def waiting(self) -> NDArray[np.void]:
-        """A copy of all that waits, the oldest first."""
+        """Returns a copy of all records that wait, the oldest first."""
         return self._ring[np.arange(self._taken, self._written) % len(self._ring)]
 
     def drop(self, count: int) -> None:
-        """Takes so many of the oldest out; they have been carried out otherwise."""
+        """Removes the oldest ``count`` records: they were carried out in another way."""
         self._taken += count
 
 
@@ -117,7 +120,7 @@ class Request(IntEnum):
 
 
 class RequestBit(IntFlag):
-    """One bit a request, so that several may be waiting; they are served in the order of Request."""
+    """One bit for each request, so that several can wait; they are served in the order of Request."""
 
     ESTOP = 1 << Request.ESTOP
     STOP = 1 << Request.STOP
@@ -131,27 +134,29 @@ class RequestBit(IntFlag):
 
 
 def hand_of(bit: int, value: int) -> int:
-    """An output set by hand as one number, 0 being none; its trace signal is ``hand``."""
+    """Returns an output set by hand as one number above 0; its trace signal is ``hand``."""
     return 1 + 2 * bit + value
 
 
 def bit_and_value(hand: int) -> tuple[int, int]:
-    """``hand_of`` undone."""
+    """The inverse of ``hand_of``: the output's bit and its value."""
     return divmod(hand - 1, 2)
 
 
 def pace_of(tick_hz: int) -> int:
-    """A tick rate asked for as one number, below 0 to be no output; its trace signal is ``pace``. Undone by itself."""
+    """Returns a requested tick rate as one number, below 0 to differ from an output; its trace signal is ``pace``. Its
+    own inverse.
+    """
     return -tick_hz
 
 
 def request_of(hand: int) -> int:
-    """The request that such a number belongs to, as a bit."""
+    """Returns the bit of the request that a number of ``hand_of`` or ``pace_of`` belongs to."""
     return RequestBit.PACE.value if hand < 0 else RequestBit.OUTPUT.value
 
 
 class Requests:
-    """The mailbox: ``post`` from above at any time, ``take`` by the tick alone."""
+    """The mailbox within one process: ``post`` from above at any time, ``take`` in the tick."""
 
     __slots__ = ("_hands", "hand", "pending")
 
@@ -165,19 +170,21 @@ class Requests:
         return self.pending != 0 or len(self._hands) > 0
 
     def post(self, request: Request) -> None:
-        """Asks for something; asked twice before the next tick is asked once."""
+        """Makes a request. Made twice before the next tick, it is served once."""
         self.pending |= 1 << request
 
     def set_output(self, bit: int, value: int) -> bool:
-        """Asks for OUTPUT, in line. False, and nothing asked, where too many wait."""
+        """Requests OUTPUT. Returns False, and requests nothing, where too many wait already."""
         return self._line_up(hand_of(bit, value))
 
     def set_rate(self, tick_hz: int) -> bool:
-        """Asks for PACE, in the same line. False, and nothing asked, where too many wait."""
+        """Requests PACE, as ``set_output``."""
         return self._line_up(pace_of(tick_hz))
 
     def take(self) -> int:
-        """The requests asked since the last call, as bits; of OUTPUT and PACE the oldest alone, told in ``hand``."""
+        """Returns the requests made since the last call, as bits of RequestBit; of OUTPUT and PACE only the oldest, its
+        value in ``hand``.
+        """
         pending, self.pending = self.pending, 0
         if self._hands:
             self.hand = self._hands.popleft()

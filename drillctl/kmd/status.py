@@ -1,6 +1,7 @@
-"""The status record that comes up: small, fixed, whole. What a screen, a journal and a summary are made from.
+"""The status record: small, of fixed size, published after each tick. Screens, journal and summary are made from it.
 
-Rule: execution/report.py alone writes it; everybody above only reads. Integers; no file, no millimetre, no word.
+Rule: execution/report.py writes it, and the ticker adds what only it knows (lateness, lost steps); everybody above only
+reads. Integers: no file, no millimetre, no word.
 """
 
 from enum import IntEnum
@@ -11,7 +12,7 @@ from drillctl.kmd.commands import MOST_AXES
 
 
 class Condition(IntEnum):
-    """What the controller is about."""
+    """What the controller is doing."""
 
     READY = 0  # takes commands from the queue
     HOLDING = 1  # braking or resting on hold; the command stays current

@@ -1,6 +1,6 @@
-"""The ``.kmd`` text form: UTF-8, one command a line, ``#`` to the end of the line. Both ways from one definition.
+"""The ``.kmd`` text form of commands: UTF-8, one command a line, ``#`` to the end of the line. Reader and writer.
 
-Rule: a text is wrong as a whole or a program as a whole. Called by generation and by replay.
+Rule: a text gives a whole program, or an error and nothing.
 """
 
 import re
@@ -21,7 +21,7 @@ _INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
 
 
 class KmdError(Exception):
-    """The operator's queue is wrong. ``str()`` is ``FILE:LINE:COLUMN: reason``."""
+    """A fault in a queue's text. ``str()`` is ``FILE:LINE:COLUMN: reason``."""
 
     def __init__(self, file: str, line: int, column: int, reason: str):
         self.file, self.line, self.column, self.reason = file, line, column, reason
@@ -41,7 +41,7 @@ class _LineError(Exception):
 
 
 def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.void]:
-    """A program, dtype RECORD of shape (n,), numbered from 1. Raises KmdError; a missing KMD_KONIEC is added."""
+    """Reads a program: dtype RECORD, shape (n,), numbered from 1. A missing KMD_KONIEC is added. Raises KmdError."""
     rows: list[tuple[Op, int, int, int, list[int]]] = []
     floor_ticks = 0
     ended = False
@@ -70,13 +70,13 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
 
 
 def to_text(record: np.void, names: Names) -> str:
-    """One record as a line of text, without its end; ``parse_program`` reads it back the same."""
+    """Returns one record as a line of text, without a line end; ``parse_program`` reads the same record from it."""
     spec = BY_OP[Op(int(record["opcode"]))]
     return " ".join([spec.name, *_ARGUMENTS_OUT[spec.form](record, names)])
 
 
 def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:
-    """Those that say something, without their comments, and their numbers."""
+    """Yields the lines that hold a command, with their numbers and without their comments."""
     for number, line in enumerate(text.removeprefix("\ufeff").split("\n"), start=1):
         if len(line) > LONGEST_LINE:
             raise KmdError(file, number, LONGEST_LINE + 1, f"a line of more than {LONGEST_LINE} characters")
@@ -99,7 +99,9 @@ def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]
 
 
 def _unknown(name: str) -> str:
-    """With a hint for a slip of the finger; what all names begin with says nothing."""
+    """The reason of refusal, with the command that was probably meant. The prefix that all commands share doesn't
+    count.
+    """
     known = {command.removeprefix(_PREFIX).upper(): command for command in COMMANDS}
     close = nearest(name.upper().removeprefix(_PREFIX), known)
     return f"unknown command {name!r}; did you mean {known[close]}?" if close else f"unknown command {name!r}"

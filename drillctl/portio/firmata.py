@@ -1,10 +1,11 @@
 """An Arduino with unmodified StandardFirmata as the card: a Mega for 32 outputs and 16 inputs, an Uno for small drills.
 
-Rule: of an output image only the ports that changed are sent, three bytes each; so one motor to a port costs least,
-and its phases change together. A rate that the line can't carry is refused before it is opened. A board that was
-reset is a lost port.
-Opened by registry.py; firmata_line.py has the wire, firmata_protocol.py the bytes, firmata_pins.py the pins,
-firmata_watch.py the questions by which a reset is noticed.
+Rule: of an output image only the ports (of eight pins) that changed are sent, three bytes each; so a motor whose wires
+are in one port costs least, and its wires change together. A rate that the line can't carry is refused before it is
+opened. A board that was reset is a lost port.
+
+firmata_line.py has the serial line, firmata_protocol.py the bytes, firmata_pins.py the pins, firmata_watch.py the
+questions by which a reset is noticed.
 """
 
 from collections.abc import Iterable
@@ -23,7 +24,7 @@ USABLE_PERCENT = 95
 
 
 class FirmataCard:
-    """A driver (ports.Driver, ports.Answering) over a line whose board has its pins ready.
+    """A driver (ports.Driver, ports.Answering) for a board whose pins have been set up.
 
     put  images put out so far
     """
@@ -37,13 +38,14 @@ class FirmataCard:
         self._safe = b"".join(pins.messages(SAFE_IMAGE))
 
     def facts(self) -> tuple[str, ...]:
-        """Who answered, and which pins are ready (ports.Telling)."""
+        """Returns which firmware answered, and which pins are set up (ports.Telling)."""
         version = "{}.{}".format(*self._firmware.version)
         return (f"{self._firmware.name} {version} answers", *self._pins.facts())
 
     def latch(self) -> int:
-        """The levels as far as reports have come; each change takes 0.5 ms on the wire. Raises PortLost, also for a
-        board that was reset."""
+        """Returns the inputs as last reported; a change takes 0.5 ms on the wire. Raises PortLost, also for a board
+        that was reset.
+        """
         for message in self._line.received():
             self._watch.hear(message)
             if isinstance(message, DigitalReport):
@@ -55,7 +57,7 @@ class FirmataCard:
         return self._inputs
 
     def flush(self, image: int) -> None:
-        """Sends the ports that differ from what was sent last; at its beat, a question after them. Raises PortLost."""
+        """Sends the ports that differ from what was sent last, and a question where one is due. Raises PortLost."""
         data = b"".join(self._pins.messages(image, image ^ self._outputs))
         self.put += 1
         if self._latched:
@@ -66,33 +68,33 @@ class FirmataCard:
         self._outputs = image
 
     def safe(self) -> None:
-        """Sends every output port, whatever was sent before. Raises PortLost."""
+        """Sends zeros to every output port, whatever was sent before. Raises PortLost."""
         self._watch.forget()
         self._line.send_first(self._safe)
         self._outputs = SAFE_IMAGE
 
     @property
     def vouched(self) -> int:
-        """How many of the images put out came before the board's last right answer."""
+        """How many of the images were put out before the board's last right answer."""
         return self._watch.vouched
 
     def close(self) -> None:
-        """Makes the outputs safe, if the board still answers, and gives the line back."""
+        """Makes the outputs safe, if the board still answers, and closes the line."""
         with suppress(OSError):
             self.safe()
         self._line.close()
 
 
-def open_firmata(board: Board, address: str, wiring: PortLayout, listen_s: float = LISTEN_S) -> FirmataCard:
-    """Opens ``[DEVICE][@BAUD]``, greets the board and makes its pins ready. Raises PortRefused; PortLost where the
-    board goes away meanwhile.
+def open_firmata(board: Board, address: str, layout: PortLayout, listen_s: float = LISTEN_S) -> FirmataCard:
+    """Opens ``[DEVICE][@BAUD]``, waits for the board's greeting and sets its pins up. Raises PortRefused; PortLost
+    where the board goes away meanwhile.
 
-    listen_s  for so long the board's own greeting is waited for before it is asked
+    listen_s  how long to wait for the board's own greeting before asking for it
     """
     device, baud = _split(address)
     device = device or _only_device()
     name = f"firmata:{device}"
-    pins = Pins(board, wiring, name)
+    pins = Pins(board, layout, name)
     line = FirmataLine(name, device, baud)
     try:
         firmware = line.greet(listen_s)
@@ -100,20 +102,20 @@ def open_firmata(board: Board, address: str, wiring: PortLayout, listen_s: float
     except BaseException:
         line.close()
         raise
-    watch = Watch(name, pins.witnesses(), BITS_A_BYTE / baud, 1 / wiring.tick_hz)
+    watch = Watch(name, pins.witnesses(), BITS_A_BYTE / baud, 1 / layout.tick_hz)
     return FirmataCard(line, pins, firmware, watch)
 
 
-def max_tick_hz(board: Board, address: str, wiring: PortLayout, moving_axes: Iterable[int]) -> int | None:
-    """The most ticks a second that the line carries while these axes move; None where nothing is sent."""
-    ports = {port for axis in moving_axes for port in board.ports_of(wiring.axis_outputs[axis])}
+def max_tick_hz(board: Board, address: str, layout: PortLayout, moving_axes: Iterable[int]) -> int | None:
+    """Returns the most ticks a second that the line carries while these axes move; None where nothing is sent."""
+    ports = {port for axis in moving_axes for port in board.ports_of(layout.axis_outputs[axis])}
     _, baud = _split(address)
     bytes_a_second = baud // BITS_A_BYTE * USABLE_PERCENT // 100
     return bytes_a_second // (MESSAGE_BYTES * len(ports)) if ports else None
 
 
 def usb_devices() -> list[str]:
-    """The serial lines at USB, where an Arduino would be."""
+    """Returns the serial lines at USB, where an Arduino would be."""
     from serial.tools.list_ports import comports
 
     return sorted(found.device for found in comports() if found.vid is not None)

@@ -1,7 +1,7 @@
-"""A serial line with a Firmata board at its end: opened, greeted, spoken to in whole messages.
+"""A serial line with a Firmata board at its end: opens it, greets the board, sends and receives whole messages.
 
-Rule: every wait is bounded; a line that is gone is PortLost, one that is too slow PortSlow; never a retry. No thread:
-what has arrived is read when it is asked for. Opened by firmata.py, which alone uses it.
+Rule: every wait is bounded; a line that is gone is PortLost, one that is too slow PortSlow; nothing is sent twice. No
+thread: what has arrived is read when ``received`` is called.
 """
 
 import select
@@ -42,7 +42,9 @@ class FirmataLine:
             self._serial.set_low_latency_mode(True)
 
     def greet(self, listen_s: float = LISTEN_S) -> Firmware:
-        """Waits for the board's firmware: listens to it start, then asks. Raises PortRefused for none, or too old."""
+        """Waits for the board's firmware message: first listens to the board starting, then asks. Raises PortRefused
+        where none comes or it is too old.
+        """
         firmware = self._next(Firmware, listen_s)
         gives_up = time.monotonic() + GREETING_S
         while firmware is None and time.monotonic() < gives_up:
@@ -57,7 +59,9 @@ class FirmataLine:
         return firmware
 
     def send(self, data: bytes) -> None:
-        """All of it, within LONGEST_WAIT_S. Raises PortLost, PortSlow; then part of it may have gone out."""
+        """Sends all of the data within LONGEST_WAIT_S. Raises PortLost or PortSlow; part of it may
+        have been sent then.
+        """
         try:
             self._serial.write(data)
             waiting = self._serial.out_waiting
@@ -75,7 +79,7 @@ class FirmataLine:
         self.send(data)
 
     def received(self) -> list[Message]:
-        """What has come since the last call, at once. Raises PortLost."""
+        """Returns the messages that have arrived since the last call, without waiting. Raises PortLost."""
         messages, self._earlier = self._earlier, []
         try:
             if waiting := self._serial.in_waiting:
@@ -85,7 +89,9 @@ class FirmataLine:
         return messages
 
     def answer(self, question: bytes, kind: type[MessageT]) -> MessageT:
-        """Sends a question and waits for a message of this kind; others stay for ``received``. Raises PortRefused."""
+        """Sends a question and waits for a message of this kind; others are left for ``received``.
+        Raises PortRefused.
+        """
         self.send(question)
         message = self._next(kind, ANSWER_S)
         if message is None:
@@ -93,15 +99,15 @@ class FirmataLine:
         return message
 
     def forget_greetings(self) -> None:
-        """Called after an answer: what greeted before it was asked to. Whatever greets from now on was reset."""
+        """Drops greetings that have arrived: those before an answer were asked for. A later one means a reset."""
         self._earlier = [message for message in self._earlier if not isinstance(message, Firmware | Version)]
 
     def close(self) -> None:
-        """Gives the line back."""
+        """Closes the serial line."""
         self._serial.close()
 
     def _next(self, kind: type[MessageT], wait_s: float) -> MessageT | None:
-        """The first message of a kind within so long; everything else that came is kept."""
+        """Returns the first message of a kind within this time, or None; all others are left for ``received``."""
         ends = time.monotonic() + wait_s
         kept: list[Message] = []
         found: MessageT | None = None

@@ -1,7 +1,7 @@
-"""Which pins of an Arduino carry which bits of the card, and how they are made ready.
+"""Which pins of an Arduino carry which bits of the card, and how they are set up.
 
-Rule: a board is a table; every pin and pull-up is set and asked back before anything else is sent. A switch closes to
-ground, against a pull-up. Used by firmata.py; docs/WIRING.md shows the pins.
+Rule: a board is a table; every pin and pull-up is set and then read back before anything else is sent. A switch closes
+to ground, against a pull-up. docs/WIRING.md shows the pins.
 """
 
 from collections.abc import Iterator, Sequence
@@ -39,7 +39,7 @@ class Board:
     inputs: tuple[int, ...]
 
     def ports_of(self, image: int) -> list[int]:
-        """The ports in which an output image has bits."""
+        """Returns the ports in which an output image has bits."""
         return [port for n, port in enumerate(self.outputs) if image >> PORT_PINS * n & PORT_BYTE]
 
 
@@ -50,10 +50,10 @@ UNO = Board("Uno", outputs=(0, 1, 2), inputs=(0, 1, 2))  # bit b is pin D b: D2.
 class Pins:
     """The pins of one board that one machine uses. Raises PortRefused for bits that the board doesn't have."""
 
-    def __init__(self, board: Board, wiring: PortLayout, name: str):
+    def __init__(self, board: Board, layout: PortLayout, name: str):
         self._board, self._name = board, name
-        self._outputs = [self._pin(board.outputs, bit) for bit in bits_of(wiring.outputs)]
-        self._inputs = [self._pin(board.inputs, bit) for bit in bits_of(wiring.inputs)]
+        self._outputs = [self._pin(board.outputs, bit) for bit in bits_of(layout.outputs)]
+        self._inputs = [self._pin(board.inputs, bit) for bit in bits_of(layout.inputs)]
         if both := set(self._outputs) & set(self._inputs):
             raise PortRefused(name, f"the machine's wiring has D{min(both)} both as output and as input")
         self._spare = [] if self._inputs else self._unused_input(board)
@@ -73,28 +73,29 @@ class Pins:
         return pin
 
     def _unused_input(self, board: Board) -> list[int]:
-        """A pin that the machine leaves free, to be made an input without pull-up, as the AVR itself has it at first:
-        what tells a reset where there is no sensor. Empty where all are in use."""
+        """Returns a pin that the machine leaves free, to be made an input without pull-up. A reset makes it an output,
+        so it shows a reset of a board without sensors. Empty where all pins are in use.
+        """
         first = PORT_PINS * board.inputs[0]
         free = set(range(first, first + PORT_PINS)) - {*self._outputs, *SERIAL_PINS}
         return sorted(free)[:1]
 
     def facts(self) -> tuple[str, str]:
-        """The pins that a machine uses, in words."""
+        """Returns the pins that the machine uses, as text."""
         outputs, inputs = (" ".join(f"D{pin}" for pin in pins) for pins in (self._outputs, self._inputs))
         return (f"outputs: {outputs}", f"inputs with pull-up: {inputs}")
 
     def messages(self, image: int, changed: int = ALL_CHANGED) -> Iterator[bytes]:
-        """One message for each output port that has a changed bit.
+        """Yields one message for each output port that has a changed bit.
 
-        A port that has inputs too keeps ones there: writing a zero to an input would switch its pull-up off.
+        A port that has inputs too gets ones there: writing a zero to an input would switch its pull-up off.
         """
         for shift, port in self._written:
             if changed >> shift & PORT_BYTE:
                 yield write_port(port, image >> shift & PORT_BYTE | self._pull_ups[port])
 
     def latched(self, inputs: int, report: DigitalReport) -> int:
-        """The input image with one port's report in it."""
+        """Returns the input image with one port's report in it."""
         if report.port not in self._board.inputs:
             return inputs
         shift = PORT_PINS * self._board.inputs.index(report.port)
@@ -102,12 +103,12 @@ class Pins:
         return inputs & ~(PORT_BYTE << shift) | value << shift
 
     def prepare(self, line: "FirmataLine") -> None:
-        """Outputs low, inputs with pull-ups, reports on; every pin asked whether it is so. Raises PortError.
+        """Sets outputs low, inputs with pull-ups and reports on, and reads every pin back. Raises PortError.
 
-        The reset makes all digital pins outputs and low; so the inputs are freed first. The board then takes all
-        inputs for low: firmware 2.3 reports those that are not, newer ones report all. A report is sent in the round
-        after the one that switched it on, and each pin is asked in a round of its own: with the last answer, the
-        first reports have come.
+        The reset makes all digital pins outputs and low, so the inputs are set first. The board then takes all inputs
+        for low: firmware 2.3 reports those that are not, newer ones report all. A report is sent in the round after the
+        one that switched it on, and each pin is asked in a round of its own: with the last answer, the first reports
+        have come.
         """
         ports = sorted({pin // PORT_PINS for pin in self._inputs})
         line.send(RESET)
@@ -122,8 +123,9 @@ class Pins:
             line.forget_greetings()
 
     def witnesses(self) -> dict[int, PinState | None]:
-        """Pins that a reset makes outputs, with what they answer until then. Where every pin is an output already, one
-        of them, with None: that it answers is all that can be said of it."""
+        """Returns pins that a reset makes outputs, with what they answer until then. Where every pin is an output
+        already: one of them, with None, since only its silence says anything.
+        """
         inputs = (*self._inputs, *self._spare)
         return {pin: self._wanted(pin) for pin in inputs} or dict.fromkeys(self._outputs[:1])
 

@@ -1,8 +1,7 @@
 """The Firmata protocol as bytes, and nothing else: messages out, messages in. No port, no clock, no waiting.
 
-Rule: there is no checksum and no acknowledgement, so the decoder never raises: what it can't understand it skips, and
+Rule: there is no checksum and no acknowledgement, so the decoder never raises: it skips what it can't understand, and
 the next whole message is understood again. Source: protocol.md of the firmata/protocol project, version 2.5.
-Used by the other files of Firmata beside it.
 """
 
 from collections.abc import Callable
@@ -25,7 +24,7 @@ FIRMWARE_QUERY = bytes((START_SYSEX, REPORT_FIRMWARE, END_SYSEX))
 
 
 class PinMode(IntEnum):
-    """What a pin is for."""
+    """What a pin is used for."""
 
     INPUT = 0
     OUTPUT = 1
@@ -33,7 +32,7 @@ class PinMode(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class DigitalReport:
-    """The levels of the eight pins of a port; those that are no inputs read 0."""
+    """The levels of the eight pins of a port; pins that are no inputs read 0."""
 
     port: int
     value: int
@@ -41,7 +40,7 @@ class DigitalReport:
 
 @dataclass(frozen=True, slots=True)
 class Firmware:
-    """Which program runs on the board. StandardFirmata's versions are compared as (major, minor)."""
+    """Name and version of the program on the board; versions are compared as (major, minor)."""
 
     version: tuple[int, int]
     name: str
@@ -49,7 +48,7 @@ class Firmware:
 
 @dataclass(frozen=True, slots=True)
 class Version:
-    """Of the protocol: sent unasked by a board that starts, before its firmware."""
+    """The protocol's version: a board that starts sends it unasked, before its firmware."""
 
     major: int
     minor: int
@@ -68,27 +67,27 @@ Message = DigitalReport | Firmware | PinState | Version
 
 
 def write_port(port: int, value: int) -> bytes:
-    """Sets the eight pins of a port, as far as they are outputs; for inputs it switches the pull-ups."""
+    """Returns the message that sets the eight pins of a port; for inputs it switches the pull-ups."""
     return bytes((DIGITAL_MESSAGE | port, value & 0x7F, value >> 7 & 1))
 
 
 def report_port(port: int) -> bytes:
-    """From now on tell changes of this port's inputs."""
+    """Returns the message after which the board reports changes of this port's inputs."""
     return bytes((REPORT_DIGITAL | port, 1))
 
 
 def set_pin_mode(pin: int, mode: PinMode) -> bytes:
-    """Makes a pin an input or an output; an output starts low."""
+    """Returns the message that makes a pin an input or an output; an output starts low."""
     return bytes((SET_PIN_MODE, pin, mode))
 
 
 def query_pin(pin: int) -> bytes:
-    """Asks for a PinState."""
+    """Returns the message that asks for a pin's PinState."""
     return bytes((START_SYSEX, PIN_STATE_QUERY, pin, END_SYSEX))
 
 
 class Decoder:
-    """Bytes from a board to messages, in pieces of any size.
+    """Turns bytes from a board, in pieces of any size, into messages.
 
     State: the message begun. A byte of 0x80 and above begins a new one, whatever came before; the others are data.
     """
@@ -97,12 +96,12 @@ class Decoder:
         self._begun = bytearray()
 
     def feed(self, data: bytes) -> list[Message]:
-        """The messages that are complete with these bytes, in their order. Never raises."""
+        """Returns the messages that these bytes complete, in order. Never raises."""
         complete = (self._take(byte) for byte in data)
         return [message for message in complete if message is not None]
 
     def _take(self, byte: int) -> Message | None:
-        """One byte; the message that it completes."""
+        """Takes one byte; returns the message that it completes, or None."""
         if byte >= 0x80 and byte != END_SYSEX:
             self._begun[:] = (byte,)
             return None
@@ -122,7 +121,7 @@ class Decoder:
 
 
 def _short_message(command: int) -> Callable[[bytearray], Message] | None:
-    """How a message of three bytes is read, by its first one; None for one that is longer or unknown."""
+    """Returns the reader of a message of three bytes, by its first byte; None for a longer or unknown message."""
     if command & 0xF0 == DIGITAL_MESSAGE:
         return _digital
     return _version if command == REPORT_VERSION else None
@@ -138,7 +137,7 @@ def _digital(begun: bytearray) -> DigitalReport:
 
 
 def _sysex(begun: bytearray) -> Message | None:
-    """The message from START_SYSEX to END_SYSEX, or None for a cut or unknown one."""
+    """Returns the message from START_SYSEX to END_SYSEX, or None for a cut or unknown one."""
     if len(begun) < 5 or begun[0] != START_SYSEX:
         return None
     kind, first, second, *data = begun[1:-1]
@@ -150,11 +149,11 @@ def _sysex(begun: bytearray) -> Message | None:
 
 
 def _text(data: list[int]) -> str:
-    """A text comes as two bytes a character: low seven bits, high bit."""
+    """Decodes a text of two bytes a character: low seven bits, high bit."""
     pairs = zip(data[::2], data[1::2], strict=False)
     return "".join(chr(low | (high & 1) << 7) for low, high in pairs)
 
 
 def _number(data: list[int]) -> int:
-    """Seven bits a byte, lowest first."""
+    """Decodes a number of seven bits a byte, lowest first."""
     return sum(byte << 7 * place for place, byte in enumerate(data))

@@ -1,11 +1,11 @@
-"""Whether the board at the end of the line is still the one that was made ready: a question at a fixed beat.
+"""Notices whether the board on the line was reset: asks it one question at a fixed beat.
 
 A board that was reset (a dip in its supply, its button, a program that opened its line) has forgotten which pins are
-inputs, reports nothing and has dropped its outputs. Where its greeting comes through it is told by that; where it
-does not, by the state of a pin that a reset makes an output, or by no answer at all.
+inputs, reports nothing and has dropped its outputs. Its greeting shows that where it comes through; else the state of a
+pin that a reset makes an output, or a missing answer.
 
-Rule: one question at a time, of two hundredths of what the line carries, and in a tick whose image leaves time for it.
-No line and no waiting in here. Used by firmata.py.
+Rule: one question at a time, 2 % of what the line carries, and only in a tick whose image leaves time for it. No line
+and no waiting in here.
 """
 
 import time
@@ -25,10 +25,10 @@ WAITING_BYTES = 600  # of images in the kernel (firmata_line.MOST_WAITING_BYTES)
 
 
 class Watch:
-    """One board's. ``vouched`` says how many of the images that were put out came before its last right answer.
+    """The watch over one board. ``vouched`` is how many images were put out before its last right answer.
 
     name     the port as the user named it; errors begin with it
-    wanted   the pins that may be asked, with what each must answer, None for anything (Pins.witnesses)
+    wanted   the pins that may be asked, with the answer of each, None for any answer (Pins.witnesses)
     byte_s   a byte on the line, in seconds
     tick_s   from one image to the next
     clock    seconds, monotonic
@@ -56,10 +56,10 @@ class Watch:
         self._asked_after = 0
 
     def question(self, images: int, image_bytes: int) -> bytes:
-        """What to send now, behind the image: a question where one is due, else nothing.
+        """Returns the bytes to send after the image: a question where one is due, else nothing.
 
         images       put out so far, this one included
-        image_bytes  that this one took of its tick
+        image_bytes  bytes that this one took of its tick
         """
         now_s = self._clock()
         if self._asked is not None:
@@ -76,14 +76,14 @@ class Watch:
         return query_pin(self._asked)
 
     def _repeated(self, now_s: float) -> bytes:
-        """The question that waits for its answer, once more where it is time."""
+        """Returns the open question once more where its repetition is due, else nothing."""
         if self._asked is None or now_s < self._repeat_s:
             return b""
         self._repeat_s = now_s + self._delay_s + AGAIN_S
         return query_pin(self._asked)
 
     def hear(self, message: Message) -> None:
-        """Judges what has come. Raises PortLost for a greeting, and for a pin that is not as it was set."""
+        """Judges a message. Raises PortLost for a greeting, and for a pin that is not as it was set."""
         if isinstance(message, Firmware | Version):
             raise self._lost("the board has greeted anew, so it was reset in mid-run")
         if not isinstance(message, PinState):
@@ -95,12 +95,12 @@ class Watch:
             self.vouched, self._asked = self._asked_after, None
 
     def check(self) -> None:
-        """Called once all that has come was heard. Raises PortLost where the answer is overdue."""
+        """Raises PortLost where the answer is overdue. Call it after ``hear`` had all messages."""
         if self._asked is not None and self._clock() - self._asked_s > self._patience_s:
             raise self._lost(f"the board has not answered for {self._patience_s:.1f} s")
 
     def forget(self) -> None:
-        """A question that may have been dropped on its way is no longer waited for."""
+        """Stops waiting for the answer to a question that may have been dropped."""
         self._asked = None
 
     def _lost(self, reason: str) -> PortLost:

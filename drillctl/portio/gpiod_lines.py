@@ -1,8 +1,8 @@
 """GPIO lines of a Linux board (a Raspberry Pi has 26) through libgpiod 2, as the bits of a card.
 
-Rule: which line is which bit stands in a small file, the line map; one request holds all lines, so that each latch
-and each flush is one call to the kernel. A latch reads the outputs back too: a chip that was reset (an expander on
-I2C, which has a supply of its own) has let go of them. Needs the extra ``gpio``. Opened by registry.py.
+Rule: a small file, the line map, says which line is which bit; one request holds all lines, so that each latch and each
+flush is one call to the kernel. A latch reads the outputs back too: a chip that was reset (an expander on I2C with a
+supply of its own) no longer drives them. Needs the extra ``gpio``.
 
     chip = "/dev/gpiochip0"
     outputs = { 0 = 17, 1 = 27 }     # output bit = line
@@ -25,21 +25,21 @@ CONSUMER = "drillctl"
 
 
 class Request(Protocol):
-    """What is used of a gpiod.LineRequest; values are the members of gpiod.line.Value."""
+    """The part of gpiod.LineRequest that is used; values are members of gpiod.line.Value."""
 
     def get_values(self, lines: list[int]) -> list[Any]:
-        """The levels of some lines, in their order."""
+        """Returns the levels of some lines, in their order."""
 
     def set_values(self, values: dict[int, Any]) -> None:
-        """Sets some lines at once."""
+        """Sets some lines in one call."""
 
     def release(self) -> None:
-        """Gives all lines back."""
+        """Gives all lines back to the kernel."""
 
 
 @dataclass(frozen=True)
 class LineMap:
-    """The chip, and by bit of the card the number of its line there."""
+    """The chip, and for each bit of the card the number of its line there."""
 
     chip: str
     outputs: Mapping[int, int]
@@ -49,7 +49,7 @@ class LineMap:
 class GpioLines:
     """A driver (ports.Driver) over a request that holds the lines of a map.
 
-    levels  what the request takes and gives for low and for high
+    levels  the request's values for low and for high
     """
 
     def __init__(self, request: Request, lines: LineMap, levels: tuple[Any, Any]):
@@ -62,7 +62,9 @@ class GpioLines:
         self.safe()
 
     def latch(self) -> int:
-        """All inputs. Raises OSError, and PortLost where an output does not hold what was put out last."""
+        """Returns all inputs. Raises OSError, and PortLost where an output does not have the level that was put out
+        last.
+        """
         levels = self._request.get_values(self._lines)
         count = len(self._input_bits)
         self._read_back(levels[count:])
@@ -77,24 +79,24 @@ class GpioLines:
                 raise PortLost("gpio", f"{reason}; check supply and wiring, then initialise again")
 
     def flush(self, image: int) -> None:
-        """All outputs, in one call. Raises OSError."""
+        """Sets all outputs in one call. Raises OSError."""
         self._put = {line: self._levels[image >> bit & 1] for bit, line in self._outputs.items()}
         self._request.set_values(self._put)
 
     def safe(self) -> None:
-        """All outputs low. Raises OSError."""
+        """Sets all outputs low. Raises OSError."""
         self.flush(SAFE_IMAGE)
 
     def close(self) -> None:
-        """Outputs low, and the lines given back."""
+        """Sets all outputs low and gives the lines back."""
         with suppress(OSError):
             self.safe()
         self._request.release()
 
 
-def open_gpio(address: str, wiring: PortLayout) -> GpioLines:
+def open_gpio(address: str, layout: PortLayout) -> GpioLines:
     """Requests the lines of the map in file ``ADDRESS``, outputs low from the first moment. Raises PortRefused."""
-    lines = read_line_map(address, wiring)
+    lines = read_line_map(address, layout)
     if reason := missing():
         raise PortRefused("gpio", reason)
     import gpiod
@@ -111,8 +113,8 @@ def open_gpio(address: str, wiring: PortLayout) -> GpioLines:
     return GpioLines(request, lines, (Value.INACTIVE, Value.ACTIVE))
 
 
-def read_line_map(file: str, wiring: PortLayout) -> LineMap:
-    """A line map that has all bits of the machine; other bits of the map are left alone. Raises PortRefused."""
+def read_line_map(file: str, layout: PortLayout) -> LineMap:
+    """Reads a line map, which must have all bits of the machine; other bits are ignored. Raises PortRefused."""
     raw = _read(file)
     chip = raw.pop("chip", None)
     tables = {key: raw.pop(key, {}) for key in ("outputs", "inputs")}
@@ -120,7 +122,7 @@ def read_line_map(file: str, wiring: PortLayout) -> LineMap:
         raise PortRefused("gpio", f"{file}: a line map has chip, outputs and inputs, and nothing else")
     outputs, inputs = (
         _picked(file, key, tables[key], image)
-        for key, image in (("outputs", wiring.outputs), ("inputs", wiring.inputs))
+        for key, image in (("outputs", layout.outputs), ("inputs", layout.inputs))
     )
     lines = [*outputs.values(), *inputs.values()]
     if len(set(lines)) < len(lines):
@@ -131,7 +133,7 @@ def read_line_map(file: str, wiring: PortLayout) -> LineMap:
 
 
 def missing() -> str:
-    """Why there are no GPIO lines here, or nothing."""
+    """Returns why there are no GPIO lines here, or an empty string."""
     if find_spec("gpiod") is None:
         return "the package gpiod is not installed: pip install gpiod"
     return "" if list(Path("/dev").glob("gpiochip*")) else "no /dev/gpiochip: this computer has no GPIO lines"
@@ -149,7 +151,7 @@ def _read(file: str) -> dict[str, Any]:
 
 
 def _picked(file: str, key: str, table: Any, image: int) -> dict[int, int]:
-    """The lines of the bits in an image."""
+    """Returns the lines of the bits that an image has."""
     picked: dict[int, int] = {}
     for bit in bits_of(image):
         line = table.get(str(bit)) if isinstance(table, dict) else None

@@ -1,10 +1,10 @@
-"""A card whose outputs and inputs stand in a mapped file: it outlives the process, as a real card does.
+"""A card whose outputs and inputs are in a mapped file, which outlives the process as a real card does.
 
-So whoever looks into the file after a crash sees what the coils would have been left with. Layout, little-endian
-32-bit words: "DRIL", version 1, n cards, flushes so far (modulo 2**32), n words of outputs, n words of inputs.
+After a crash the file shows what the coils were left with. Layout, little-endian 32-bit words: "DRIL", version 1, n
+cards, flushes so far (modulo 2**32), n words of outputs, n words of inputs.
 
-Rule: the card proper is another driver (with its plant, in the process that ticks); this one writes through to the
-file. Opened by registry.py; read by ``read_map``, which needs no driver.
+Rule: another driver is the card proper (with its plant, in the ticker's process); this one copies through to the file.
+``read_map`` reads it without a driver.
 """
 
 import fcntl
@@ -26,7 +26,7 @@ LARGEST_FILE_BYTES = WORD_BYTES * (_OUTPUTS + 2 * MOST_CARDS)
 
 @dataclass(frozen=True)
 class CardMap:
-    """What stands in a mapped card's file."""
+    """The content of a mapped card's file."""
 
     flushes: int
     outputs: int
@@ -45,24 +45,24 @@ class MappedCard:
         self.safe()
 
     def latch(self) -> int:
-        """The inner card's inputs, which then stand in the file too."""
+        """Returns the inner card's inputs, and copies them to the file."""
         image = self._inner.latch()
         self._put(_OUTPUTS + self._cards, image)
         return image
 
     def flush(self, image: int) -> None:
-        """Into the file first: there it is even if nothing else happens any more."""
+        """Writes the image to the file, then to the inner card: the file has it even if the process dies between."""
         self._put(_OUTPUTS, image)
         self._words[_FLUSHES] = self._words[_FLUSHES] + 1 & 0xFFFF_FFFF
         self._inner.flush(image)
 
     def safe(self) -> None:
-        """Zeros into the file, and all outputs of the inner card low."""
+        """Writes zeros to the file, and sets all outputs of the inner card low."""
         self._put(_OUTPUTS, SAFE_IMAGE)
         self._inner.safe()
 
     def close(self) -> None:
-        """The file stays, with its outputs low."""
+        """Closes file and inner card; the file stays, its outputs low."""
         if self._map.closed:
             return
         self._put(_OUTPUTS, SAFE_IMAGE)
@@ -75,15 +75,15 @@ class MappedCard:
             self._words[place + card] = word(image, card)
 
 
-def open_mapped(address: str, wiring: PortLayout, card: Driver) -> MappedCard:
-    """Puts the file ``ADDRESS`` behind a simulated card. Raises PortRefused."""
+def open_mapped(address: str, layout: PortLayout, card: Driver) -> MappedCard:
+    """Makes a simulated card with its image in the file ``ADDRESS``. Raises PortRefused."""
     if not address:
         raise PortRefused("mapped", "where should the card's image be? Name a file: mapped:FILE")
-    return MappedCard(card, Path(address), wiring.cards)
+    return MappedCard(card, Path(address), layout.cards)
 
 
 def read_map(file: Path) -> CardMap:
-    """A look at a mapped card, of a run or after it. Raises PortRefused for any other file, OSError for none."""
+    """Reads a mapped card's file, during a run or after it. Raises PortRefused for any other file, OSError for none."""
     data = read_start(file, LARGEST_FILE_BYTES + 1)
     words = memoryview(data[: len(data) // WORD_BYTES * WORD_BYTES]).cast("I")
     if not _is_map(words):
@@ -108,7 +108,7 @@ def _image(words: memoryview) -> int:
 
 
 def _mapped(file: Path, words: int) -> mmap.mmap:
-    """Exactly so many words of a file, shared."""
+    """Maps exactly so many words of a file, shared."""
     try:
         descriptor = _descriptor(file)
         try:
@@ -128,7 +128,7 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
 
 
 def _descriptor(file: Path) -> int:
-    """The file that is there, or a new one; what a link leads to is neither."""
+    """Opens the file that is there, or a new one; refuses a link."""
     flags = os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC
     try:
         return os.open(file, flags)
@@ -137,7 +137,9 @@ def _descriptor(file: Path) -> int:
 
 
 def _lock(descriptor: int, file: Path) -> None:
-    """Held by the map's own copy of the descriptor, in every process that inherits it: one run drives a card."""
+    """Locks the file for this run. The map's own copy of the descriptor holds the lock in every process that inherits
+    it.
+    """
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:

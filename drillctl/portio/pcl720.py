@@ -1,10 +1,10 @@
 """Advantech PCL-720 cards on an ISA bus, through the kernel's /dev/port: 32 outputs and 32 inputs a card.
 
 Register map (Vixie Enterprises' pcl720.h, 1995): base+0 to base+3 carry bits 0-7, 8-15, 16-23 and 24-31; what is
-written are the outputs, what is read the inputs. base+4 to base+7 are the counters, which nobody needs here.
+written are the outputs, what is read the inputs. base+4 to base+7 are the counters, which are not used here.
 
-Rule: outputs can't be read back, so every flush writes all of every card: the image of the tick is the only memory,
-and a disturbed output is right again one tick later. Opened by registry.py.
+Rule: outputs can't be read back, so every flush writes all of every card: a disturbed output is right again one tick
+later.
 """
 
 import fcntl
@@ -23,7 +23,7 @@ HIGHEST_BASE = 0x10000 - REGISTERS
 class Pcl720:
     """A driver (ports.Driver) for one card or several.
 
-    write_to, read_from  descriptors in which offset n is I/O port n: both /dev/port's, apart from tests
+    write_to, read_from  descriptors in which offset n is I/O port n: both /dev/port's, except in tests
     bases                the first register of each card
     """
 
@@ -33,11 +33,11 @@ class Pcl720:
         self.safe()
 
     def facts(self) -> tuple[str, ...]:
-        """Where its cards are (ports.Telling)."""
+        """Returns where its cards are (ports.Telling)."""
         return tuple(f"card at 0x{base:X}: 32 outputs, 32 inputs" for base in self._bases)
 
     def latch(self) -> int:
-        """All inputs of all cards. Raises OSError."""
+        """Returns all inputs of all cards. Raises OSError."""
         image = 0
         for base in reversed(self._bases):
             data = os.pread(self._read_from, DATA_BYTES, base)
@@ -47,27 +47,27 @@ class Pcl720:
         return image
 
     def flush(self, image: int) -> None:
-        """All outputs of all cards. Raises OSError."""
+        """Writes all outputs of all cards. Raises OSError."""
         for card, base in enumerate(self._bases):
             data = word(image, card).to_bytes(DATA_BYTES, "little")
             if os.pwrite(self._write_to, data, base) < DATA_BYTES:
                 raise PortLost("pcl720", f"took no output at 0x{base:x}; check the card, then initialise again")
 
     def safe(self) -> None:
-        """All outputs of all cards low. Raises OSError."""
+        """Sets all outputs of all cards low. Raises OSError."""
         self.flush(SAFE_IMAGE)
 
     def close(self) -> None:
-        """Outputs low, and the ports given back."""
+        """Sets all outputs low, and closes the descriptors."""
         with suppress(OSError):
             self.safe()
         for descriptor in {self._write_to, self._read_from}:
             os.close(descriptor)
 
 
-def open_pcl720(address: str, wiring: PortLayout) -> Pcl720:
+def open_pcl720(address: str, layout: PortLayout) -> Pcl720:
     """Opens the cards at ``ADDRESS[,ADDRESS..]``, by default the machine's and those after it. Raises PortRefused."""
-    bases = card_bases(address, wiring)
+    bases = card_bases(address, layout)
     if reason := missing():
         raise PortRefused("pcl720", reason)
     try:
@@ -80,7 +80,7 @@ def open_pcl720(address: str, wiring: PortLayout) -> Pcl720:
 
 
 def lock(descriptor: int) -> None:
-    """One program drives the cards, with all its processes, which inherit the lock. Raises PortRefused."""
+    """Locks the cards for this program and the processes that inherit the lock. Raises PortRefused."""
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
@@ -88,21 +88,21 @@ def lock(descriptor: int) -> None:
         raise PortRefused("pcl720", "another run is using the cards; end it first") from error
 
 
-def card_bases(address: str, wiring: PortLayout) -> list[int]:
-    """Where the machine's cards are. Raises PortRefused for what is no address, or too few of them."""
+def card_bases(address: str, layout: PortLayout) -> list[int]:
+    """Returns the addresses of the machine's cards. Raises PortRefused for what is no address, or too few of them."""
     if not address:
-        return [wiring.card_address + REGISTERS * card for card in range(wiring.cards)]
+        return [layout.card_address + REGISTERS * card for card in range(layout.cards)]
     try:
         bases = [int(base, 16) for base in address.split(",")]
     except ValueError as error:
         raise PortRefused("pcl720", f"{address!r} is no address; such as 2A0 or 2A0,2A8, in hexadecimal") from error
-    if len(bases) != wiring.cards or not all(0 <= base <= HIGHEST_BASE for base in bases):
-        raise PortRefused("pcl720", f"the machine needs {wiring.cards} addresses below 10000, not {address}")
+    if len(bases) != layout.cards or not all(0 <= base <= HIGHEST_BASE for base in bases):
+        raise PortRefused("pcl720", f"the machine needs {layout.cards} addresses below 10000, not {address}")
     return bases
 
 
 def missing() -> str:
-    """Why there is no PCL-720 here, or nothing."""
+    """Returns why there is no PCL-720 here, or an empty string."""
     if not os.path.exists(DEVICE):
         return f"no {DEVICE}: this kernel was built without it, or this is no PC"
     return "" if os.access(DEVICE, os.R_OK | os.W_OK) else f"{DEVICE} is for root alone"

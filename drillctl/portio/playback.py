@@ -1,6 +1,6 @@
-"""A card whose inputs are a recording's: what replay puts under the tick code, without plant or clock.
+"""A card whose inputs come from a recorded trace. Replay runs the ticks on it, without plant or clock.
 
-Rule: the n-th latch is tick n; outputs are kept for whoever samples them and go nowhere.
+Rule: the n-th latch is tick n; outputs go nowhere and can be read as ``image``.
 """
 
 from collections.abc import Sequence
@@ -22,21 +22,21 @@ class PlaybackCard:
         self.image = SAFE_IMAGE
 
     def latch(self) -> int:
-        """The recorded inputs of this tick."""
+        """Returns the recorded inputs of this tick."""
         if self.tick == self._next_tick:
             self._now = self._next_image
             self._next_tick, self._next_image = next(self._changes, (-1, 0))
         return self._now
 
     def flush(self, image: int) -> None:
-        """The tick is over."""
+        """Keeps the image and goes on to the next tick's inputs."""
         self.image = image
         self.tick += 1
 
     def safe(self) -> None:
-        """All outputs low."""
+        """Sets the kept image to all outputs low."""
         self.image = SAFE_IMAGE
 
     def close(self) -> None:
-        """Nothing to give back."""
+        """Sets the kept image to all outputs low; there is nothing to give back."""
         self.safe()

@@ -1,7 +1,6 @@
 """The ports that drillctl can drive, as a table: what each is, what it needs, what it can carry, how it is opened.
 
-Rule: everything that can be refused is refused here, before anything moves. To add a port, add a row.
-Called by the wiring with ``--port NAME[:ADDRESS]``, and by ``drillctl ports``.
+Rule: everything that can be refused is refused here, before anything moves. A new port is a new row.
 """
 
 from collections.abc import Callable, Iterable
@@ -21,7 +20,7 @@ def _here() -> str:
     return ""
 
 
-def _any_rate(address: str, wiring: PortLayout, moving_axes: Iterable[int]) -> int | None:
+def _any_rate(address: str, layout: PortLayout, moving_axes: Iterable[int]) -> int | None:
     return None
 
 
@@ -33,11 +32,11 @@ def _no_serial_line() -> str:
 class Port:
     """One row.
 
-    address      what may stand after the colon; [in brackets] where it may be left out
-    real         a real machine hangs on it: paced by the clock, lost steps unknown
+    address      what may follow the colon; [in brackets] where it may be left out
+    real         a real machine is connected: paced by the clock, lost steps unknown
     missing      why it can't be used here, or nothing
-    open         (address, wiring, the simulated card of a port that is not real); raises PortError
-    max_tick_hz  (address, wiring, moving axes by index): the most it carries, None for more than any machine asks
+    open         (address, layout, the simulated card of a port that is not real); raises PortError
+    max_tick_hz  (address, layout, moving axes by index): the most it carries, None for more than any machine asks
     """
 
     name: str
@@ -50,21 +49,21 @@ class Port:
     max_tick_hz: Rate = _any_rate
 
 
-def _simulated(address: str, wiring: PortLayout, card: Driver | None) -> Driver:
+def _simulated(address: str, layout: PortLayout, card: Driver | None) -> Driver:
     assert card is not None
     if address:
         raise PortRefused("simulated", f"it has no address, and so not {address!r}")
     return card
 
 
-def _mapped(address: str, wiring: PortLayout, card: Driver | None) -> Driver:
+def _mapped(address: str, layout: PortLayout, card: Driver | None) -> Driver:
     assert card is not None
-    return mapped.open_mapped(address, wiring, card)
+    return mapped.open_mapped(address, layout, card)
 
 
 def _real(opened: Callable[[str, PortLayout], Driver]) -> Open:
-    """A port that has no simulated card behind it."""
-    return lambda address, wiring, card: opened(address, wiring)
+    """Returns the ``open`` of a port that has no simulated card behind it."""
+    return lambda address, layout, card: opened(address, layout)
 
 
 def _firmata_row(name: str, board: Board, summary: str) -> Port:
@@ -122,44 +121,44 @@ CARD_PORTS = {"ZAR1": "pcl720", "PCL-720": "pcl720", "MEGA": "firmata", "UNO": "
 
 
 def port_of_card(card: str) -> str:
-    """The real port, ``NAME[:ADDRESS]``, that drives a card; empty where none does."""
+    """Returns the real port, ``NAME[:ADDRESS]``, that drives a card; empty where none does."""
     spec = CARD_PORTS.get(card, card)
     name = spec.partition(":")[0]
     return spec if name in PORTS and PORTS[name].real else ""
 
 
-def rate_of(spec: str, wiring: PortLayout) -> int | None:
-    """The most ticks a second that a port carries with all axes moving; None for more than any machine asks.
+def rate_of(spec: str, layout: PortLayout) -> int | None:
+    """Returns the most ticks a second that a port carries with all axes moving; None for more than any machine asks.
 
     Raises PortRefused for an unknown name.
     """
     port, address = select(spec)
-    return port.max_tick_hz(address, wiring, range(len(wiring.axis_outputs)))
+    return port.max_tick_hz(address, layout, range(len(layout.axis_outputs)))
 
 
 def select(spec: str) -> tuple[Port, str]:
-    """The port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
+    """Returns the port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
     name, _, address = spec.partition(":")
     if name not in PORTS:
         raise PortRefused(name, f"there is no such port; {known_words(name, PORTS)}")
     return PORTS[name], address
 
 
-def check_rate(spec: str, wiring: PortLayout) -> None:
+def check_rate(spec: str, layout: PortLayout) -> None:
     """Raises PortRefused for a tick rate that a port can't carry with all axes moving, or an unknown name."""
-    most_hz = rate_of(spec, wiring)
-    if most_hz is not None and wiring.tick_hz > most_hz:
-        axes = len(wiring.axis_outputs)
-        reason = f"{wiring.tick_hz} interrupts a second are too many for it with {axes} axes moving"
+    most_hz = rate_of(spec, layout)
+    if most_hz is not None and layout.tick_hz > most_hz:
+        axes = len(layout.axis_outputs)
+        reason = f"{layout.tick_hz} interrupts a second are too many for it with {axes} axes moving"
         raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")
 
 
-def open_port(spec: str, wiring: PortLayout, card: Driver | None = None) -> Driver:
+def open_port(spec: str, layout: PortLayout, card: Driver | None = None) -> Driver:
     """Opens ``NAME[:ADDRESS]`` with its outputs safe; ``card`` is the simulated one, for a port that is not real.
 
-    Raises PortRefused, also for a rate that it can't carry with all axes moving; PortLost where it goes away
-    meanwhile. Nothing has moved then.
+    Raises PortRefused, also for a rate that it can't carry with all axes moving; PortLost where it goes away meanwhile.
+    Nothing has moved then.
     """
     port, address = select(spec)
-    check_rate(spec, wiring)
-    return port.open(address, wiring, card)
+    check_rate(spec, layout)
+    return port.open(address, layout, card)
