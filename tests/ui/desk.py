@@ -8,7 +8,7 @@ import urwid
 
 from drillctl.ui.app import App
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView, Problems, ToolView
-from drillctl.viewmodel.jobs import Alignment, Asked, Measured, RecentJob, UnfinishedJob
+from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
 
 MOTIONS = {"go_on", "start", "run_queue", "initialise", "jog", "go_to", "set_base", "resume"}
@@ -82,7 +82,7 @@ class FakeConsole:
     def choose_machine(self, name: str) -> Problems:
         return self._keep("choose_machine", name)
 
-    def align(self, measured: tuple[Measured, ...], face_down: bool) -> tuple[Alignment | None, Problems]:
+    def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
         """A shift by the first hole, and how far the others are off it."""
         if self.answer:
             return None, self.answer
@@ -91,7 +91,7 @@ class FakeConsole:
         matrix = np.column_stack([np.eye(2), off[0]])
         residual_mm = tuple(np.hypot(*(off - off[0]).T).tolist())
         rejected = ("a hole is off",) if max(residual_mm) > 0.5 else ()
-        return Alignment("rigid", matrix, residual_mm, 0.0, (1.0, 1.0), rejected, rejected), ()
+        return AlignmentReport("rigid", matrix, residual_mm, 0.0, (1.0, 1.0), rejected, rejected), ()
 
     def recent(self) -> Sequence[RecentJob]:
         return self.recent_jobs
