@@ -19,6 +19,7 @@ from drillctl.trace.values import KINDS, Vocabulary, is_plain, is_word, named_si
 
 HEADER_LIMIT = 1_000_000  # lines; a long job's commands stand in it
 SIGNALS_LIMIT = 1024
+REMARKS_LIMIT = 10_000  # lines behind the end
 CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
 
 
@@ -44,7 +45,7 @@ def read_text(source: Target, name: str | None = None) -> Trace:
         header, signals = _read_head(lines)
         changes = _Changes(lines, signals)
         end = changes.read()
-        trailer = tuple(_remark(lines, line) for line in lines)
+        trailer = tuple(_remark(lines, line, count) for count, line in enumerate(lines))
     return changes.trace(header, end, trailer)
 
 
@@ -199,7 +200,9 @@ class _Changes:
             self._lines.refuse(f"{name}: {reason}")
 
 
-def _remark(lines: _Lines, line: str) -> str:
+def _remark(lines: _Lines, line: str, count: int) -> str:
+    if count == REMARKS_LIMIT:
+        lines.refuse(f"more than {REMARKS_LIMIT} lines follow the end")
     remark = line.removeprefix("#").strip()
     if not line.startswith("#") or not remark.isprintable():
         lines.refuse(f"{quoted(line)} after the end: only # lines may follow")

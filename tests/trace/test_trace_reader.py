@@ -152,6 +152,16 @@ def test_limits_are_named(limit: str, reason: str, monkeypatch: pytest.MonkeyPat
         read(GOOD)
 
 
+def test_remarks_behind_the_end_are_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stream of them need not end."""
+    monkeypatch.setattr(reader, "REMARKS_LIMIT", 3)
+    head = GOOD[: GOOD.rindex("end ")]
+    last = next(line for line in GOOD.splitlines() if line.startswith("end "))
+    assert len(read(f"{head}{last}\n" + "# x\n" * 3).trailer) == 3
+    with pytest.raises(TraceError, match="more than 3 lines follow the end"):
+        read(f"{head}{last}\n" + "# x\n" * 4)
+
+
 def test_no_more_command_names_than_opcodes() -> None:
     commands = "".join(f"{tick} kmd 1:K{tick}\n" for tick in range(1, 65))
     head = "drillctl-trace 1\nsignal kmd <\n\n0 kmd -\n"

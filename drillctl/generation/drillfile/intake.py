@@ -1,7 +1,9 @@
-"""From bytes to lines of text. Rule: bounded memory, whatever is thrown at it; nothing is interpreted.
+"""From bytes to lines of text. Rule: bounded memory, and an end to reading, whatever is thrown at it; nothing is
+interpreted.
 
-A line is cut just past LINE_LIMIT while it is read, so a file that is one line of 100 MB costs no more
-than any other. `reader` calls `condense` and then `to_text`.
+A line is cut just past LINE_LIMIT while it is read, so a file that is one line of 100 MB costs no more than any other;
+and no more than READ_LIMIT is read, since a line from a pipe may have no end. `reader` calls `condense` and then
+`to_text`.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from .lexer import TORN_NUMBER
 
 LINE_LIMIT = 4096
 FILE_LIMIT = 16_000_000  # eight times the largest number of holes in the widest format
+READ_LIMIT = 128_000_000  # the largest file in UTF-16, four times: what is cut off long lines counts too
 CHUNK_BYTES = 1 << 20
 TAPE_LEADER = bytes([eia.LEADER, eia.RUBOUT])
 DOS_END = b"\x1a"
@@ -54,7 +57,12 @@ def condense(stream: BinaryIO) -> Condensed:
 
 
 def _chunks(head: bytes, stream: BinaryIO) -> Iterator[bytes]:
+    """What the stream holds, a chunk at a time. Refuses a stream of more than READ_LIMIT bytes."""
+    left = READ_LIMIT
     while head:
+        left -= len(head)
+        if left < 0:
+            raise Refusal("file-too-large", f"more than {READ_LIMIT // 1_000_000} MB")
         yield head
         head = stream.read(CHUNK_BYTES)
 

@@ -1,19 +1,24 @@
 """What is refused, by which code, at which line, in what time; and that a message stays a message."""
 
+import io
 import json
+import subprocess
+import sys
 import time
 import tracemalloc
 
 import pytest
 
 from drillctl.generation.drillfile import DrillFileError, decode, read
-from drillctl.generation.drillfile.errors import REFUSALS, TEXT_LIMIT, WARNINGS, shorten
+from drillctl.generation.drillfile.errors import REFUSALS, TEXT_LIMIT, WARNINGS, Refusal, shorten
+from drillctl.generation.drillfile.intake import READ_LIMIT, condense
 from drillctl.generation.drillfile.program import COMMAND_LIMIT
 from drillctl.generation.drillfile.rows import HOLE_LIMIT
 
 HEADER = "M48\nMETRIC,TZ,000.000\nT1C0.8\nT2C1.0\n%\nT1\n"  # the body begins in line 7
 SECONDS = 1.5
 MEGABYTES = 150
+BLANKS = b" " * (1 << 20)
 
 
 def refusal(data: bytes | str, **options: object) -> DrillFileError:
@@ -139,6 +144,44 @@ def test_bombs_are_refused_soon_and_small(name: str, tmp_path) -> None:
     assert refusal(data).code == caught.value.code == code
     assert time.process_time() - started < SECONDS
     assert peak_bytes < MEGABYTES * 1e6 and len(str(caught.value)) < 300
+
+
+class Endless(io.RawIOBase):
+    """A stream that begins with ``head`` and goes on with ``rest`` for ever; it fails where nobody stops reading."""
+
+    def __init__(self, head: bytes, rest: bytes):
+        self._data, self._rest, self.bytes_read = head, rest, 0
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer) -> int:
+        assert self.bytes_read < 2 * READ_LIMIT, "nobody stops reading"
+        while len(self._data) < len(buffer):
+            self._data += self._rest
+        buffer[:], self._data = self._data[: len(buffer)], self._data[len(buffer) :]
+        self.bytes_read += len(buffer)
+        return len(buffer)
+
+
+@pytest.mark.parametrize("head", [f"{HEADER}X1".encode(), f"{HEADER};".encode(), b"\xff\xfe"], ids=["X", ";", "16"])
+def test_a_line_without_end_is_read_up_to_a_limit(head: bytes) -> None:
+    stream = io.BufferedReader(Endless(head, b" \0" * 500_000 if head == b"\xff\xfe" else b" " * 1_000_000))
+    with pytest.raises(Refusal) as caught:
+        condense(stream)
+    assert caught.value.code == "file-too-large"
+
+
+def test_a_pipe_that_never_ends_is_refused() -> None:
+    """Standard input may be a pipe, and what writes to it may never stop."""
+    call = [sys.executable, "-m", "drillctl", "inspect", "--json", "/dev/stdin"]
+    with subprocess.Popen(call, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as program:
+        with pytest.raises(BrokenPipeError):
+            program.stdin.write(HEADER.encode() + b"X1")
+            for _ in range(2 * READ_LIMIT // len(BLANKS)):
+                program.stdin.write(BLANKS)
+        assert program.wait(60) == 2 and b"file-too-large" in program.stdout.read()
+        program.stdin = None  # is broken; there is nothing to flush
 
 
 def test_a_long_comment_is_only_cut() -> None:
