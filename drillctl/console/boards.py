@@ -175,6 +175,7 @@ def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
         "peck": asked.peck_mm,
         "spot": asked.spot_mm,
         "format": asked.format,
+        "after_end": asked.after_end,
         "base": base,
     }
     return Recipe.checked(told)

@@ -35,6 +35,7 @@ class Asked:
     """How a board is to be placed and drilled. With ``measured`` holes these alone say where it lies.
 
     peck_mm, spot_mm  depths below the board's surface; ``drills``: the file of the drills at hand
+    after_end         what becomes of holes behind the end of the program (M30): 'refuse', 'ignore' or 'drill'
     """
 
     format: str | None = None
@@ -49,6 +50,7 @@ class Asked:
     spot_mm: float | None = None
     skip_tools: tuple[int, ...] = ()
     drills: str | None = None
+    after_end: str = "refuse"
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -16,7 +16,7 @@ from drillctl.jobs.journal import read_journal
 from drillctl.jobs.session import default_journal
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
-from drillctl.viewmodel.jobs import Asked, Measured, PanelOf, Site
+from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, Site
 from tests.support.journalled import BOARD, forged, lines_of
 from tests.support.operator import settle, until
 
@@ -156,7 +156,7 @@ def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(station:
 
 
 def test_a_list_of_recent_jobs_may_hold_any_settings(station: MachineConsole, board: Path) -> None:
-    for asked in (Asked(order="shortest"), Asked(mirror="z"), Asked(measured=(Measured(0, 0, 1e9, 0),) * 2)):
+    for asked in (Asked(order="shortest"), Asked(mirror="z"), Asked(measured=(MeasuredHole(0, 0, 1e9, 0),) * 2)):
         assert "it can't be opened with these settings" in station.load(str(board), asked)[0]
     assert station.board() is None
 
@@ -225,10 +225,10 @@ def test_a_base_from_which_the_board_is_out_of_reach_refuses_the_start(station: 
 SHIFT = np.array([5.0, 3.0])
 
 
-def measured(*places: tuple[float, float], off: float = 0.0) -> tuple[Measured, ...]:
+def measured(*places: tuple[float, float], off: float = 0.0) -> tuple[MeasuredHole, ...]:
     rows = [(*place, *(np.array(place) + SHIFT).tolist()) for place in places]
     x, y, found_x, found_y = rows[-1]
-    return tuple(Measured(*row) for row in [*rows[:-1], (x, y, found_x + off, found_y)])
+    return tuple(MeasuredHole(*row) for row in [*rows[:-1], (x, y, found_x + off, found_y)])
 
 
 CORNERS = ((1.0, 1.0), (3.0, 1.0), (1.0, 3.0), (3.0, 4.0))
@@ -277,6 +277,26 @@ def test_what_cannot_be_done_changes_nothing(station: MachineConsole, board: Pat
     before = station.board()
     assert reason in station.load(str(board), asked)[0]
     assert station.board() is before and len(station.recent()) == 1
+
+
+TAIL = "X1.0Y1.0\nX2.0Y2.0\n"  # behind M30
+
+
+@pytest.mark.parametrize(("choice", "holes"), [("ignore", 0), ("drill", 2)])
+def test_holes_behind_the_end_are_refused_unless_asked_for(
+    station: MachineConsole, board: Path, choice: str, holes: int
+) -> None:
+    assert station.load(str(board), Asked()) == ()
+    before = station.board()
+    assert before is not None
+    whole = board.read_text()
+    assert whole.rstrip().endswith("M30")
+    board.write_text(whole + "T1\n" + TAIL)
+    (reason,) = station.load(str(board), Asked())
+    assert "holes-after-end" in reason and station.board() is before
+    assert station.load(str(board), Asked(after_end=choice)) == ()
+    after = station.board()
+    assert after is not None and len(after.xy_mm) == len(before.xy_mm) + holes
 
 
 def test_a_panel_repeats_the_board(station: MachineConsole, board: Path) -> None:

@@ -8,12 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from drillctl.console.recent_jobs import LARGEST_LIST_BYTES, MOST_RECENT, RecentJobs
-from drillctl.viewmodel.jobs import Asked, Measured, PanelOf
+from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf
 
 ASKED = Asked(
     format="inch,2:4,trailing", origin="file", mirror="x", rotate_deg=90.0, offset_mm=(1.5, -2.0), order="nearest",
-    panel=PanelOf(2, 1, 40.0, 0.0), measured=(Measured(1.0, 2.0, 3.0, 4.0),), peck_mm=0.5, spot_mm=0.2,
-    skip_tools=(2, 3), drills="/drills.toml",
+    panel=PanelOf(2, 1, 40.0, 0.0), measured=(MeasuredHole(1.0, 2.0, 3.0, 4.0),), peck_mm=0.5, spot_mm=0.2,
+    skip_tools=(2, 3), drills="/drills.toml", after_end="drill",
 )  # fmt: skip
 KEYS = st.sampled_from(["recent", "file", "asked", "panel", "measured", "order", "offset_mm", "columns", "x"])
 JSON = st.recursive(

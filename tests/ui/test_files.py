@@ -12,7 +12,7 @@ from drillctl.ui.models.measuring import far_apart
 from drillctl.ui.screens.alignment import AlignmentScreen
 from drillctl.ui.screens.files import Files
 from drillctl.ui.screens.formats import FORMATS
-from drillctl.viewmodel.jobs import Asked, Measured, PanelOf, RecentJob, Site, UnfinishedJob
+from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob, Site, UnfinishedJob
 from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50)]
@@ -135,9 +135,27 @@ def test_recent_jobs_are_opened_with_their_settings_by_one_key(folder: Path) -> 
     assert "Refused" in program.text() and asked(program) == Asked()
 
 
+def test_holes_behind_the_end_can_be_asked_for(folder: Path) -> None:
+    program = opened(size=(130, 40))
+    assert "Behind M30: refuse holes" in program.text()
+    for choice, word in (("ignore", "leave out"), ("drill", "drill too"), ("refuse", "refuse holes")):
+        program.press("b")
+        assert asked(program).after_end == choice and f"Behind M30: {word}" in program.text()
+
+
+def test_a_list_of_recent_jobs_with_a_value_that_is_not_known_is_shown(folder: Path) -> None:
+    settings = Asked(order="shortest", after_end="sell")
+    program = Program(FakeConsole(recent_jobs=[RecentJob(str(folder / "four.drl"), settings)]), (130, 40))
+    program.press("f", "e")
+    assert "four.drl  shortest  sell" in program.text()
+    program.press("1", "r")
+    assert asked(program).order == "file"
+
+
 def test_another_board_is_not_placed_by_what_was_measured_on_the_last(folder: Path) -> None:
     (folder / "more.drl").write_text("M48\n")
-    jobs = [RecentJob(str(folder / "four.drl"), Asked(mirror="x", measured=(Measured(0, 0, 1, 1),), skip_tools=(2,)))]
+    settings = Asked(mirror="x", measured=(MeasuredHole(0, 0, 1, 1),), skip_tools=(2,))
+    jobs = [RecentJob(str(folder / "four.drl"), settings)]
     program = Program(FakeConsole(recent_jobs=jobs))
     program.press("f", "e", "1", "down", "enter")
     assert asked(program) == Asked(mirror="x")

@@ -1,5 +1,6 @@
 """A board and what was asked of it, in words. Functions of Asked and BoardView; shown by the Files screen."""
 
+from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,17 +34,27 @@ CHOICES = (
         N_("Order"),
         (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best"))),
     ),
+    Choice(
+        "after_end",
+        N_("Behind M30"),
+        (("refuse", N_("refuse holes")), ("ignore", N_("leave out")), ("drill", N_("drill too"))),
+    ),
 )
 
 
 def asked_lines(asked: Asked) -> list[str]:
     """What is always to be chosen, two a line; then what was asked beside it."""
-    words = [(choice.label, dict(choice.values)[getattr(asked, choice.field)]) for choice in CHOICES]
     offset = "{:g} {:g} mm".format(*asked.offset_mm)
-    pairs = [f"{_(label)}: {_(word)}" for label, word in words] + [f"{_('Offset')}: {offset}"]
-    pairs.insert(0, f"{_('Format')}: {format_word(asked.format)}")
-    lines = [f"{left:{LEFT_COLUMNS}} {right}" for left, right in zip(pairs[::2], pairs[1::2], strict=True)]
+    pairs = [f"{_('Format')}: {format_word(asked.format)}"]
+    pairs += [f"{_(choice.label)}: {_chosen(choice, asked)}" for choice in CHOICES] + [f"{_('Offset')}: {offset}"]
+    lines = [f"{left:{LEFT_COLUMNS}} {right}".rstrip() for left, right in zip_longest(*[iter(pairs)] * 2, fillvalue="")]
     return [*lines, *_further(asked)]
+
+
+def _chosen(choice: Choice, asked: Asked) -> str:
+    """The word for what was chosen; a list of recent jobs may hold values that can't be chosen."""
+    value = getattr(asked, choice.field)
+    return _(dict(choice.values).get(value, str(value)))
 
 
 def format_word(option: str | None) -> str:
@@ -61,7 +72,7 @@ def recent_line(file: str, asked: Asked) -> str:
     """A job opened before: the file, and what was asked that is not usual."""
     usual = Asked()
     told_apart = [
-        _(dict(choice.values)[getattr(asked, choice.field)])
+        _chosen(choice, asked)
         for choice in CHOICES
         if getattr(asked, choice.field) != getattr(usual, choice.field)
     ]

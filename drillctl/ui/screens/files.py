@@ -52,6 +52,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         Key(("a",), "A", "align", N_("places the board by holes measured on it"), N_("Align")),
         Key(("p",), "P", "panel", N_("repeats the board in columns and rows"), N_("Panel")),
         Key(("r",), "R", "cycle", N_("the order of the holes"), N_("Order"), "order"),
+        Key(("b",), "B", "cycle", N_("what becomes of holes behind the end, M30 (--after-end)"), argument="after_end"),
         Key(("d",), "D", "how_to_drill", N_("pecks, spots, tools left out, drills at hand"), N_("How")),
     )
 
@@ -107,9 +108,10 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._tell(self._try(file, self._asked if same else replace(self._asked, measured=(), skip_tools=())))
 
     def cycle(self, field: str) -> None:
-        """The next value of a choice."""
+        """The next value of a choice; the first one after a value that can't be chosen."""
         values = [value for value, _word in BY_FIELD[field].values]
-        self._change(**{field: values[(values.index(getattr(self._asked, field)) + 1) % len(values)]})
+        now = getattr(self._asked, field)
+        self._change(**{field: values[(values.index(now) + 1) % len(values)] if now in values else values[0]})
 
     def choose_format(self) -> None:
         """By name, or typed."""
