@@ -83,23 +83,23 @@ def program(places_mm: NDArray[np.float64]) -> NDArray[np.void]:
     return records
 
 
-def longest_course(machine: Machine, commands: NDArray[np.void]) -> tuple[Batch, ImagePool]:
+def longest_batch(machine: Machine, commands: NDArray[np.void]) -> tuple[Batch, ImagePool]:
     """What is foreseen of a program once its strokes are known: nearly all."""
     ticker = FastTicker.ideal(machine, capacity=len(commands))
     ticker.queue.put(commands)
-    course = max((course for course in ticker.courses() if course is not None), key=lambda course: course.end)
-    return course, ticker.engine.reel
+    batch = max((batch for batch in ticker.batches() if batch is not None), key=lambda batch: batch.end)
+    return batch, ticker.engine.pool
 
 
-def trace(course: Batch, reel: ImagePool, out: Images) -> Images:
+def trace(batch: Batch, pool: ImagePool, out: Images) -> Images:
     """The image of every tick."""
-    tapes = course.tapes(reel)
-    return images(reel.images, tapes, out)
+    tapes = batch.tapes(pool)
+    return images(pool.images, tapes, out)
 
 
-def events(course: Batch, reel: ImagePool, out: Images) -> tuple[NDArray[np.intp], Images]:
+def events(batch: Batch, pool: ImagePool, out: Images) -> tuple[NDArray[np.intp], Images]:
     """Ticks and images at which the outputs change."""
-    trace(course, reel, out)
+    trace(batch, pool, out)
     ticks = np.flatnonzero(out[1:] != out[:-1]) + 1
     return ticks, out[ticks]
 
@@ -121,10 +121,10 @@ def shown(name: str, value: str, goal: str, reached: bool) -> bool:
 
 def measured(machine: Machine, commands: NDArray[np.void]) -> tuple[int, float, float, float]:
     """Ticks of a board, and the seconds of copying so many words, of its trace, and of its events."""
-    course, reel = longest_course(machine, commands)
-    out, source = (np.full(course.end, word, reel.images.dtype) for word in (1, 7))
-    calls = (lambda: np.copyto(out, source), lambda: trace(course, reel, out), lambda: events(course, reel, out))
-    return course.end, *map(cpu_s, calls)
+    batch, pool = longest_batch(machine, commands)
+    out, source = (np.full(batch.end, word, pool.images.dtype) for word in (1, 7))
+    calls = (lambda: np.copyto(out, source), lambda: trace(batch, pool, out), lambda: events(batch, pool, out))
+    return batch.end, *map(cpu_s, calls)
 
 
 def boards(machine: Machine) -> list[bool]:

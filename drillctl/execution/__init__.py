@@ -20,6 +20,6 @@ May import kmd, ports and machine.
 from drillctl.execution.controller import Controller
 from drillctl.execution.report import report
 from drillctl.execution.table_loading import loaded
-from drillctl.execution.tick import look, spare, tick
+from drillctl.execution.tick import drop_forcing, look, tick
 
-__all__ = ["Controller", "loaded", "look", "report", "spare", "tick"]
+__all__ = ["Controller", "drop_forcing", "loaded", "look", "report", "tick"]

@@ -58,7 +58,7 @@ FAULT_MS = 250
 def apply_gap(m: Controller) -> None:
     """The gap before this tick: every axis that it stopped starts anew; a long one holds, a longer one is a fault."""
     gap_ticks, m.gap = m.late, 0
-    stopped = [axis for axis in m.axes if (axis.counting or axis.led) and gap_ticks > axis.interval[0]]
+    stopped = [axis for axis in m.axes if (axis.counting or axis.follower) and gap_ticks > axis.interval[0]]
     m.caught = any(too_fast_to_stop(m, axis) for axis in stopped)
     for axis in stopped:
         axis.start_again()

@@ -49,7 +49,7 @@ def _move(m: Controller, command: Command) -> int:
     m.hole_begun = command.tag or m.hole_begun  # a peck or a spot begins a hole too
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1:
-            axis.aim(axis.target, command.floor_ticks)
+            axis.set_target(axis.target, command.floor_ticks)
     return Fault.NONE
 
 

@@ -50,7 +50,7 @@ class Controller:
         self.elapsed = self.time_limit = 0
         self.homing_row = 0
 
-        self.tick = self.starved = self.moving = self.running = self.served = self.gap = self.late = 0
+        self.tick = self.underruns = self.moving = self.running = self.served = self.gap = self.late = 0
         self.unseen = self.hot_until = self.cut_off = 0
         self.inputs = self.sensors = 0
         self.image = SAFE_IMAGE

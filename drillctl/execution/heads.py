@@ -50,7 +50,7 @@ def _drive_head(m: Controller, command: Command, direction: int) -> int:
                 return Fault.HOMING_REQUIRED
             axis.seek_mask, axis.clear_mask = sensor, 0
             if not m.sensors & sensor:
-                axis.aim(_head_target(m, axis, direction, sensor), command.floor_ticks)
+                axis.set_target(_head_target(m, axis, direction, sensor), command.floor_ticks)
     return Fault.NONE
 
 

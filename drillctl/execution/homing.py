@@ -57,14 +57,14 @@ def _seek(m: Controller, axis: Axis, towards: int, limit: int) -> None:
     """To the sensor, at most a tenth beyond the range; the edge brakes (guard)."""
     if not m.sensors & axis.limits[towards]:
         axis.seek_mask = axis.limits[towards]
-        axis.aim(axis.position + towards * (axis.span + axis.span // 10), 0)
+        axis.set_target(axis.position + towards * (axis.span + axis.span // 10), 0)
 
 
 def _leave(m: Controller, axis: Axis, towards: int, limit: int) -> None:
     """Slowly off the sensor, the ramp capped at state 1; the first step with the sensor clear halts (guard)."""
     if m.sensors & axis.limits[towards]:
         axis.clear_mask = axis.limits[towards]
-        axis.aim(axis.position - towards * limit, axis.interval[-towards])
+        axis.set_target(axis.position - towards * limit, axis.interval[-towards])
 
 
 def _stay(m: Controller, axis: Axis, towards: int, limit: int) -> None:

@@ -36,10 +36,10 @@ def cut_off(m: Controller) -> None:
 
 def _hot(axis: Axis) -> int:
     """The bits that were added by hand to what the axis holds, and would burn it. An axis that moves has none."""
-    table = axis.resting[axis.direction * axis.sense]
-    added = axis.cold & ~table[axis.column]
+    table = axis.hold_patterns[axis.direction * axis.direction_sign]
+    added = axis.hold_bits & ~table[axis.column]
     hot = added & axis.forcing
     for pair in axis.halves:
-        if axis.cold & pair == pair:
+        if axis.hold_bits & pair == pair:
             hot |= added & pair
     return hot

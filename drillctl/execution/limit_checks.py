@@ -18,7 +18,7 @@ def guard(m: Controller) -> None:
             raise_fault(m, Fault.SENSOR_CONTRADICTION)
             return
     for axis in m.axes:
-        if (axis.counting or axis.led) and not axis.cut:
+        if (axis.counting or axis.follower) and not axis.stopping:
             fault = _watch(m, axis, sensors)
             if fault:
                 raise_fault(m, fault)
@@ -31,10 +31,10 @@ def guard(m: Controller) -> None:
 def _watch(m: Controller, axis: Axis, sensors: int) -> int:
     """A moving axis: the sensor that it seeks or leaves, a limit ahead, the range."""
     if axis.seek_mask and sensors & axis.seek_mask:
-        axis.give_up()
+        axis.ramp_down()
     elif axis.clear_mask:
-        if axis.part == 0 and not sensors & axis.clear_mask:
-            axis.halt()
+        if axis.column_in_step == 0 and not sensors & axis.clear_mask:
+            axis.stop_now()
     elif sensors & axis.limits[axis.direction] & ~axis.seek_mask:
         return Fault.LIMIT
     elif m.position_known and not axis.low <= axis.position <= axis.high:

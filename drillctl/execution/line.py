@@ -20,7 +20,7 @@ class Line:
         self.error = [0] * len(axes)
         self.joins = [False] * len(axes)
 
-    def start(self, leader: Axis, mask: int, floor: int) -> None:
+    def start(self, leader: Axis, mask: int, min_interval: int) -> None:
         """All axes of the mask rest, with their new targets set; the leader begins to count."""
         self.leader = leader
         self.lead_reach = abs(leader.target - leader.position)
@@ -28,15 +28,15 @@ class Line:
             self.reach[index] = abs(axis.target - axis.position) if mask >> index & 1 else 0
             self.error[index] = 0
             self.joins[index] = False
-            axis.led = self.reach[index] > 0 and axis is not leader
-            if axis.led:
-                axis.face(1 if axis.target > axis.position else -1)
+            axis.follower = self.reach[index] > 0 and axis is not leader
+            if axis.follower:
+                axis.set_direction(1 if axis.target > axis.position else -1)
         leader.line = self
-        leader.aim(leader.target, floor)
+        leader.set_target(leader.target, min_interval)
 
     def carry(self) -> None:
         """Before each column of the leader: the followers that take part in this step put theirs out."""
-        if self.leader.part == 0:
+        if self.leader.column_in_step == 0:
             self._choose()
         for index, axis in enumerate(self.axes):
             if self.joins[index]:
@@ -46,9 +46,9 @@ class Line:
         """The leader has come to rest: forcing goes off everywhere; at its target (or given up) the line ends."""
         over = self.leader.position == self.leader.target
         for axis in self.axes:
-            if axis.led:
+            if axis.follower:
                 axis.cooling = True
-                axis.led = not over
+                axis.follower = not over
                 axis.target = axis.position if over else axis.target
         if over:
             self.leader.line = None
@@ -56,7 +56,7 @@ class Line:
     def _choose(self) -> None:
         """A follower that sits a step out rests meanwhile: a flat line must not hold 24 V for long."""
         for index, axis in enumerate(self.axes):
-            if not axis.led:
+            if not axis.follower:
                 self.joins[index] = False
                 continue
             error = self.error[index] + self.reach[index]

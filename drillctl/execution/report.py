@@ -11,7 +11,7 @@ TWO_CARDS = (1 << 64) - 1
 def report(m: Controller, status: np.void) -> None:
     """Overwrites a record of dtype kmd.STATUS with what the controller knows."""
     command = m.command
-    for name in ("tick", "tick_hz", "starved", "epoch", "done", "hole_begun", "holes_done", "tool", "condition",
+    for name in ("tick", "tick_hz", "underruns", "epoch", "done", "hole_begun", "holes_done", "tool", "condition",
                  "fault", "fault_kept", "position_known", "cut_off", "job", "moving"):  # fmt: skip
         status[name] = getattr(m, name)
     status["sensors"], status["image"] = m.sensors & TWO_CARDS, m.image & TWO_CARDS

@@ -64,12 +64,12 @@ def _stops_dead_on_its_place(m: Controller) -> bool:
     """Nothing is faster than a rotor can stop; and none stands between two columns of a step, where no count of steps
     says where it is.
     """
-    return not any(too_fast_to_stop(m, axis) or (axis.part and not axis.drive) for axis in m.axes)
+    return not any(too_fast_to_stop(m, axis) or (axis.column_in_step and not axis.drive) for axis in m.axes)
 
 
 def too_fast_to_stop(m: Controller, axis: Axis) -> bool:
     """Whether a rotor that is stopped dead now loses steps. One that is led is as fast as its leader."""
-    return abs(m.line.leader.state if axis.led else axis.state) > SURVIVES_STATE
+    return abs(m.line.leader.state if axis.follower else axis.state) > SURVIVES_STATE
 
 
 def _end_job(m: Controller) -> None:
@@ -81,9 +81,9 @@ def _end_job(m: Controller) -> None:
 def _brake(m: Controller) -> None:
     m.condition = Condition.STOPPING
     for axis in m.axes:
-        axis.held = False
+        axis.feed_hold = False
         axis.seek_mask = axis.clear_mask = 0
-        axis.give_up()
+        axis.ramp_down()
 
 
 def _stopped(m: Controller) -> None:
@@ -103,7 +103,7 @@ def _latch_at_once(m: Controller, drop: bool) -> None:
         if drop:
             axis.release()
         else:
-            axis.halt()
+            axis.stop_now()
     m.moving = 0
     m.switched = SAFE_IMAGE
     m.condition = Condition.LATCHED
@@ -179,7 +179,7 @@ def _after_pause(m: Controller) -> None:
         m.position_known = m.position_known and not m.caught
     fast = [too_fast_to_stop(m, axis) for axis in m.axes]
     for index, axis in enumerate(m.axes):
-        if axis.led or (axis.counting and axis.state):
+        if axis.follower or (axis.counting and axis.state):
             m.position_known = m.position_known and not fast[index]
             axis.start_again()
 

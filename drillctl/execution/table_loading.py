@@ -8,7 +8,7 @@ from drillctl.execution.controller import Controller
 from drillctl.machine import Machine
 
 KEPT = (
-    "tick", "starved", "inputs", "sensors", "switched", "image", "epoch", "done", "hole_begun", "holes_done", "tool",
+    "tick", "underruns", "inputs", "sensors", "switched", "image", "epoch", "done", "hole_begun", "holes_done", "tool",
 )  # fmt: skip
 KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction", "least", "most")
 
@@ -29,4 +29,4 @@ def _stand(axis: Axis, before: Axis) -> None:
         setattr(axis, name, getattr(before, name))
     axis.column = before.column % axis.length
     if before.bits:
-        axis.bits = axis.cold = axis.resting[axis.direction * axis.sense][axis.column]
+        axis.bits = axis.hold_bits = axis.hold_patterns[axis.direction * axis.direction_sign][axis.column]

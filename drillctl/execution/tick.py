@@ -30,12 +30,12 @@ def tick(m: Controller) -> None:
         cut_off(m)
     if m.condition != LATCHED:
         guard(m)
-    starved = m.condition == READY and not m.busy and not start_next(m) and m.job
+    underrun = m.condition == READY and not m.busy and not start_next(m) and m.job
     for axis in m.axes:
         if axis.cooling:
             axis.cool()
-    if starved:
-        m.starved += 1
+    if underrun:
+        m.underruns += 1
         m.unseen = m.served  # a resume: the tick to come has it in its record, and is served it once more in vain
         _put_out(m)  # a winding must not keep its 24 V for as long as the next command takes to come
         return
@@ -59,11 +59,11 @@ def look(m: Controller) -> None:
     m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
 
 
-def spare(m: Controller) -> None:
+def drop_forcing(m: Controller) -> None:
     """Puts out what is on without its forcing: the clock stands still, and windings must not keep their 24 V."""
     image = m.switched
     for axis in m.axes:
-        image |= axis.cold
+        image |= axis.hold_bits
     m.port.flush(image)
 
 

@@ -231,7 +231,7 @@ class JobRunner:
             position=dict(zip(names, by_axis["position"], strict=False)),
             position_known=bool(status["position_known"]) and not self.link.lost(),
             lost_steps=dict(zip(names, by_axis["lost"], strict=False)) if self.link.measured else None,
-            starved=int(status["starved"]),
+            underruns=int(status["underruns"]),
             fault=fault_report(Fault(code), kept) if code else None,
             late_count=int(status["late"]),
             late_greatest_ms=int(status["late_worst_ns"]) / 1e6,

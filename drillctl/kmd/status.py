@@ -27,7 +27,7 @@ STATUS = np.dtype(
         ("tick_hz", "<u4"),  # the rate in force; 0 before the first record
         ("late", "<u4"),  # ticks that began more than a period late
         ("late_worst_ns", "<i8"),
-        ("starved", "<u4"),  # wakes without a command while a job ran: they are not ticks
+        ("underruns", "<u4"),  # wakes without a command while a job ran: they are not ticks
         ("epoch", "<u4"),
         ("sequence", "<u4"),  # of the current command, 0 = none
         ("done", "<u4"),  # sequence of the last command completed

@@ -31,16 +31,16 @@ def move(table: AxisTable, steps: int, column: int = -1, rest_ticks: int = REST_
     """
     axis = Axis(table, (0, 0, 0))
     axis.column = column % axis.length
-    axis.bits = axis.cold = axis.resting[axis.sense][axis.column]
+    axis.bits = axis.hold_bits = axis.hold_patterns[axis.direction_sign][axis.column]
     start = axis.column + 1 - axis.length
     images, columns = [axis.bits] * rest_ticks, [start] * rest_ticks
-    axis.aim(steps, 0)
+    axis.set_target(steps, 0)
     while axis.counting:
         if len(images) > LONGEST_MOVE_TICKS:
             raise ValueError(f"a move of {steps} steps takes more than {LONGEST_MOVE_TICKS} ticks")
         axis.interrupt()
         images.append(axis.bits)
-        columns.append(start + axis.travelled * axis.sense)
+        columns.append(start + axis.travelled * axis.direction_sign)
     axis.cool()
     images += [axis.bits] * rest_ticks
     columns += columns[-1:] * rest_ticks

@@ -37,14 +37,14 @@ def targets_tried(ramp: RampTable) -> int:
 def _under_way(table: AxisTable, steps: int, made: int) -> Axis:
     """An axis on its way to ``steps`` that has made so many."""
     axis = Axis(table, (0, 0, 0))
-    axis.aim(steps, 0)
+    axis.set_target(steps, 0)
     while axis.made < made:
         axis.interrupt()
     return axis
 
 
 def _lands(axis: Axis, target: int, most_ticks: int) -> bool:
-    axis.aim(target, 0)
+    axis.set_target(target, 0)
     for _ in range(most_ticks):
         if not axis.counting:
             break

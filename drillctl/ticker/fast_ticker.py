@@ -25,7 +25,7 @@ from drillctl.trace.segments import OUTPUT, without_outputs
 from drillctl.trace.tapes import DARK, ImagePool, Images, Tape, images
 
 FAST, TICK = "fast", "tick"
-MOST_TICKS = 1 << 22  # of a course whose images are put together at once; a command that is longer is ticked
+MOST_TICKS = 1 << 22  # of a batch whose images are put together at once; a command that is longer is ticked
 FAR_SIGHT = 4096  # commands that may wait: a look ahead costs the same for few as for many
 
 Records = NDArray[np.void]
@@ -50,7 +50,7 @@ class FastTicker(Ticker):
             self.sampler = Sampler(self.controller, None, True, self.keeper)
         if self.taped:
             kept = signals(self.machine, (), derived=False)
-            recorder = TapeRecorder(kept, self.engine.reel, len(self.machine.axes) + 1)
+            recorder = TapeRecorder(kept, self.engine.pool, len(self.machine.axes) + 1)
             self.sampler = Sampler(self.controller, self.plant, False, recorder)
 
     def load(self, machine: Machine) -> None:
@@ -65,7 +65,7 @@ class FastTicker(Ticker):
 
     def _foresee_anew(self) -> None:
         assert isinstance(self.plant, IdealPlant)
-        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant), self.engine.reel)
+        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant), self.engine.pool)
 
     @classmethod
     def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,
@@ -85,7 +85,7 @@ class FastTicker(Ticker):
         until something can be again.
         """
         first = self.controller.tick
-        for _ in self.courses(before):
+        for _ in self.batches(before):
             if until is not None and until():
                 break
         return self.controller.tick - first or super().turn(lambda: self._may_stop(until), before)
@@ -93,41 +93,41 @@ class FastTicker(Ticker):
     def _may_stop(self, until: Callable[[], bool] | None) -> bool:
         return self.engine.between or (until is not None and until())
 
-    def courses(self, before: int = NEVER) -> Iterator[Batch | None]:
-        """Carries out what waits, while nothing else is going on: each course, or None after a ticked command."""
+    def batches(self, before: int = NEVER) -> Iterator[Batch | None]:
+        """Carries out what waits, while nothing else is going on: each batch, or None after a ticked command."""
         assert isinstance(self.queue, Queue)
         while len(self.queue) and not self.gate.paused and self.engine.between:
             waiting, left = self.queue.waiting(), before - self.controller.tick
             if self.traced and not self.taped:
                 left = min(left, MOST_TICKS)
-            course = self.engine.course(waiting) if self.foresees else None
-            if course is not None and course.end > left:
-                course = self.engine.course(waiting[: np.searchsorted(course.starts, left, side="right") - 1])
-            if course is not None:
-                self.queue.drop(len(course.commands))
-                self._pass(course)
+            batch = self.engine.foresee(waiting) if self.foresees else None
+            if batch is not None and batch.end > left:
+                batch = self.engine.foresee(waiting[: np.searchsorted(batch.starts, left, side="right") - 1])
+            if batch is not None:
+                self.queue.drop(len(batch.commands))
+                self._pass(batch)
             elif left > 0:
                 self._tick_through(waiting[:1], before)
             else:
                 return
-            yield course
+            yield batch
 
-    def _pass(self, course: Batch) -> None:
-        """A course as if ticked: its record, its holes, and where it leaves the machine."""
-        first, tapes = self.controller.tick, course.tapes(self.engine.reel) if self.sampler is not None else []
+    def _pass(self, batch: Batch) -> None:
+        """A batch as if ticked: its record, its holes, and where it leaves the machine."""
+        first, tapes = self.controller.tick, batch.tapes(self.engine.pool) if self.sampler is not None else []
         if self.sampler is not None:
-            self.sampler.sample_course(course, None if self.taped else self._images(course, tapes), first)
-        touches = course.touches()
+            self.sampler.sample_batch(batch, None if self.taped else self._images(batch, tapes), first)
+        touches = batch.touches()
         for touch in touches:
             self.touch(*touch)
         self._touches += len(touches)
-        self.engine.leave(course)
+        self.engine.leave(batch)
         if self.sampler is not None and isinstance(self.sampler.recorder, TapeRecorder):
             self.sampler.recorder.lay(first, tapes, self.controller.tick, self.controller.image)
 
-    def _images(self, course: Batch, tapes: list[Tape]) -> Images:
-        reel = self.engine.reel.images
-        return images(reel, tapes, np.empty(course.end, reel.dtype))
+    def _images(self, batch: Batch, tapes: list[Tape]) -> Images:
+        pool = self.engine.pool.images
+        return images(pool, tapes, np.empty(batch.end, pool.dtype))
 
     def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
         """As Ticker; segments where it was taped."""
@@ -161,12 +161,12 @@ class FastTicker(Ticker):
 
 
 class TapeRecorder(Recorder):
-    """A Recorder whose outputs go onto ``tapes`` tapes of a reel."""
+    """A Recorder whose outputs go onto ``tapes`` tapes of a pool."""
 
-    def __init__(self, signals: Sequence[Signal], reel: ImagePool, tapes: int) -> None:
+    def __init__(self, signals: Sequence[Signal], pool: ImagePool, tapes: int) -> None:
         super().__init__(signals)
         self._cards = {n: int(m[1]) for n, s in enumerate(signals) if (m := OUTPUT.fullmatch(s.name))}
-        self._reel = reel
+        self._pool = pool
         self._tapes: list[list[Tape]] = [[] for _ in range(tapes)]
         self._until = 0  # what comes before is on the tapes
         self._images = [0]  # of the ticked stretch since then, and the ticks they begin at
@@ -184,7 +184,7 @@ class TapeRecorder(Recorder):
             self._begins.append(tick)
 
     def lay(self, first: int, tapes: Sequence[Tape], end: int, image: int) -> None:
-        """A course's tapes, from tick ``first`` up to ``end``, which leaves this image standing."""
+        """A batch's tapes, from tick ``first`` up to ``end``, which leaves this image standing."""
         self._wind(first)
         for kept, tape in zip(self._tapes, tapes, strict=True):
             kept.append(tape)
@@ -194,8 +194,8 @@ class TapeRecorder(Recorder):
         """The run of ``end`` ticks."""
         self._wind(end)
         trace = self.finish(end, header)
-        reel = self._reel.images.copy()
-        return Segments(without_outputs(trace), trace.signals, reel, tuple(map(Tape.joined, self._tapes)))
+        pool = self._pool.images.copy()
+        return Segments(without_outputs(trace), trace.signals, pool, tuple(map(Tape.joined, self._tapes)))
 
     def _wind(self, end: int) -> None:
         """What was ticked up to ``end``, as one strip on the first tape."""
@@ -203,7 +203,7 @@ class TapeRecorder(Recorder):
         if not ticks:
             return
         shown_for = np.diff(np.array([*self._begins, end]))
-        start = self._reel.add(np.repeat(np.array(self._images, np.uint64), shown_for))
+        start = self._pool.add(np.repeat(np.array(self._images, np.uint64), shown_for))
         for number, tape in enumerate(self._tapes):
-            tape.append(Tape.steady(self._reel.steady(DARK), ticks) if number else Tape.whole(start, ticks))
+            tape.append(Tape.steady(self._pool.steady(DARK), ticks) if number else Tape.whole(start, ticks))
         self._until, self._images, self._begins = end, self._images[-1:], [end]

@@ -33,9 +33,9 @@ def forecast(program: NDArray[np.void], machine: Machine, engine: str | None = N
     ticker = FastTicker.ideal(machine, capacity=len(program), foresees=engine != TICK)
     ticker.queue.put(program)
     ticks, m = np.zeros(len(program), np.int64), ticker.controller
-    for course in ticker.courses():
-        if course is None:
+    for batch in ticker.batches():
+        if batch is None:
             ticks[m.command.sequence - 1] = m.elapsed
         else:
-            ticks[course.commands["sequence"] - 1] = course.ticks
+            ticks[batch.commands["sequence"] - 1] = batch.ticks
     return Forecast(ticks, m.fault)

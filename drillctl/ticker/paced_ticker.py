@@ -11,7 +11,7 @@ import struct
 import time
 from contextlib import suppress
 
-from drillctl.execution import look, spare
+from drillctl.execution import drop_forcing, look
 from drillctl.execution.clock import PacedClock
 from drillctl.execution.stops import raise_fault
 from drillctl.kmd import Condition, Fault, Request
@@ -100,7 +100,7 @@ class PacedTicker:
         """A wake that is no tick: the inputs are looked at now and then. The time of real motors can't be stopped."""
         if self.ticker.waits and self.ticker.plant is None and not self.spared:
             self.spared = True
-            spare(self.ticker.controller)
+            drop_forcing(self.ticker.controller)
         if now_ns - self.looked_ns >= LOOK_NS:
             self.looked_ns = now_ns
             look(self.ticker.controller)

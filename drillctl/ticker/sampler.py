@@ -24,7 +24,7 @@ from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
 EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
-QUIET = 5  # signals in which a course has nothing: request, hand, late, fault, pace
+QUIET = 5  # signals in which a batch has nothing: request, hand, late, fault, pace
 _REQUESTS = [request.name for request in Request if request]
 REQUEST_WORDS = tuple(
     "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
@@ -74,13 +74,13 @@ class Sampler:
         if self._derived:
             self._sample_axes(index + 1 + QUIET, tick)
 
-    def sample_course(self, course: Batch, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
-        """After a course that began at tick ``first``; into a Recorder, no rotors. Without its ``images``
+    def sample_batch(self, batch: Batch, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
+        """After a batch that began at tick ``first``; into a Recorder, no rotors. Without its ``images``
         (ticks,) the outputs are kept elsewhere.
         """
         assert isinstance(self.recorder, Recorder) and not (self._derived and self._plant)
         index = 0
-        input_ticks, inputs = course.inputs()
+        input_ticks, inputs = batch.inputs()
         for card in self._cards:
             self.recorder.extend(index, first + input_ticks, inputs >> CARD_BITS * card & CARD_MASK)
             if images is not None:
@@ -88,17 +88,17 @@ class Sampler:
                 changes = np.flatnonzero(np.append(True, put_out[1:] != put_out[:-1]))
                 self.recorder.extend(index + 1, first + changes, put_out[changes].astype(np.int64))
             index += 2
-        running = pack_command(course.commands["sequence"].astype(np.int64), course.commands["opcode"])
-        self.recorder.extend(index, first + course.starts[:-1], running)
+        running = pack_command(batch.commands["sequence"].astype(np.int64), batch.commands["opcode"])
+        self.recorder.extend(index, first + batch.starts[:-1], running)
         index += 1
         for quiet in range(index, index + QUIET):
             self.recorder.set(quiet, first, 0)
         if self._derived:
-            self._extend_axes(self.recorder, index + QUIET, course, first)
+            self._extend_axes(self.recorder, index + QUIET, batch, first)
 
-    def _extend_axes(self, recorder: Recorder, index: int, course: Batch, first: int) -> None:
-        for axis in range(len(course.journeys)):
-            ticks, column, position, state = course.motion(axis)
+    def _extend_axes(self, recorder: Recorder, index: int, batch: Batch, first: int) -> None:
+        for axis in range(len(batch.axis_batches)):
+            ticks, column, position, state = batch.motion(axis)
             for values in (column + 1, position, state):
                 recorder.extend(index, first + ticks, values)
                 index += 1

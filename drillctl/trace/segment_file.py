@@ -42,11 +42,11 @@ def is_segments(path: str | os.PathLike[str]) -> bool:
 
 def segment_bytes(segments: Segments) -> bytes:
     """The whole file. Raises ValueError for a run that ``read_segments`` would find too large."""
-    bits = segments.reel.dtype.itemsize * 8
+    bits = segments.pool.dtype.itemsize * 8
     bare = _bare(segments.header)
     sums = SUMS.pack(segments.end, segments.checksum, bits, len(segments.tapes), bare is not None)
     words = "\n".join(" ".join(signal.names) for signal in segments.signals)
-    blocks = [sums, _head_text(segments, bare or segments.header).encode(), words.encode(), _planes(segments.reel)]
+    blocks = [sums, _head_text(segments, bare or segments.header).encode(), words.encode(), _planes(segments.pool)]
     for tape in segments.tapes:
         blocks += [_column(tape.start), _column(tape.ticks)]
     for signal in segments.rest.signals:
@@ -113,7 +113,7 @@ def _unpacked(blocks: _Blocks) -> Segments:
     if bits not in BITS or not tape_count:
         raise ValueError("no images of 32 or 64 bits")
     head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
-    reel = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
+    pool = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
     tapes = [Tape(blocks.column(), blocks.column()) for _ in range(tape_count)]
     kept = [signal for signal in head.signals if not OUTPUT.fullmatch(signal.name)]
     changes = [(blocks.column().cumsum(), blocks.column().cumsum()) for _ in kept]
@@ -121,8 +121,8 @@ def _unpacked(blocks: _Blocks) -> Segments:
     columns = [np.concatenate(column) for column in ([t for t, _ in changes], rows, [v for _, v in changes])]
     rest = Trace.of_changes(head.header, kept, columns[0], columns[1], columns[2], end, head.trailer)
     for tape in tapes:
-        _check(tape, end, len(reel))
-    segments = Segments(rest, head.signals, reel, tuple(tapes))
+        _check(tape, end, len(pool))
+    segments = Segments(rest, head.signals, pool, tuple(tapes))
     if segments.checksum != checksum:
         raise ValueError("the checksum of its images is another")
     return segments
@@ -132,7 +132,7 @@ def _check(tape: Tape, end: int, words: int) -> None:
     inside = (tape.start >= 0) & (tape.start <= words) & (tape.ticks > 0) & (tape.ticks <= words - tape.start)
     same_length = len(tape.start) == len(tape.ticks)
     if not same_length or not inside.all() or int(tape.ticks.sum()) != end:
-        raise ValueError("a tape runs off its reel")
+        raise ValueError("a tape runs off its pool")
 
 
 def _bare(header: Pairs) -> Pairs | None:

@@ -28,29 +28,29 @@ WORD = (1 << WIDEST_BITS) - 1
 class Segments:
     """A whole run. ``rest`` is the trace without its outputs; ``signals`` are all, in their order.
 
-    reel    images, shape (k,), uint32 or uint64: card n's word in bits 32 n and up
-    tapes   slices of the reel, each ``rest.end`` ticks long; what was put out is the OR of them
+    pool    images, shape (k,), uint32 or uint64: card n's word in bits 32 n and up
+    tapes   slices of the pool, each ``rest.end`` ticks long; what was put out is the OR of them
     """
 
     rest: Trace
     signals: tuple[Signal, ...]
-    reel: Images
+    pool: Images
     tapes: tuple[Tape, ...]
 
     @classmethod
     def of_trace(cls, trace: Trace) -> "Segments":
         """Any trace, its outputs as one long strip: exact, and as large as they are long."""
-        reel = np.zeros(trace.end, np.uint64)
+        pool = np.zeros(trace.end, np.uint64)
         for signal in trace.signals:
             if match := OUTPUT.fullmatch(signal.name):
-                reel |= dense(trace, signal.name).astype(np.uint64) << np.uint64(WIDEST_BITS * int(match[1]))
-        return cls(without_outputs(trace), trace.signals, reel, (Tape.whole(0, trace.end),))
+                pool |= dense(trace, signal.name).astype(np.uint64) << np.uint64(WIDEST_BITS * int(match[1]))
+        return cls(without_outputs(trace), trace.signals, pool, (Tape.whole(0, trace.end),))
 
     def like(self, other: "Segments") -> bool:
         """Whether both tell of the same run, whatever their slices and headers are."""
         same_rest = replace(self.rest, header=other.rest.header, trailer=other.rest.trailer) == other.rest
-        alike = self.reel.dtype == other.reel.dtype and len(self.tapes) == len(other.tapes)
-        same_slices = alike and np.array_equal(self.reel, other.reel) and all(map(Tape.same, self.tapes, other.tapes))
+        alike = self.pool.dtype == other.pool.dtype and len(self.tapes) == len(other.tapes)
+        same_slices = alike and np.array_equal(self.pool, other.pool) and all(map(Tape.same, self.tapes, other.tapes))
         return same_rest and (same_slices or self.checksum == other.checksum)
 
     @property
@@ -60,7 +60,7 @@ class Segments:
 
     def images(self, first: int, end: int) -> Images:
         """The images of ticks first..end-1."""
-        return images(self.reel, self.tapes, np.empty(end - first, self.reel.dtype), first)
+        return images(self.pool, self.tapes, np.empty(end - first, self.pool.dtype), first)
 
     def image_at(self, tick: int) -> int:
         """The image in a tick."""
@@ -98,7 +98,7 @@ class Segments:
         rows = self.rest.ticks < end
         columns = self.rest.ticks[rows], self.rest.signal[rows], self.rest.values[rows]
         rest = Trace(self.rest.header, self.rest.signals, *columns, end, self.rest.trailer)
-        return Segments(rest, self.signals, self.reel, tuple(tape.up_to(end) for tape in self.tapes))
+        return Segments(rest, self.signals, self.pool, tuple(tape.up_to(end) for tape in self.tapes))
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:

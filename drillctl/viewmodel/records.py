@@ -46,7 +46,7 @@ class Outcome:
     position: Mapping[str, int]
     position_known: bool
     lost_steps: Mapping[str, int] | None
-    starved: int
+    underruns: int
     fault: FaultReport | None
     late_count: int = 0
     late_greatest_ms: float = 0.0
@@ -72,7 +72,7 @@ class Outcome:
             "position_known": self.position_known,
             "lost_steps": None if self.lost_steps is None else dict(self.lost_steps),
             "late": {"count": self.late_count, "greatest_ms": self.late_greatest_ms},
-            "starved": self.starved,
+            "starved": self.underruns,
             "interrupted": self.interrupted,
             "fault": fault and fault.as_dict(),
         }

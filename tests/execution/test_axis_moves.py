@@ -45,7 +45,7 @@ def place(axis: Axis, node: Node, case: Case) -> None:
     """The axis in mid-move, just after the step that led to this node."""
     axis.position, axis.target = 0, node.to_go * case.direction
     axis.state, axis.braked = node.state * case.direction, node.braked
-    axis.direction, axis.floor, axis.count = case.direction, case.floor, 0
+    axis.direction, axis.min_interval, axis.count = case.direction, case.floor, 0
     axis.wait = max(axis.interval[axis.state], case.floor)
     axis.counting = True
 
@@ -110,7 +110,7 @@ def test_from_eight_steps_on_a_move_of_the_paper_takes_its_steps_and_21_ticks() 
 @pytest.mark.parametrize("distance", INTERVALS)
 def test_the_papers_intervals(distance: int, columns_per_step: int, way: int) -> None:
     axis = lone_axis("seven-state", columns_per_step)
-    axis.aim(distance * way, 0)
+    axis.set_target(distance * way, 0)
     waited = [step.ticks for step in steps_to_rest(axis)]
     assert waited == [columns_per_step * interval for interval in INTERVALS[distance]]
 
@@ -121,7 +121,7 @@ def test_whole_moves_tick_by_tick_there_and_back(ramp: str) -> None:
     axis = lone_axis(ramp)
     for distance in (*range(1, 41), 100, 999, 1000, 5000):
         for target in (distance, 0, -distance, 0):
-            axis.aim(target, 0)
+            axis.set_target(target, 0)
             steps = list(steps_to_rest(axis))
             assert (axis.position, axis.state, len(steps)) == (target, 0, distance)
             assert abs(steps[-1].state) <= 1
@@ -130,7 +130,7 @@ def test_whole_moves_tick_by_tick_there_and_back(ramp: str) -> None:
 @pytest.mark.parametrize("invert", [False, True])
 def test_columns_are_put_out_in_the_tables_order(invert: bool) -> None:
     axis = lone_axis("seven-state", invert=invert)
-    axis.aim(30, 0)
+    axis.set_target(30, 0)
     columns = []
     while axis.counting:
         next_step(axis)
@@ -141,7 +141,7 @@ def test_columns_are_put_out_in_the_tables_order(invert: bool) -> None:
 
 def test_no_move_needs_no_tick() -> None:
     axis = lone_axis("seven-state")
-    axis.aim(0, 0)
+    axis.set_target(0, 0)
     assert not axis.counting
 
 
@@ -151,7 +151,7 @@ def test_every_distance_tick_by_tick(way: int) -> None:
     """The exhaustive test above once more, each move run whole: some 27 million ticks."""
     for distance in range(1, LONGEST_STEPS + 1):
         axis = lone_axis("seven-state")
-        axis.aim(distance * way, 0)
+        axis.set_target(distance * way, 0)
         ticks = 0
         while axis.counting:
             axis.interrupt()

@@ -22,7 +22,7 @@ def both_ways(test: Callable[..., None]) -> Callable[..., None]:
 
 def started(ramp: str, way: int, columns_per_step: int = 1) -> Axis:
     axis = lone_axis(ramp, columns_per_step)
-    axis.aim(MOVE_STEPS[ramp] * way, 0)
+    axis.set_target(MOVE_STEPS[ramp] * way, 0)
     return axis
 
 
@@ -47,7 +47,7 @@ def check_to_rest(axis: Axis) -> None:
         assert step.after * step.direction >= 0
         last = step
     assert axis.position == axis.target
-    assert axis.state == axis.part == 0
+    assert axis.state == axis.column_in_step == 0
     assert last is None or abs(last.state) <= 1
 
 
@@ -69,7 +69,7 @@ def test_a_new_target_at_every_tick_of_a_move(ramp: str, way: int, place: str) -
     for choice in range(kinds):
         for axis in moves_cut_at_every_tick(ramp, way):
             target = new_targets(axis, way)[place][choice]
-            axis.aim(target, 0)
+            axis.set_target(target, 0)
             check_to_rest(axis)
             assert axis.position == target
 
@@ -78,7 +78,7 @@ def test_a_new_target_at_every_tick_of_a_move(ramp: str, way: int, place: str) -
 def test_a_new_target_between_the_columns_of_a_step(columns_per_step: int) -> None:
     for target in (-5, -1, 0, 1, 3, 20):
         for axis in moves_cut_at_every_tick("seven-state", 1, columns_per_step):
-            axis.aim(target, 0)
+            axis.set_target(target, 0)
             check_to_rest(axis)
             assert axis.position == target
 
@@ -88,11 +88,11 @@ def test_two_new_targets_one_after_the_other(ramp: str, way: int) -> None:
     """The second comes while the axis brakes for, waits at, or comes back from the first."""
     for wait in range(0, 40, 3):
         for axis in moves_cut_at_every_tick(ramp, way):
-            axis.aim(axis.position - way * 4, 0)
+            axis.set_target(axis.position - way * 4, 0)
             for _ in range(wait):
                 if axis.counting:
                     axis.interrupt()
-            axis.aim(way * 9, 0)
+            axis.set_target(way * 9, 0)
             check_to_rest(axis)
             assert axis.position == way * 9
 
@@ -127,7 +127,7 @@ def test_a_hold_between_the_columns_of_a_step_ends_on_a_whole_step(columns_per_s
     for axis in moves_cut_at_every_tick("seven-state", 1, columns_per_step):
         axis.hold()
         list(steps_to_rest(axis))
-        assert axis.part == 0
+        assert axis.column_in_step == 0
         assert axis.travelled == axis.position * columns_per_step
         axis.resume()
         check_to_rest(axis)
@@ -137,10 +137,10 @@ def test_a_hold_between_the_columns_of_a_step_ends_on_a_whole_step(columns_per_s
 def test_giving_up_at_every_tick_makes_the_resting_place_the_target(ramp: str, way: int) -> None:
     for axis in moves_cut_at_every_tick(ramp, way):
         state, position = abs(axis.state), axis.position
-        axis.give_up()
+        axis.ramp_down()
         list(steps_to_rest(axis))
         assert axis.position == axis.target == position + way * state
-        axis.aim(0, 0)
+        axis.set_target(0, 0)
         check_to_rest(axis)
         assert axis.position == 0
 
@@ -149,7 +149,7 @@ def test_a_new_target_in_state_0_restarts_the_count() -> None:
     axis = started("seven-state", 1)
     for _ in range(5):
         axis.interrupt()
-    axis.aim(3, 0)
+    axis.set_target(3, 0)
     assert next_step(axis).ticks == 7
 
 
@@ -157,7 +157,7 @@ def test_a_new_target_in_motion_keeps_the_count() -> None:
     axis = started("seven-state", 1)
     for _ in range(7 + 2):
         axis.interrupt()
-    axis.aim(3, 0)
+    axis.set_target(3, 0)
     assert next_step(axis).ticks == 4 - 2
 
 
@@ -176,7 +176,7 @@ def test_a_new_target_lifts_the_ban_on_accelerating() -> None:
     while not axis.braked:
         next_step(axis)
     state = axis.state
-    axis.aim(axis.position + 50, 0)
+    axis.set_target(axis.position + 50, 0)
     next_step(axis)
     assert axis.state == state + 1
 
@@ -194,7 +194,7 @@ def test_a_resume_lifts_the_ban_on_accelerating() -> None:
 @pytest.mark.parametrize("floor", [2, 4, 7, 20])
 def test_a_new_target_under_another_floor_in_motion(floor: int) -> None:
     for axis in moves_cut_at_every_tick("seven-state", 1):
-        axis.aim(-6, floor)
+        axis.set_target(-6, floor)
         check_to_rest(axis)
         assert axis.position == -6
 
@@ -202,11 +202,11 @@ def test_a_new_target_under_another_floor_in_motion(floor: int) -> None:
 def test_waiting_in_state_0_in_mid_move_keeps_the_forcing_bits() -> None:
     waits_with_forcing = 0
     for axis in moves_cut_at_every_tick("seven-state", 1):
-        axis.aim(axis.position - 5, 0)
+        axis.set_target(axis.position - 5, 0)
         while axis.direction > 0 and axis.counting:
             next_step(axis)
         hot = axis.bits
-        waits_with_forcing += hot != axis.cold
+        waits_with_forcing += hot != axis.hold_bits
         for _ in range(6):
             axis.interrupt()
             assert (axis.bits, axis.cooling) == (hot, False)

@@ -120,7 +120,7 @@ def test_the_decoder_itself_sees_what_is_wrong() -> None:
 
 def test_a_drop_in_mid_pulse_still_is_one_whole_pulse() -> None:
     b = Bench(shipped("eight-axis")).queue("KMD_RUCHd x=9")
-    b.until(lambda: b.m.axes[0].part == 1)
+    b.until(lambda: b.m.axes[0].column_in_step == 1)
     b.ask(Request.ESTOP).tick(3).ask(Request.ACK).tick(2).queue("KMD_RUCHd x=-4")
     b.finish()
     recount = of_shipped("eight-axis")[0].recount(b.images, Watch())

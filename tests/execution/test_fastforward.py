@@ -86,7 +86,7 @@ def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
     machine = LIBRARY.machine(name)
     fast = FastTicker.ideal(machine)
     fast.queue.put(parse_program(BOARD, names_of(machine)))
-    ticked = [course for course in fast.courses() if course is None]
+    ticked = [batch for batch in fast.batches() if batch is None]
     moves_the_head_too = len(machine.axes) == 2
     assert len(ticked) <= (1 + 2 * len(HOLES) if moves_the_head_too else 5)
     assert len(fast.touched) == len(HOLES)
@@ -145,7 +145,7 @@ def test_a_table_that_the_rotor_can_not_follow_is_ticked() -> None:
     machine = replace(plain, axes=(replace(x, phase=replace(x.phase, wires=wires)), *plain.axes[1:]))
     fast = check(machine, "KMD_GOTOdXdY 100 0\nKMD_GOTOdXdY -33 5", {}, 10**9)
     fast.queue.put(parse_program("KMD_GOTOdXdY 5 0", names_of(machine)))
-    assert all(course is None for course in fast.courses())
+    assert all(batch is None for batch in fast.batches())
 
 
 def test_two_engines_in_two_processes_give_the_same_bytes(tmp_path: Path) -> None:

@@ -87,7 +87,7 @@ def test_a_job_that_starves_does_not_keep_the_windings_forced() -> None:
     b.tick(HOT_TICK + 1)
     assert b.images[-1] & b.forcing("x")
     b.tick()
-    assert (b.m.starved, b.m.tick) == (1, HOT_TICK + 1)
+    assert (b.m.underruns, b.m.tick) == (1, HOT_TICK + 1)
     assert b.images[-1] == b.bits("x", "1a", "2a")
 
 
@@ -95,7 +95,7 @@ def test_a_table_of_its_own_for_backward_rests_on_the_column_that_was_put_out() 
     """A new direction is known before the first step that way; what rests is still the old column."""
     b = bench("KMD_RUCHd x=2; KMD_RUCHd x=-2")
     axis = b.m.axes[0]
-    axis.resting = ((), axis.resting[1], tuple(0 for _ in axis.resting[1]))
+    axis.hold_patterns = ((), axis.hold_patterns[1], tuple(0 for _ in axis.hold_patterns[1]))
     b.until(lambda: b.m.done == 1)
     b.tick(2)
     assert b.images[-1] == b.bits("x", "1a", "2a")

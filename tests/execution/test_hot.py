@@ -59,8 +59,8 @@ def test_whatever_wires_are_switched_on_nothing_that_burns_is_left(name: str) ->
         by_hand(b, *((bit, 1) for bit in wires[first : first + 16]))
     b.tick(HZ + len(wires))
     for axis in b.m.axes:
-        assert not axis.cold & axis.forcing
-        assert not any(axis.cold & pair == pair for pair in axis.halves)
+        assert not axis.hold_bits & axis.forcing
+        assert not any(axis.hold_bits & pair == pair for pair in axis.halves)
 
 
 def test_switched_off_and_on_again_it_has_its_second_anew() -> None:

@@ -61,7 +61,7 @@ def check_inside(b: Bench) -> None:
 def check_at_rest(outcome: Run) -> None:
     b = outcome.bench
     assert b.ticker.over()
-    assert not any(axis.counting or axis.state or axis.led or axis.cut or axis.held for axis in b.m.axes)
+    assert not any(axis.counting or axis.state or axis.follower or axis.stopping or axis.feed_hold for axis in b.m.axes)
     assert all(axis.line is None for axis in b.m.axes)
     assert all(abs(lost) == 0 for lost in b.ticker.lost_steps())
     assert (b.m.condition == Condition.LATCHED) == (b.m.fault != Fault.NONE)
@@ -104,11 +104,11 @@ def test_holds_change_nothing_but_time(name: str, program: str, holds: list[tupl
 def test_no_input_makes_a_tick_raise(name: str, program: str, noise: list[tuple[int, int, int]]) -> None:
     """Sensors that say anything at any time, and requests in any order."""
     b = Bench(shipped(name)).queue(f"KMD_INICJALIZACJA\n{program}")
-    before = b.m.tick + b.m.starved
+    before = b.m.tick + b.m.underruns
     for stuck, ticks, request in noise:
         b.card.stuck_high, b.card.stuck_low = stuck, ~stuck
         b.tick(ticks)
         if request:
             b.ask(Request(request))
-    assert b.m.tick + b.m.starved - before == sum(ticks for _, ticks, _ in noise)
+    assert b.m.tick + b.m.underruns - before == sum(ticks for _, ticks, _ in noise)
     assert b.m.image == (b.images[-1] if b.images else 0)

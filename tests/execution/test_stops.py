@@ -172,7 +172,7 @@ def test_a_real_machine_stopped_by_a_gap_keeps_its_position_from_states_0_and_1(
 
 def test_a_machine_that_holds_between_the_columns_of_a_step_has_lost_its_place() -> None:
     b = Bench(replace(shipped("pcb-drill-ramp-lab"), emergency_stop="hold")).ready().queue("KMD_RUCHd x=20")
-    b.until(lambda: b.m.axes[0].part == 3)
+    b.until(lambda: b.m.axes[0].column_in_step == 3)
     b.ask(Request.ESTOP).tick()
     assert (b.m.position_known, b.m.fault_kept) == (False, False)
 
@@ -180,7 +180,7 @@ def test_a_machine_that_holds_between_the_columns_of_a_step_has_lost_its_place()
 def test_a_drive_that_is_halted_in_its_pulse_has_made_the_step() -> None:
     b = Bench(replace(shipped("eight-axis"), emergency_stop="hold")).ready().queue("KMD_RUCHd x=20")
     x = b.m.axes[0]
-    b.until(lambda: x.part == 1 and x.position > 0)
+    b.until(lambda: x.column_in_step == 1 and x.position > 0)
     assert x.state == 1
     b.ask(Request.ESTOP).tick(3)
     assert b.m.position_known
@@ -212,11 +212,11 @@ def test_the_job_starves_and_the_ticks_stand_still() -> None:
     b = ready().queue("KMD_CZEKAJ 3", end=False)
     before = b.m.tick
     b.tick(3)
-    assert (b.m.tick - before, b.m.starved) == (3, 0)
+    assert (b.m.tick - before, b.m.underruns) == (3, 0)
     b.tick(40)
-    assert (b.m.tick - before, b.m.starved) == (3, 40)
+    assert (b.m.tick - before, b.m.underruns) == (3, 40)
     b.queue("KMD_KONIEC").tick(10)
-    assert (b.m.tick - before, b.m.starved, b.m.job) == (13, 40, False)
+    assert (b.m.tick - before, b.m.underruns, b.m.job) == (13, 40, False)
 
 
 @pytest.mark.parametrize(
@@ -238,4 +238,4 @@ def test_without_a_job_ticks_go_on() -> None:
     b = ready()
     before = b.m.tick
     b.tick(25)
-    assert (b.m.tick - before, b.m.starved) == (25, 0)
+    assert (b.m.tick - before, b.m.underruns) == (25, 0)

@@ -118,8 +118,8 @@ def test_nothing_that_the_card_shows_after_the_latch_is_seen_in_that_tick() -> N
     b.until(lambda: bool(b.card.plant.inputs & b.input_bit("z_bottom")))
     z = b.m.axes[2]
     at_edge = z.position
-    assert (z.cut, z.state) == (False, 3)
+    assert (z.stopping, z.state) == (False, 3)
     b.tick()
-    assert z.cut
+    assert z.stopping
     b.finish()
     assert z.position == at_edge + 3

@@ -50,7 +50,7 @@ class WatchedCard(SimulatedCard):
 
 
 class Bench:
-    """A machine, its controller ``m``, its ``card``; ``images[n]`` is what tick n put out (no starved wakes)."""
+    """A machine, its controller ``m``, its ``card``; ``images[n]`` is what tick n put out (no wakes of an underrun)."""
 
     def __init__(self, machine: Machine, traced: bool = False):
         self.machine = machine

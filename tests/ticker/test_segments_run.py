@@ -60,7 +60,7 @@ def test_the_verdict_is_the_text_forms(tmp_path: Path) -> None:
     run(SQUARE, "--trace", str(file))
     kept = read_segments(file)
     wrong = Segments(kept.rest, kept.signals, kept.images(0, kept.end), Segments.of_trace(kept.trace()).tapes)
-    wrong.reel[5000] ^= 1
+    wrong.pool[5000] ^= 1
     file.write_bytes(segment_bytes(wrong))
     difference = replay(file, LIBRARY).difference
     assert difference is not None and difference.tick == 5000

@@ -20,7 +20,7 @@ from drillctl.trace import (
     segment_bytes,
 )
 from drillctl.trace.segment_file import COUNT, MAGIC, SUMS
-from drillctl.trace.tapes import LAP, ImagePool, Tape, images
+from drillctl.trace.tapes import PERIOD, ImagePool, Tape, images
 
 SIGNALS = (
     Signal("in.0", "word", True),
@@ -67,30 +67,30 @@ def test_commands_that_are_numbered_otherwise_keep_their_numbers(tmp_path: Path)
 
 @settings(max_examples=100, deadline=None)
 @given(
-    slices=st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3 * LAP)), max_size=12),
+    slices=st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3 * PERIOD)), max_size=12),
     window=st.tuples(st.floats(0, 1), st.floats(0, 1)),
 )
 def test_tapes_against_arrays(slices: list[tuple[int, int]], window: tuple[float, float]) -> None:
     """Steady images 0 and 5, a strip that goes round, and one that doesn't."""
-    reel = ImagePool(np.uint32)
-    round_about, once = np.tile(np.arange(1, 8), 2 * LAP // 7 + 2), np.arange(100)
-    kinds = [(reel.steady(0), LAP), (reel.steady(5), LAP)]
-    kinds += [(reel.add(round_about), 7 * (LAP // 7 + 1)), (reel.add(once), LAP + 1)]
+    pool = ImagePool(np.uint32)
+    round_about, once = np.tile(np.arange(1, 8), 2 * PERIOD // 7 + 2), np.arange(100)
+    kinds = [(pool.steady(0), PERIOD), (pool.steady(5), PERIOD)]
+    kinds += [(pool.add(round_about), 7 * (PERIOD // 7 + 1)), (pool.add(once), PERIOD + 1)]
     wanted = []
-    start, ticks, lap = [], [], []
+    start, ticks, period = [], [], []
     for kind, length in slices:
         shown = min(length, 100) if kind == 3 else length
         start.append(kinds[kind][0])
         ticks.append(shown)
-        lap.append(kinds[kind][1])
+        period.append(kinds[kind][1])
         wanted.append([np.zeros(shown), np.full(shown, 5), np.arange(shown) % 7 + 1, once[:shown]][kind])
     whole = np.concatenate([np.zeros(0), *wanted]).astype(np.uint32)
     if not len(whole):
         return
-    tape = Tape.of(*(np.array(column, np.int64) for column in (start, ticks, lap)))
+    tape = Tape.of(*(np.array(column, np.int64) for column in (start, ticks, period)))
     first, end = sorted(int(part * (len(whole) - 1)) for part in window)
-    lamp = Tape.steady(reel.steady(1 << 31), len(whole))
-    out = images(reel.images, [tape, lamp], np.empty(end + 1 - first, np.uint32), first)
+    lamp = Tape.steady(pool.steady(1 << 31), len(whole))
+    out = images(pool.images, [tape, lamp], np.empty(end + 1 - first, np.uint32), first)
     assert np.array_equal(out, whole[first : end + 1] | np.uint32(1 << 31))
 
 
@@ -104,9 +104,9 @@ def test_a_file_cut_short_is_refused(tmp_path: Path, cut: int) -> None:
 
 def test_an_image_that_was_changed_is_noticed(tmp_path: Path) -> None:
     segments = Segments.of_trace(Trace.of_changes([], SIGNALS, [0], [1], [7], 50))
-    checksum, reel = segments.checksum, segments.reel.copy()
-    reel[25] ^= 1
-    other = Segments(segments.rest, segments.signals, reel, segments.tapes)
+    checksum, pool = segments.checksum, segments.pool.copy()
+    pool[25] ^= 1
+    other = Segments(segments.rest, segments.signals, pool, segments.tapes)
     assert other.checksum != checksum and not other.like(segments)
     object.__setattr__(other, "checksum", checksum)  # as a file that was tampered with says
     (tmp_path / "a.seg").write_bytes(segment_bytes(other))

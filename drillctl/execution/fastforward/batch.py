@@ -1,6 +1,6 @@
 """Commands that were foreseen: how long each takes, what is seen meanwhile, what every axis puts out.
 
-Rule: a course says and changes nothing; engine.py makes it and leaves the machine at its end. Ticks count from its
+Rule: a batch says and changes nothing; engine.py makes it and leaves the machine at its end. Ticks count from its
 beginning. What costs more than the foreseeing (``tapes``) is made only where somebody asks.
 """
 
@@ -15,14 +15,14 @@ from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.axis_batch import AxisBatch
 from drillctl.execution.fastforward.strokes import COUNTERS, MOTION, POSITION, REMEMBERED, Place, Stroke
 from drillctl.execution.fastforward.world import PlantFacts
-from drillctl.trace.tapes import LAP, Count, ImagePool, Tape
+from drillctl.trace.tapes import PERIOD, Count, ImagePool, Tape
 
 Touch = tuple[int, int, tuple[float, ...]]  # tool, tag of the hole begun, places of all axes in steps
 
 
 @dataclass(frozen=True, eq=False)
 class Stroked:
-    """The strokes of a course: in the commands ``rows`` (k,) the kind ``which`` (k,), from the place ``begin`` on."""
+    """The strokes of a batch: in the commands ``rows`` (k,) the kind ``which`` (k,), from the place ``begin`` on."""
 
     heads: tuple[int, ...]
     begin: Place
@@ -41,18 +41,18 @@ class Stroked:
         """A value for each kind as one for each stroke, (k,)."""
         return np.array(values, np.int64)[self.which]
 
-    def tape(self, reel: ImagePool, number: int, ticks: Count) -> Tape:
+    def tape(self, pool: ImagePool, number: int, ticks: Count) -> Tape:
         """What a head puts out, by its number: between strokes it rests where the last one left it."""
-        rests = [reel.steady(place.rests[number]) for place in (self.begin, *(kind.after for kind in self.kinds))]
+        rests = [pool.steady(place.rests[number]) for place in (self.begin, *(kind.after for kind in self.kinds))]
         strokes_before = np.cumsum(np.bincount(self.rows, minlength=len(ticks))) if len(self.rows) else 0 * ticks
         start = np.array(rests)[np.concatenate(([0], self.which + 1))][strokes_before]
-        lap = np.full(len(ticks), LAP)
+        period = np.full(len(ticks), PERIOD)
         start[self.rows] = self.of_kinds([kind.strips[number] for kind in self.kinds])
-        lap[self.rows] = np.maximum(ticks[self.rows], LAP + 1)
-        return Tape.of(start, ticks, lap)
+        period[self.rows] = np.maximum(ticks[self.rows], PERIOD + 1)
+        return Tape.of(start, ticks, period)
 
     def motion(self, number: int, starts: Count) -> Count:
-        """What a head does, by its number, as Journey.motion has it."""
+        """What a head does, by its number, as AxisBatch.motion has it."""
         parts = [np.array([[-1, *self.begin.motion(number)]], np.int64).T]
         for which, kind in enumerate(self.kinds):
             begins = starts[self.rows[self.which == which]]
@@ -85,7 +85,7 @@ class Batch:
     """n commands, at least one.
 
     commands  dtype kmd.RECORD (n,); ``ticks`` int64 (n,) of each
-    journeys  by axis; None where the axis is a head and ``stroked`` says what it does
+    axis_batches  by axis; None where the axis is a head and ``stroked`` says what it does
     switched  (n,) output bits that are no axis's, during each command
     tools     (n,) the tool in hand, ``holes`` (n,) the hole begun, in each command
     inputs_before  the input image that the first tick latches; ``still_inputs`` the part that no stroke changes
@@ -93,7 +93,7 @@ class Batch:
 
     commands: NDArray[np.void]
     ticks: Count
-    journeys: Sequence[AxisBatch | None]
+    axis_batches: Sequence[AxisBatch | None]
     stroked: Stroked
     switched: NDArray[np.uint64]
     tools: Count
@@ -131,7 +131,7 @@ class Batch:
             rows = self.stroked.rows[self.stroked.which == number]
             for offset, head_places in kind.touches:
                 begins, tools, holes = (each[rows].tolist() for each in (self.starts, self.tools, self.holes))
-                places = [j.position[rows].astype(float) if j is not None else None for j in self.journeys]
+                places = [j.position[rows].astype(float) if j is not None else None for j in self.axis_batches]
                 for head, place in zip(self.stroked.heads, head_places, strict=True):
                     places[head] = np.full(len(rows), place)
                 by_row = zip(*(each.tolist() for each in places if each is not None), strict=True)
@@ -142,21 +142,21 @@ class Batch:
 
     def motion(self, index: int) -> Count:
         """Tick, column (from 0), position and state of an axis in tick 0 and wherever they may change, (4, k)."""
-        journey = self.journeys[index]
-        if journey is None:
+        axis_batch = self.axis_batches[index]
+        if axis_batch is None:
             motion = self.stroked.motion(self.stroked.heads.index(index), self.starts)
         else:
-            motion = journey.motion(self.starts)
+            motion = axis_batch.motion(self.starts)
         motion[0, 0] = 0
         at_once = motion.shape[1] > 1 and motion[0, 1] == 0
         return motion[:, 1:] if at_once else motion
 
-    def tapes(self, reel: ImagePool) -> list[Tape]:
-        """What each axis puts out, then the switched outputs: tapes from this reel, all as long as the course."""
+    def tapes(self, pool: ImagePool) -> list[Tape]:
+        """What each axis puts out, then the switched outputs: tapes from this pool, all as long as the batch."""
         tapes = [
-            self.stroked.tape(reel, self.stroked.heads.index(index), self.ticks)
-            if journey is None else Tape.of(*map(np.ravel, journey.slices(reel, self.ticks)))
-            for index, journey in enumerate(self.journeys)
+            self.stroked.tape(pool, self.stroked.heads.index(index), self.ticks)
+            if axis_batch is None else Tape.of(*map(np.ravel, axis_batch.slices(pool, self.ticks)))
+            for index, axis_batch in enumerate(self.axis_batches)
         ]  # fmt: skip
-        switched = np.array([reel.steady(image) for image in self.switched.tolist()])
-        return [*tapes, Tape.of(switched, self.ticks, np.full(len(switched), LAP))]
+        switched = np.array([pool.steady(image) for image in self.switched.tolist()])
+        return [*tapes, Tape.of(switched, self.ticks, np.full(len(switched), PERIOD))]

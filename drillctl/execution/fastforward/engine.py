@@ -1,6 +1,6 @@
 """Takes the machine through commands that can be foreseen, and leaves it as if it had ticked through them.
 
-Rule: the caller takes the commands out of the queue, and lets tick do what ``course`` doesn't. A stroke of the heads
+Rule: the caller takes the commands out of the queue, and lets tick do what ``batch`` doesn't. A stroke of the heads
 that tick does for the first time is recorded.
 """
 
@@ -18,17 +18,17 @@ from drillctl.kmd import Condition, Op
 from drillctl.trace.tapes import ImagePool
 
 DTYPES = {1: np.uint32, 2: np.uint64}  # of an output image, by cards
-LARGEST_REEL = 1 << 25  # words
+LARGEST_POOL = 1 << 25  # words
 
 
 class Engine:
-    """Foresees for one controller. ``reel`` holds all that its courses put out."""
+    """Foresees for one controller. ``pool`` holds all that its batches put out."""
 
-    def __init__(self, m: Controller, world: PlantFacts, reel: ImagePool | None = None):
+    def __init__(self, m: Controller, world: PlantFacts, pool: ImagePool | None = None):
         self._m, self._world = m, world
-        self.reel = reel or ImagePool(DTYPES.get(m.machine.cards, np.uint64))
-        self._strokes = Strokes(m, world, self.reel)
-        self._strides: dict[tuple[int, int, int], MoveProfile] = {}
+        self.pool = pool or ImagePool(DTYPES.get(m.machine.cards, np.uint64))
+        self._strokes = Strokes(m, world, self.pool)
+        self._profiles: dict[tuple[int, int, int], MoveProfile] = {}
 
     @property
     def between(self) -> bool:
@@ -43,45 +43,45 @@ class Engine:
         sensors = (self._world.inputs ^ m.polarity) & m.sensor_mask
         return (
             m.machine.cards in DTYPES
-            and len(self.reel.images) < LARGEST_REEL
+            and len(self.pool.images) < LARGEST_POOL
             and all(_rests(axis) for axis in m.axes)
             and all(self._world.stands(index, _travel(axis)) for index, axis in enumerate(m.axes))
             and not any(sensors & pair == pair for pair in m.pairs)
         )
 
-    def course(self, commands: NDArray[np.void]) -> Batch | None:
+    def foresee(self, commands: NDArray[np.void]) -> Batch | None:
         """As many of the commands, dtype RECORD (n,), as can be foreseen; None where tick must have the first.
 
         Asked ``between`` two commands only.
         """
         if not len(commands) or not self._sees():
             return None
-        return foresee(self._m, self._world, self._strokes, self._stride, commands)
+        return foresee(self._m, self._world, self._strokes, self._profile, commands)
 
-    def leave(self, course: Batch) -> None:
-        """The machine and the plant after a course."""
-        for index, journey in enumerate(course.journeys):
-            if journey is not None:
-                journey.leave(course.ticks)
-                if journey.steps.any():
+    def leave(self, batch: Batch) -> None:
+        """The machine and the plant after a batch."""
+        for index, axis_batch in enumerate(batch.axis_batches):
+            if axis_batch is not None:
+                axis_batch.leave(batch.ticks)
+                if axis_batch.steps.any():
                     self._world.follow(index, _travel(self._m.axes[index]))
-        course.stroked.leave(self._m, self._world, len(course.commands) - 1)
-        self._leave_controller(course)
-        self._world.settle(self._m.image, len(course.touches()))
+        batch.stroked.leave(self._m, self._world, len(batch.commands) - 1)
+        self._leave_controller(batch)
+        self._world.settle(self._m.image, len(batch.touches()))
 
-    def _leave_controller(self, course: Batch) -> None:
-        m, last = self._m, course.commands[-1]
+    def _leave_controller(self, batch: Batch) -> None:
+        m, last = self._m, batch.commands[-1]
         m.command.load(last)
         m.running = m.done = m.command.sequence
         m.job = m.command.opcode != Op.KONIEC
-        m.elapsed = int(course.ticks[-1])
-        m.tick += course.end
+        m.elapsed = int(batch.ticks[-1])
+        m.tick += batch.end
         m.late = m.served = 0
-        m.inputs = int(course.inputs()[1][-1])
+        m.inputs = int(batch.inputs()[1][-1])
         m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
-        m.switched = int(course.switched[-1])
-        m.tool, m.hole_begun = int(course.tools[-1]), int(course.holes[-1])
-        m.holes_done += int(((course.commands["opcode"] == Op.WIERTLO_DOL) & (course.commands["tag"] > 0)).sum())
+        m.switched = int(batch.switched[-1])
+        m.tool, m.hole_begun = int(batch.tools[-1]), int(batch.holes[-1])
+        m.holes_done += int(((batch.commands["opcode"] == Op.WIERTLO_DOL) & (batch.commands["tag"] > 0)).sum())
         m.image = m.switched
         for axis in m.axes:
             m.image |= axis.bits
@@ -92,19 +92,20 @@ class Engine:
             return None
         return Recording(self._m, self._world, self._strokes, signatures(command)[0])
 
-    def _stride(self, index: int, direction: int, floor: int) -> MoveProfile:
-        key = index, direction, floor
-        if key not in self._strides:
-            self._strides[key] = MoveProfile(self._m.axes[index], direction, floor)
-        return self._strides[key]
+    def _profile(self, index: int, direction: int, min_interval: int) -> MoveProfile:
+        key = index, direction, min_interval
+        if key not in self._profiles:
+            self._profiles[key] = MoveProfile(self._m.axes[index], direction, min_interval)
+        return self._profiles[key]
 
 
 def _rests(axis: Axis) -> bool:
     """Nothing is left of a move, a line or a stop; and a drive's direction wire is a wire as any other at rest."""
-    alike = not axis.drive or axis.shown == axis.resting
-    return alike and not (axis.counting or axis.state or axis.part or axis.line or axis.held or axis.cut or axis.led)
+    alike = not axis.drive or axis.drive_patterns == axis.hold_patterns
+    moves = axis.counting or axis.state or axis.column_in_step
+    return alike and not (moves or axis.line or axis.feed_hold or axis.stopping or axis.follower)
 
 
 def _travel(axis: Axis) -> int:
     """Columns since power-up, as the wires have it."""
-    return axis.travelled * axis.sense
+    return axis.travelled * axis.direction_sign

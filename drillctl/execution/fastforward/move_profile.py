@@ -1,8 +1,8 @@
-"""All moves of one axis in one direction under one floor: how long each takes, and what it puts out.
+"""All moves of one axis in one direction under one least interval: how long each takes, and what it puts out.
 
 Rule: the ramp's own walk says the intervals; beyond the distance from which head and tail of a move don't touch, one
-step more is one cruising step more in its middle. So a move is three slices of the reel: head, cruise, tail, for every
-column that it may begin at. Made by journey.py, once for each axis, direction and floor that a job has.
+step more is one cruising step more in its middle. So a move is three slices of the pool: head, cruise, tail, for every
+column that it may begin at. Made by axis_batch.py, once for each axis, direction and least interval that a job has.
 """
 
 import numpy as np
@@ -10,23 +10,23 @@ from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
 from drillctl.machine.travel import cruising_state
-from drillctl.trace.tapes import LAP, Count, ImagePool
+from drillctl.trace.tapes import PERIOD, Count, ImagePool
 
-LONGEST_STRIP = 1 << 20  # words that the strips of one distance may take; a floor beyond that is left to tick
+LONGEST_STRIP = 1 << 20  # words that the strips of one distance may take; an interval beyond that is left to tick
 
 
 class MoveProfile:
     """Moves by distance, in steps of the controller (unsigned). ``first_wait`` ticks pass before the first column."""
 
-    def __init__(self, axis: Axis, direction: int, floor: int):
+    def __init__(self, axis: Axis, direction: int, min_interval: int):
         ramp, self._axis, self._columns = axis.ramp, axis, axis.columns_per_step
-        self._turn = direction * axis.sense
-        self._direction, self._floor = direction, floor
-        self.first_wait = max(axis.interval[0], floor)
-        state = direction * cruising_state(ramp, floor, direction)
-        self._pace = max(axis.interval[state], floor)
+        self._turn = direction * axis.direction_sign
+        self._direction, self._min_interval = direction, min_interval
+        self.first_wait = max(axis.interval[0], min_interval)
+        state = direction * cruising_state(ramp, min_interval, direction)
+        self._pace = max(axis.interval[state], min_interval)
         self._straight = ramp.straight_from()
-        walk = list(ramp.walk(direction * self._straight, floor))
+        walk = list(ramp.walk(direction * self._straight, min_interval))
         self._cruise = [made_in for _, made_in in walk].index(state)  # steps before the cruise begins
         self._split = self._cruise * self._columns
         self._short = np.array([sum(self._waits(d)) for d in range(self._straight + 1)], np.int64)
@@ -48,28 +48,28 @@ class MoveProfile:
         """The interval before the last column."""
         return self._last_wait[min(steps, self._straight)]
 
-    def slices(self, reel: ImagePool, steps: Count, column: Count) -> tuple[Count, Count, Count]:
-        """Start, ticks and lap of head, cruise and tail of moves (n,) beginning at columns (n,): each (n, 3).
+    def slices(self, pool: ImagePool, steps: Count, column: Count) -> tuple[Count, Count, Count]:
+        """Start, ticks and period of head, cruise and tail of moves (n,) beginning at columns (n,): each (n, 3).
 
         They begin with the first column, ``first_wait - 1`` ticks after the move was taken.
         """
         axis, turn = self._axis, self._turn
         short = np.minimum(steps, self._straight)
         extra = (steps - short) * self._columns
-        begins, lengths = self._laid(reel, short)
+        begins, lengths = self._laid(pool, short)
         head = np.where(extra > 0, sum(self._waits(self._straight)[1 : self._split + 1]), lengths)
         start = np.zeros((len(steps), 3), np.int64)
-        ticks, lap = start.copy(), np.full_like(start, LAP + 1)
+        ticks, period = start.copy(), np.full_like(start, PERIOD + 1)
         start[:, 0] = begins + column * lengths
         ticks[:, 0] = head
         first = (column + turn * (self._split + 1)) % axis.length
-        start[:, 1] = self._cycle_start(reel) + (turn * first) % axis.length * self._pace
+        start[:, 1] = self._cycle_start(pool) + (turn * first) % axis.length * self._pace
         ticks[:, 1] = extra * self._pace
-        lap[:, 1] = self._cycle_lap
+        period[:, 1] = self._cycle_period
         start[:, 2] = begins + (column + turn * extra) % axis.length * lengths + head
         ticks[:, 2] = lengths - head
-        lap[:, (0, 2)] = np.maximum(lengths, LAP + 1)[:, None]
-        return start, ticks, lap
+        period[:, (0, 2)] = np.maximum(lengths, PERIOD + 1)[:, None]
+        return start, ticks, period
 
     def motion(self, steps: int) -> Count:
         """For each column of a move of so many steps: its tick, the columns and whole steps made, and the state then:
@@ -78,7 +78,7 @@ class MoveProfile:
         short = min(steps, self._straight)
         times = np.ones(short, np.int64)
         times[self._cruise : self._cruise + 1] += steps - short
-        walk = np.array([*self._axis.ramp.walk(self._direction * short, self._floor)])
+        walk = np.array([*self._axis.ramp.walk(self._direction * short, self._min_interval)])
         waits, states = np.repeat(walk, times, axis=0).T
         columns = np.arange(1, steps * self._columns + 1)
         made = columns // self._columns
@@ -87,36 +87,36 @@ class MoveProfile:
 
     def _waits(self, steps: int) -> list[int]:
         """Ticks before each column of a move."""
-        walk = self._axis.ramp.walk(self._direction * steps, self._floor)
+        walk = self._axis.ramp.walk(self._direction * steps, self._min_interval)
         return [interval for interval, _ in walk for _ in range(self._columns)]
 
-    def _laid(self, reel: ImagePool, short: Count) -> tuple[Count, Count]:
+    def _laid(self, pool: ImagePool, short: Count) -> tuple[Count, Count]:
         """Where the strips of these distances begin, those of the columns one after the other, and their length."""
         begins, lengths = np.zeros((2, self._straight + 1), np.int64)
         for steps in np.flatnonzero(np.bincount(short, minlength=1)).tolist():
             shown_for = [*self._waits(steps)[1:], 1]
             if steps not in self._strips:
-                self._strips[steps] = reel.add(self._images(np.repeat(np.arange(1, len(shown_for) + 1), shown_for)))
+                self._strips[steps] = pool.add(self._images(np.repeat(np.arange(1, len(shown_for) + 1), shown_for)))
             begins[steps], lengths[steps] = self._strips[steps], sum(shown_for)
         return begins[short], lengths[short]
 
     def _images(self, made: NDArray[np.int64]) -> list[int]:
         """For each column to begin at: the images after so many columns ``made``, tick by tick."""
         axis = self._axis
-        shown = np.array(axis.shown[self._turn], np.uint64)
+        shown = np.array(axis.drive_patterns[self._turn], np.uint64)
         columns = (np.arange(axis.length)[:, None] + self._turn * made) % axis.length
         return shown[columns].ravel()
 
-    def _cycle_start(self, reel: ImagePool) -> int:
+    def _cycle_start(self, pool: ImagePool) -> int:
         """A strip that goes round and round at cruising pace, from the table's first column."""
         if self._cycle < 0:
             round_about = self._turn * np.arange(self._axis.length) % self._axis.length
-            once = np.repeat(np.array(self._axis.shown[self._turn], np.uint64)[round_about], self._pace)
-            self._cycle = reel.add(np.tile(once, self._cycle_lap // len(once) + 1))
+            once = np.repeat(np.array(self._axis.drive_patterns[self._turn], np.uint64)[round_about], self._pace)
+            self._cycle = pool.add(np.tile(once, self._cycle_period // len(once) + 1))
         return self._cycle
 
     @property
-    def _cycle_lap(self) -> int:
-        """Whole rounds, LAP ticks or more, and never LAP itself: that is the mark of a steady image."""
-        period = self._axis.length * self._pace
-        return period * (LAP // period + 1)
+    def _cycle_period(self) -> int:
+        """Whole rounds, PERIOD ticks or more, and never PERIOD itself: that is the mark of a steady image."""
+        cycle = self._axis.length * self._pace
+        return cycle * (PERIOD // cycle + 1)

@@ -1,6 +1,6 @@
-"""How many of the commands that wait can be foreseen, and what course they make.
+"""How many of the commands that wait can be foreseen, and what batch they make.
 
-Rule: all are judged at once. The course ends before a command that is of another kind, or would be refused, or moves an
+Rule: all are judged at once. The batch ends before a command that is of another kind, or would be refused, or moves an
 axis to where a sensor answers, or is a stroke that nobody has seen yet. Called by engine.py.
 """
 
@@ -28,28 +28,29 @@ STILL = (Op.CZEKAJ, Op.PREDKOSC, Op.NARZEDZIE, Op.WYJSCIE, Op.WRZECIONO, Op.KONI
 
 Rows = NDArray[np.bool_]
 Records = NDArray[np.void]
-StrideOf = Callable[[int, int, int], MoveProfile]  # by axis, direction and floor
+ProfileOf = Callable[[int, int, int], MoveProfile]  # by axis, direction and min_interval
 
 
-def foresee(m: Controller, world: PlantFacts, strokes: Strokes, stride: StrideOf, commands: Records) -> Batch | None:
-    """The course of as many commands, dtype kmd.RECORD (n,), as can be foreseen; None where that is none."""
+def foresee(m: Controller, world: PlantFacts, strokes: Strokes, profile: ProfileOf, commands: Records) -> Batch | None:
+    """The batch of as many commands, dtype kmd.RECORD (n,), as can be foreseen; None where that is none."""
     stroked = _stroked(commands, strokes.heads) & m.position_known  # else it matters where a head was before
     commands = commands[: _beginning(_of_a_kind(m, commands, stroked, strokes.heads))]
     heads = strokes.heads if stroked.any() else ()
-    journeys = [
-        None if index in heads else _journey(m, index, partial(stride, index), commands) for index in range(len(m.axes))
-    ]
-    clear = [_clear(m, world, index, j) for index, j in enumerate(journeys) if j is not None]
+    axis_batches = [
+        None if index in heads else _axis_batch(m, index, partial(profile, index), commands)
+        for index in range(len(m.axes))
+    ]  # fmt: skip
+    clear = [_clear(m, world, index, j) for index, j in enumerate(axis_batches) if j is not None]
     commands = commands[: _beginning(np.logical_and.reduce([*clear, np.ones(len(commands), bool)]))]
     rows, known = _known(strokes, commands, np.flatnonzero(stroked[: len(commands)]))
     commands = commands[: rows[len(known)] if len(known) < len(rows) else len(commands)]
-    rows, made = rows[: len(known)], [j and j.upto(len(commands)) for j in journeys]
+    rows, made = rows[: len(known)], [j and j.upto(len(commands)) for j in axis_batches]
     if not len(commands) or not all(j is None or j.timed() for j in made):
         return None
     return Batch(
         commands=commands,
         ticks=_ticks(commands, made, rows, known),
-        journeys=made,
+        axis_batches=made,
         stroked=Stroked.of(heads, strokes.here(), rows, known),
         switched=_switched(m, commands),
         tools=_latest(commands["args"][:, 0], commands["opcode"] == Op.NARZEDZIE, m.tool),
@@ -88,35 +89,35 @@ def _of_a_kind(m: Controller, commands: Records, stroked: Rows, heads: Sequence[
     return (moves | stroked | still) & (commands["epoch"] == m.epoch)
 
 
-def _journey(m: Controller, index: int, strides: Callable[[int, int], MoveProfile], commands: Records) -> AxisBatch:
+def _axis_batch(m: Controller, index: int, profiles: Callable[[int, int], MoveProfile], commands: Records) -> AxisBatch:
     sent = np.isin(commands["opcode"], MOVES) & (commands["axes"] >> index & 1 > 0)
     absolute = commands["flags"] & Flag.ABSOLUTE > 0
-    given, floor = commands["args"][:, index].astype(np.int64), commands["floor_ticks"].astype(np.int64)
-    return AxisBatch.of(m.axes[index], strides, given, absolute, sent, floor)
+    given, min_interval = commands["args"][:, index].astype(np.int64), commands["floor_ticks"].astype(np.int64)
+    return AxisBatch.of(m.axes[index], profiles, given, absolute, sent, min_interval)
 
 
-def _clear(m: Controller, world: PlantFacts, index: int, journey: AxisBatch) -> Rows:
+def _clear(m: Controller, world: PlantFacts, index: int, axis_batch: AxisBatch) -> Rows:
     """Nothing would be refused, and no sensor answers on the way or is already met."""
-    axis, absolute = m.axes[index], journey.absolute & journey.sent
-    allowed = _in_reach(axis, journey) if m.position_known else ~absolute & _within_travel(axis, journey)
-    travel = axis.travelled + (journey.position - axis.position) * axis.columns_per_step
+    axis, absolute = m.axes[index], axis_batch.absolute & axis_batch.sent
+    allowed = _in_reach(axis, axis_batch) if m.position_known else ~absolute & _within_travel(axis, axis_batch)
+    travel = axis.travelled + (axis_batch.position - axis.position) * axis.columns_per_step
     low, high = world.free(index)
     met = (world.inputs ^ m.polarity) & (axis.limits[1] | axis.limits[-1])
-    free = (low < travel * axis.sense) & (travel * axis.sense < high) & (met == 0)
-    clear: Rows = (allowed | ~journey.sent) & ((free[1:] & free[:-1]) | (journey.steps == 0))
+    free = (low < travel * axis.direction_sign) & (travel * axis.direction_sign < high) & (met == 0)
+    clear: Rows = (allowed | ~axis_batch.sent) & ((free[1:] & free[:-1]) | (axis_batch.steps == 0))
     return clear
 
 
-def _in_reach(axis: Axis, journey: AxisBatch) -> Rows:
+def _in_reach(axis: Axis, axis_batch: AxisBatch) -> Rows:
     """Axis.in_reach for every command."""
-    (low, high), before, target = axis.reach, journey.position[:-1], journey.position[1:]
+    (low, high), before, target = axis.reach, axis_batch.position[:-1], axis_batch.position[1:]
     within: Rows = (np.minimum(low, before) <= target) & (target <= np.maximum(high, before))
     return within
 
 
-def _within_travel(axis: Axis, journey: AxisBatch) -> Rows:
+def _within_travel(axis: Axis, axis_batch: AxisBatch) -> Rows:
     """Axis.within_travel for every command: each adds to where the axis was."""
-    before, target = journey.position[:-1], journey.position[1:]
+    before, target = axis_batch.position[:-1], axis_batch.position[1:]
     least = np.minimum(axis.least, np.minimum.accumulate(before))
     most = np.maximum(axis.most, np.maximum.accumulate(before))
     within: Rows = np.maximum(most, target) - np.minimum(least, target) <= axis.span
@@ -145,11 +146,11 @@ def signatures(commands: Records) -> list[bytes]:
 
 
 def _ticks(
-    commands: Records, journeys: Sequence[AxisBatch | None], rows: NDArray[np.intp], known: list[Stroke]
+    commands: Records, axis_batches: Sequence[AxisBatch | None], rows: NDArray[np.intp], known: list[Stroke]
 ) -> Count:
     """The longest of what a command waits for, and at least 1."""
     waits = np.where(commands["opcode"] == Op.CZEKAJ, commands["args"][:, 0], 1).astype(np.int64)
-    ticks = np.maximum.reduce([np.maximum(waits, 1), *(j.ticks for j in journeys if j is not None)])
+    ticks = np.maximum.reduce([np.maximum(waits, 1), *(j.ticks for j in axis_batches if j is not None)])
     ticks[rows] = [stroke.ticks for stroke in known]
     return ticks
 

@@ -17,14 +17,14 @@ from drillctl.trace.tapes import ImagePool
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
 MOTION = ("column", "position", "state")
 POSITION = MOTION.index("position")
-TABLES = ("ramp", "interval", "shown", "resting", "limits", "line", "reach", "forcing", "halves")
+TABLES = ("ramp", "interval", "drive_patterns", "hold_patterns", "limits", "line", "reach", "forcing", "halves")
 BEEN = ("least", "most")  # strokes are foreseen from known places alone, where nothing depends on these
 REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES, *BEEN))
 
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
-    """What a stroke does. ``strips``: by head, where its images lie in the reel; each is ``ticks`` long.
+    """What a stroke does. ``strips``: by head, where its images lie in the pool; each is ``ticks`` long.
 
     inputs   (tick, the heads' sensors as latched), changes only, from tick 0 to the first tick after the stroke
     touches  (tick, place of each head in steps) where the bit met the board
@@ -55,7 +55,7 @@ class Place:
     @property
     def rests(self) -> tuple[int, ...]:
         """By head, the image that it holds here."""
-        return tuple(state[REMEMBERED.index("cold")] for state in self.axes)
+        return tuple(state[REMEMBERED.index("hold_bits")] for state in self.axes)
 
     def motion(self, number: int) -> tuple[int, ...]:
         """Of a head by its number: MOTION as it stands here."""
@@ -65,8 +65,8 @@ class Place:
 class Strokes:
     """All strokes and places of one machine's heads."""
 
-    def __init__(self, m: Controller, world: PlantFacts, reel: ImagePool):
-        self._m, self._world, self._reel = m, world, reel
+    def __init__(self, m: Controller, world: PlantFacts, pool: ImagePool):
+        self._m, self._world, self._pool = m, world, pool
         self.heads = m.machine.drill_axes
         self.mask = sum(1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads)
         self._places: dict[Hashable, Place] = {}
@@ -80,15 +80,15 @@ class Strokes:
         return self._places.setdefault(key, Place(states, memories))
 
     def lay(self, strip: list[int]) -> int:
-        """A head's images into the reel."""
-        return self._reel.add(strip)
+        """A head's images into the pool."""
+        return self._pool.add(strip)
 
 
 def _cooled(axis: Axis, slot: str) -> Any:
     """A slot's value once the forcing has gone off."""
     if slot == "cooling":
         return False
-    return axis.cold if slot == "bits" else getattr(axis, slot)
+    return axis.hold_bits if slot == "bits" else getattr(axis, slot)
 
 
 class Recording:
