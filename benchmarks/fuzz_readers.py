@@ -28,7 +28,7 @@ from drillctl.generation import alignment, measured
 from drillctl.generation.drillfile import DrillFileError, read, summary
 from drillctl.generation.drills import read_drills
 from drillctl.generation.errors import JobError
-from drillctl.generation.job import load_job
+from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import Recipe
 from drillctl.generation.wishes import Wishes
 from drillctl.jobs.journal import Journal, JournalError, head_of, read_journal

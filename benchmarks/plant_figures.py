@@ -15,7 +15,7 @@ from random import Random
 
 import numpy as np
 
-from drillctl.generation.job import load_job
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.lab.moves import move

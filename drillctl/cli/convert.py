@@ -73,7 +73,7 @@ def _trace(arguments: argparse.Namespace) -> int:
 
 
 def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
-    from drillctl.generation.job import queue_text
+    from drillctl.generation.queues import queue_text
 
     job = jobs.load(arguments.file, jobs.recipe(arguments), options.machine(arguments))
     return queue_text(job), list(job.warnings)
@@ -85,7 +85,7 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
     from drillctl.generation.drillfile.errors import Refusal
     from drillctl.generation.drillfile.write import write
     from drillctl.generation.errors import JobError
-    from drillctl.generation.job import file_warnings, refusal
+    from drillctl.generation.pcb_drill.board import file_warnings, refusal
 
     try:
         drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)

@@ -25,7 +25,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """Prints the summary; a refused file is an error (exit 2)."""
     from drillctl.generation.drillfile import DrillFileError, read, summary
-    from drillctl.generation.job import refusal
+    from drillctl.generation.pcb_drill.board import refusal
     from drillctl.ui.terminal.reports import inspect_lines
 
     try:

@@ -76,7 +76,7 @@ def _absolute(path: Path | None) -> str | None:
 
 def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
     """The job of a recipe; what measured holes say is shown. Raises JobError, PlacingError or AlignmentError."""
-    from drillctl.generation.job import load_job
+    from drillctl.generation.readers import load_job
 
     wishes = made.wishes(machine)
     if aligned := made.alignment():

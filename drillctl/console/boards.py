@@ -18,9 +18,10 @@ from drillctl.files.inputs import real_path
 from drillctl.generation import alignment
 from drillctl.generation.alignment import decompose
 from drillctl.generation.errors import JobError
-from drillctl.generation.job import Job, load_job
+from drillctl.generation.job import Job
 from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
+from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import MeasuredRow, Recipe
 from drillctl.jobs.estimate import foresee
 from drillctl.jobs.journal import Account, Head, Journal, JournalError, head_of, read_journal

@@ -9,11 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from drillctl.console.boards import Boards, align
-from drillctl.console.dry_run import dry_run
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operating import BUSY, OperatedMachine
 from drillctl.console.operator_state import WorkingBase
 from drillctl.console.views import machine_list, machine_view
+from drillctl.generation.job import Job
+from drillctl.generation.sequences import drill_up
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
@@ -110,7 +111,7 @@ class MachineConsole(OperatedMachine):
             return ("no board is loaded: open a drill file first",)
         if problems := self.busy() or self._boards.based(self.machine, self._base.xy):
             return problems
-        return self._begin(dry_run(self._boards.plan.left)) if dry else self._drill()
+        return self._begin(_with_drill_up(self._boards.plan.left)) if dry else self._drill()
 
     def acknowledge(self) -> Problems:
         """A ticker that is gone is started anew."""
@@ -141,3 +142,8 @@ class MachineConsole(OperatedMachine):
         super()._over(desk)
         self._boards.ended(desk, self.machine)
         self._boards.based(self.machine, self._base.xy)
+
+
+def _with_drill_up(job: Job) -> Job:
+    """The same way over the board, with nothing drilled."""
+    return replace(job, program=drill_up(job.program))

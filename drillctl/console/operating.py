@@ -10,12 +10,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.console.dry_run import visited
 from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operator_state import HoldRequest, ToolChangePrompt, WorkingBase, asks_for_tools
 from drillctl.console.scope import Recording
 from drillctl.generation.job import Job, names_of
+from drillctl.generation.sequences import holes_passed
 from drillctl.jobs.journal import Journal
 from drillctl.jobs.runner import JobRunner
 from drillctl.kmd import Condition, KmdError, Op, Request, parse_program
@@ -217,7 +217,7 @@ def _progress(desk: JobRunner) -> Progress:
     if desk.feeder.holes:
         return told
     done = int(desk.status["done"] - desk.first["done"])
-    return replace(told, holes_done=visited(desk.job, done))
+    return replace(told, holes_done=holes_passed(desk.job.program, done) if desk.job.work else 0)
 
 
 def _nobody(progress: Progress) -> None:

@@ -1,13 +1,14 @@
 """Puts a program into the queue as room is made, as far as it has been released.
 
 Rule: never waits, never loses a record. Without a journal everything is released at once; with one, hole by hole.
-Where the operator changes the tools, each change is a gate that opens when it has been made. Called by desk and replay.
+Where the operator changes the tools, each change is a gate that opens when it has been made.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.kmd import CommandQueue, Op
+from drillctl.generation import sequences
+from drillctl.kmd import CommandQueue
 
 
 class Feeder:
@@ -18,7 +19,7 @@ class Feeder:
         self.queue = queue
         self.put = 0
         self.released_holes = 0
-        self._begins, self._ends = _strokes(program)
+        self._begins, self._ends = sequences.holes(program)
         self._limit = len(program)
         self._gates: list[int] = []
 
@@ -44,7 +45,7 @@ class Feeder:
 
     def gate_tools(self) -> None:
         """Nothing passes a tool change before it is opened."""
-        self._gates = np.flatnonzero(self.program["opcode"] == Op.NARZEDZIE).tolist()
+        self._gates = sequences.tool_changes(self.program).tolist()
 
     def awaited_tool(self) -> int | None:
         """The tool at whose closed gate the program stands, or None."""
@@ -64,15 +65,3 @@ class Feeder:
         """Hands over as much of what is released, and not behind a gate, as the queue takes."""
         limit = min([self._limit, *self._gates[:1]])
         self.put += self.queue.put(self.program[self.put : limit][: self.queue.room])
-
-
-def _strokes(program: NDArray[np.void]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """For each stroke that drills a numbered hole, in order: its first record (pecks before it belong to it), and the
-    index behind the stroke up that ends it.
-    """
-    tag, opcode = program["tag"], program["opcode"]
-    downs = np.flatnonzero((opcode == Op.WIERTLO_DOL) & (tag > 0))
-    ups = np.append(np.flatnonzero(opcode == Op.WIERTLO_GORA), len(program) - 1)
-    firsts = np.flatnonzero(np.append(True, tag[1:] != tag[:-1]))
-    begins = firsts[np.searchsorted(firsts, downs, side="right") - 1]
-    return begins, ups[np.searchsorted(ups, downs)] + 1

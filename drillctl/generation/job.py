@@ -1,30 +1,16 @@
-"""A job: what is run on a machine, with all that is needed to tell a person about it.
+"""A job: what is run on a machine, with all that is needed to tell a person about it. Made by readers.py."""
 
-Rule: whatever is wrong with the input is found here, before a queue or a port exists. Called by desk and the verbs.
-"""
-
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.files.inputs import read_bytes
-from drillctl.generation.errors import JobError
 from drillctl.generation.placing import Affine
-from drillctl.generation.program import board_program
-from drillctl.generation.wishes import Wishes
-from drillctl.generation.worklist import Group, WorkList, build
-from drillctl.kmd import KmdError, Names, parse_program, to_text
-from drillctl.language import one_line
+from drillctl.generation.worklist import Group, WorkList
+from drillctl.kmd import Names
 from drillctl.machine import Machine
 
-if TYPE_CHECKING:
-    from drillctl.generation.drillfile import DrillFile, DrillFileError
-
-LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
 UNMOVED = Affine.of(np.eye(2))
 
 
@@ -82,12 +68,6 @@ class Job:
         x_mm, y_mm = self.work.hits.xy_mm[int(np.searchsorted(self.work.number, number))].tolist()
         return x_mm, y_mm
 
-    def without(self, done: set[int], wishes: Wishes) -> "Job":
-        """What is left of a board when these holes, by number, are drilled: initialised anew, from the same base."""
-        assert self.work is not None
-        work = self.work.without(done)
-        return replace(self, work=work, program=board_program(work, self.machine, wishes))
-
     def _hole(self, tag: int) -> tuple[Group | None, Affine]:
         """The tool group and the board of a hole by its number, as far as a work list knows it."""
         row = int(np.searchsorted(self.work.number, tag)) if self.work is not None else 0
@@ -97,69 +77,6 @@ class Job:
         return group, self.work.boards[self.work.hits.board[row]]
 
 
-def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None, after_end: str = "refuse") -> Job:
-    """A drill file or (``.kmd``) a queue as a job. Raises JobError with one line a problem.
-
-    fmt, after_end: how the drill file is read (drillfile.read).
-    """
-    if path.suffix.lower() == ".kmd":
-        return _queue_job(path, machine)
-    from drillctl.generation.drillfile import DrillFileError, read
-
-    try:
-        drill_file = replace(read(path, fmt=fmt, after_end=after_end), name=str(path))
-    except DrillFileError as error:
-        raise refusal(path, error) from error
-    work = build(drill_file, wishes, machine)
-    warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
-    return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
-
-
-def refusal(path: Path, error: "DrillFileError") -> JobError:
-    """What is wrong with a drill file, a line a problem, by the path that was given."""
-    places = (f"{path}:{problem.line}" if problem.line else f"{path}" for problem in error.problems)
-    return JobError([f"{place}: {problem.reason}" for place, problem in zip(places, error.problems, strict=True)])
-
-
-def file_warnings(path: Path, drill_file: "DrillFile") -> list[str]:
-    """A line for each thing that was read with a doubt, and for what is not drilled."""
-    told = [f"{path}{f':{w.line}' if w.line else ''}: {w.reason}" for w in drill_file.warnings]
-    routs = drill_file.routs
-    return [*told, f"{path}: {routs} milled cuts are not drilled"] if routs else told
-
-
-def _life_warnings(path: Path, work: WorkList) -> list[str]:
-    """A line for each drill that will be blunt before its holes are made."""
-    told = []
-    for group in work.groups:
-        left = group.drill.hits_left if group.drill else None
-        if left is not None and group.stop - group.start > left:
-            holes = group.stop - group.start
-            told.append(f"{path}: tool T{group.number} makes {holes} holes; its drill is good for {left} more")
-    return told
-
-
-def queue_text(job: Job) -> str:
-    """A job as a ``.kmd`` queue, one command a line."""
-    names = names_of(job.machine)
-    lines = [f"# {one_line(job.name)} on {job.machine.name}: {job.holes_total} holes"]
-    lines += [to_text(record, names) for record in job.program]
-    return "\n".join([*lines, ""])
-
-
 def names_of(machine: Machine) -> Names:
     """What a machine calls its axes, outputs and inputs."""
     return Names(machine.axis_names, dict(machine.outputs), {sensor.name: sensor.bit for sensor in machine.sensors})
-
-
-def _queue_job(path: Path, machine: Machine) -> Job:
-    try:
-        text = read_bytes(path, LARGEST_QUEUE_BYTES, "a queue").decode()
-        program = parse_program(text, names_of(machine), str(path))
-    except OSError as error:
-        raise JobError([f"{path}: can't be read: {error.strerror}"]) from error
-    except UnicodeDecodeError as error:
-        raise JobError([f"{path}: not UTF-8 text, so not a .kmd queue"]) from error
-    except KmdError as error:
-        raise JobError([str(error)]) from error
-    return Job(path.name, program, machine)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.generation.job import Job
-from drillctl.kmd import Op
+from drillctl.generation.sequences import tool_changes
 from drillctl.ticker.forecast import Forecast, forecast
 from drillctl.viewmodel import Estimate, ToolEstimate, fault_report
 
@@ -25,7 +25,7 @@ def foresee(job: Job, engine: str | None = None) -> tuple[Estimate, NDArray[np.i
 
 def _estimate(job: Job, told: Forecast) -> Estimate:
     groups = job.work.groups if job.work else ()
-    changes = np.flatnonzero(job.program["opcode"] == Op.NARZEDZIE).tolist()
+    changes = tool_changes(job.program).tolist()
     shares = [int(ticks.sum()) for ticks in np.split(told.ticks, changes[1:])]
     tools = [
         ToolEstimate(

@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from drillctl.files.inputs import real_path
 from drillctl.files.scratch import KEPT_IN_FOLDERS, Folder, sweep
 from drillctl.generation.errors import JobError
-from drillctl.generation.job import Job, load_job
+from drillctl.generation.job import Job
+from drillctl.generation.pcb_drill.board import without_holes
+from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import Recipe
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
 from drillctl.jobs.runner import JobResult, JobRunner, Operator, ToolChange, Watcher
@@ -94,7 +96,7 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> RemainingJob:
     check_same(journal, account.head, head_of(file, job, account.head.options))
     if account.complete:
         raise JobError([f"{journal}: all {job.holes_total} holes of {file.name} are drilled; nothing is left"])
-    return RemainingJob(recipe, job, job.without(account.done, wishes))
+    return RemainingJob(recipe, job, without_holes(job, account.done, wishes))
 
 
 def default_journal(file: Path) -> Path:

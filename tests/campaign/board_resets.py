@@ -12,7 +12,8 @@ from typing import cast
 import numpy as np
 
 from drillctl.execution.stops import raise_fault
-from drillctl.generation.job import Job, load_job
+from drillctl.generation.job import Job
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.kmd import Fault

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from drillctl.generation.errors import JobError
-from drillctl.generation.job import Job, load_job
+from drillctl.generation.job import Job
+from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import Recipe
 from drillctl.jobs.estimate import estimate
 from drillctl.jobs.session import Session

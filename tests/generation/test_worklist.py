@@ -10,9 +10,11 @@ import pytest
 from drillctl.generation.drillfile import DrillFile, decode
 from drillctl.generation.drills import DrillTable, read_drills
 from drillctl.generation.errors import JobError
-from drillctl.generation.job import Job, load_job, queue_text
+from drillctl.generation.job import Job
+from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.placing import Panel, Placing
-from drillctl.generation.program import board_program
+from drillctl.generation.queues import queue_text
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import build
 from drillctl.kmd import Op

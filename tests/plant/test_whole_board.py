@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.generation.job import load_job
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library, shipped_tables

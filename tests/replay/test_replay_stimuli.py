@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.generation.job import load_job, names_of
+from drillctl.generation.job import names_of
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.kmd import Request, parse_program
 from drillctl.machine import Library, shipped_tables

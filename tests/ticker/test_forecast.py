@@ -8,9 +8,10 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from drillctl.generation.drillfile import decode
-from drillctl.generation.job import Job, load_job, names_of
+from drillctl.generation.job import Job, names_of
+from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.placing import Panel, Placing
-from drillctl.generation.program import board_program
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import build
 from drillctl.jobs.estimate import estimate

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
-from drillctl.generation.job import Job, load_job
+from drillctl.generation.job import Job
+from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library

@@ -1,13 +1,14 @@
 """A work list as a program of KMD records: initialise, take the base, then tool by tool, hole by hole: go, down, up.
 
 Rule: built with numpy, a record's ``tag`` is its hole's number from 1; where there is backlash, a hole is always
-come to from below. Called by job.py.
+come to from below.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.strokes import Records, drill_stroke, record, spot_stroke
+from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
+from drillctl.generation.sequences import Records, numbered, record
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import Group, WorkList, positioning_axes
 from drillctl.kmd import RECORD, Op
@@ -29,9 +30,7 @@ def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
             parts.append(_holes(work, group, stroke, here, machine))
             here = work.steps[group.stop - 1]
     parts += [*_switch(spindle, 0), _gotos(np.zeros((1, 2), np.int64), machine), record(Op.KONIEC)]
-    program = np.concatenate(parts)
-    program["sequence"] = np.arange(1, len(program) + 1)
-    return program
+    return numbered(parts)
 
 
 def _base(wishes: Wishes, machine: Machine) -> list[Records]:

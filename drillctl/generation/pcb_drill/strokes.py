@@ -1,30 +1,21 @@
 """How one hole is drilled: straight down, in pecks, with a spot first; and how the table gets there.
 
 Rule: all holes of a job are drilled alike, so a stroke is a short array of records that program.py repeats.
-Depths count from the board's surface, which the machine's file names. Called by program.py.
+Depths count from the board's surface, which the machine's file names.
 """
 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drillctl.generation.errors import JobError
-from drillctl.kmd import RECORD, Op
+from drillctl.generation.sequences import Records, record
+from drillctl.kmd import Op
 from drillctl.kmd.commands import Flag
 from drillctl.machine import Machine
 
 MOST_PECKS = 100
 CHIP_CLEARANCE_MM = 0.5  # how far above the board the bit is drawn to throw its chips
-Records = NDArray[np.void]
-
-
-def record(op: Op, args: list[int] | None = None, axes: int = 0, flags: Flag = Flag.NONE) -> Records:
-    """One command, shape (1,)."""
-    made = np.zeros(1, dtype=RECORD)
-    made["opcode"], made["axes"], made["flags"] = op, axes, flags
-    made["args"][0, : len(args or [])] = args or []
-    return made
 
 
 def drill_stroke(machine: Machine, peck_mm: float | None) -> Records:

@@ -1,0 +1,41 @@
+"""Queues of commands (``.kmd``) as jobs: read from a file, and written as one."""
+
+from pathlib import Path
+
+from drillctl.files.inputs import read_bytes
+from drillctl.generation.errors import JobError
+from drillctl.generation.job import Job, names_of
+from drillctl.generation.wishes import Wishes
+from drillctl.kmd import KmdError, parse_program, to_text
+from drillctl.language import one_line
+from drillctl.machine import Machine
+
+LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
+ENDING = ".kmd"
+
+
+def is_queue(path: Path) -> bool:
+    """Whether a file is named as a queue of commands."""
+    return path.suffix.lower() == ENDING
+
+
+def load_queue(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str) -> Job:
+    """A queue as a job, as it stands: nothing is placed or ordered. Raises JobError with file, line and column."""
+    try:
+        text = read_bytes(path, LARGEST_QUEUE_BYTES, "a queue").decode()
+        program = parse_program(text, names_of(machine), str(path))
+    except OSError as error:
+        raise JobError([f"{path}: can't be read: {error.strerror}"]) from error
+    except UnicodeDecodeError as error:
+        raise JobError([f"{path}: not UTF-8 text, so not a .kmd queue"]) from error
+    except KmdError as error:
+        raise JobError([str(error)]) from error
+    return Job(path.name, program, machine)
+
+
+def queue_text(job: Job) -> str:
+    """A job as a ``.kmd`` queue, one command a line."""
+    names = names_of(job.machine)
+    lines = [f"# {one_line(job.name)} on {job.machine.name}: {job.holes_total} holes"]
+    lines += [to_text(record, names) for record in job.program]
+    return "\n".join([*lines, ""])

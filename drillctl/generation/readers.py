@@ -1,0 +1,34 @@
+"""The readers of jobs: each recognises the files that are its own, and makes a job of one for a machine.
+
+Rule: the first reader that recognises a file reads it. A machine with jobs of a form of its own adds a row.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from drillctl.generation.job import Job
+from drillctl.generation.pcb_drill.board import load_board
+from drillctl.generation.queues import is_queue, load_queue
+from drillctl.generation.wishes import Wishes
+from drillctl.machine import Machine
+
+
+class Reader(NamedTuple):
+    """``load`` raises JobError, PlacingError or AlignmentError, with a line for each problem."""
+
+    what: str
+    recognises: Callable[[Path], bool]
+    load: Callable[[Path, Machine, Wishes, str | None, str], Job]
+
+
+READERS = (
+    Reader("a queue of commands", is_queue, load_queue),
+    Reader("a drill file", lambda path: True, load_board),  # of any name: its format is recognised by what is in it
+)
+
+
+def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None, after_end: str = "refuse") -> Job:
+    """The job in a file, by the reader that recognises it. ``fmt`` and ``after_end`` say how a drill file is read."""
+    reader = next(reader for reader in READERS if reader.recognises(path))
+    return reader.load(path, machine, wishes, fmt, after_end)

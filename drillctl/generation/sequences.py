@@ -1,0 +1,58 @@
+"""What a sequence of KMD commands means: which of them drill a hole, where a tool is changed, what a dry run omits.
+
+Rule: a hole is what a stroke down with a tag begins and the next stroke up ends; commands with the same tag before the
+stroke belong to it (pecks, spots). Whoever reads a program for its holes asks here.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.kmd import RECORD, Op
+from drillctl.kmd.commands import Flag
+
+Records = NDArray[np.void]
+LOWERING = (Op.WIERTLO_DOL, Op.RUCH)  # a board's program moves its heads by these
+
+
+def record(op: Op, args: list[int] | None = None, axes: int = 0, flags: Flag = Flag.NONE) -> Records:
+    """One command, shape (1,), dtype RECORD."""
+    made = np.zeros(1, dtype=RECORD)
+    made["opcode"], made["axes"], made["flags"] = op, axes, flags
+    made["args"][0, : len(args or [])] = args or []
+    return made
+
+
+def numbered(parts: list[Records]) -> Records:
+    """The commands one after the other, with sequence numbers from 1."""
+    program = np.concatenate(parts)
+    program["sequence"] = np.arange(1, len(program) + 1)
+    return program
+
+
+def holes(program: Records) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """For each stroke that drills a numbered hole, in order: the index of its first command, and the index behind the
+    stroke up that ends it.
+    """
+    tag, opcode = program["tag"], program["opcode"]
+    downs = np.flatnonzero((opcode == Op.WIERTLO_DOL) & (tag > 0))
+    ups = np.append(np.flatnonzero(opcode == Op.WIERTLO_GORA), len(program) - 1)
+    firsts = np.flatnonzero(np.append(True, tag[1:] != tag[:-1]))
+    begins = firsts[np.searchsorted(firsts, downs, side="right") - 1]
+    return begins, ups[np.searchsorted(ups, downs)] + 1
+
+
+def tool_changes(program: Records) -> NDArray[np.intp]:
+    """The indices of the commands that change a tool."""
+    return np.flatnonzero(program["opcode"] == Op.NARZEDZIE)
+
+
+def drill_up(program: Records) -> Records:
+    """The same way with the drill up: every stroke down is left out, and no tool is changed."""
+    kept = program[~np.isin(program["opcode"], (*LOWERING, Op.NARZEDZIE))].copy()
+    return numbered([kept[:1], record(Op.WIERTLO_GORA), kept[1:]])
+
+
+def holes_passed(program: Records, done: int) -> int:
+    """How many numbered holes the head has been over once so many commands are done, drilled or not."""
+    tags = program["tag"][:done]
+    return len(np.unique(tags[tags > 0]))
