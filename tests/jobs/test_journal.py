@@ -2,6 +2,7 @@
 of one that was altered: test_altered_journal.py.
 """
 
+import json
 import resource
 import subprocess
 import sys
@@ -32,7 +33,7 @@ def test_a_new_run_does_not_replace_an_unfinished_one(folder: Path, capsys: pyte
     capsys.readouterr()
     assert run() == 2
     told = capsys.readouterr()
-    assert told.out == "" and "1 of 4 holes of" in told.err
+    assert json.loads(told.out)["error"]["code"] == "journal" and "1 of 4 holes of" in told.err
     assert "go on with `drillctl resume j`, or delete the file to begin anew" in told.err
     assert (folder / "j").read_bytes() == before
 
