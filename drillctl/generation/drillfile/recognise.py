@@ -213,8 +213,9 @@ def _remarks(question: Question, best: FormatChoice, layout: Layout) -> Iterator
         yield Remark("missing-units", None, best.units)
     elif best.digits and not facts.digits_for(best.units):
         yield from _of_default(question, best)
-    if foreign := sample.units - {best.units}:
-        yield from (_carried(facts, units) for units in foreign if not facts.digits_for(units) and best.digits)
+    if facts.digits and best.digits:
+        foreign = sample.units - {best.units}
+        yield from (_carried(facts, units) for units in foreign if not facts.digits_for(units))
     if layout.odd or (layout.unusual and question.by_rule):
         yield Remark("odd-board", None, str(layout))
 

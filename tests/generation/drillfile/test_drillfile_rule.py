@@ -79,6 +79,13 @@ def test_digits_of_one_unit_do_not_carry_to_the_other() -> None:
     assert {"units-change-in-body", "digits-of-other-unit"} <= codes(found)
 
 
+@pytest.mark.parametrize("header", ["METRIC,TZ", "M71"])
+def test_units_that_change_where_no_digits_were_declared_have_their_defaults(header: str) -> None:
+    found = board(header, "0.8", "X1.0Y1.0", "X10000Y20000", "M72", "X1.0", "X010000Y005000")
+    assert "units-change-in-body" in codes(found) and "digits-of-other-unit" not in codes(found)
+    assert found.hole_xy_mm[-1].tolist() == pytest.approx([25.4, 12.7])
+
+
 def test_units_that_change_between_holes() -> None:
     found = board("METRIC,TZ,000.000", "0.8", "X10000Y10000", "X20000Y10000", "M72", "X10000Y20000", "Y30000")
     assert found.hole_xy_mm.tolist() == [[10, 10], [20, 10], [25.4, 50.8], [25.4, pytest.approx(76.2)]]
