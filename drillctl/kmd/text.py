@@ -6,6 +6,7 @@ Rule: a text gives a whole program, or an error and nothing.
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from drillctl.language import known_words, nearest
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
+LINES_REMEMBERED = 4096
 _WORD = re.compile(r"\S+")
 _PREFIX = "KMD_"
 _INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
@@ -42,31 +44,30 @@ class _LineError(Exception):
 
 def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.void]:
     """Reads a program: dtype RECORD, shape (n,), numbered from 1. A missing KMD_KONIEC is added. Raises KmdError."""
-    rows: list[tuple[Op, int, int, int, list[int]]] = []
-    floor_ticks = 0
+    program = np.zeros(min(text.count("\n") + 2, MOST_COMMANDS + 1), RECORD)  # pages not written to take no memory
+    count = floor_ticks = 0
     ended = False
-    parsed: dict[str, tuple[Spec, int, list[int]]] = {}  # a board's queue says two lines in three again and again
+    parsed = lru_cache(LINES_REMEMBERED)(lambda line: _parse_line(_words(line), names))  # boards repeat their lines
     for number, line in _lines(text, file):
         try:
             if ended:
                 raise _LineError(_words(line)[0], "nothing may follow KMD_KONIEC")
-            if line not in parsed:
-                parsed[line] = _parse_line(_words(line), names)
-            spec, axes, args = parsed[line]
+            spec, axes, args = parsed(line)
         except _LineError as error:
             raise KmdError(file, number, error.word.column, error.reason) from None
+        if count == MOST_COMMANDS:
+            raise KmdError(file, number, 1, f"more than {MOST_COMMANDS} commands")
         if spec.op is Op.PREDKOSC:
             floor_ticks = args[0]
         moves = spec.form in (ArgumentForm.XY, ArgumentForm.MOVES) or spec.op in (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
-        rows.append((spec.op, int(spec.flags), axes, floor_ticks if moves else 0, args))
+        program[count] = (count + 1, 0, spec.op, spec.flags, axes, 0, floor_ticks if moves else 0, 0, args)
+        count += 1
         ended = spec.op is Op.KONIEC
-        if len(rows) > MOST_COMMANDS:
-            raise KmdError(file, number, 1, f"more than {MOST_COMMANDS} commands")
-    if not rows:
+    if not count:
         raise KmdError(file, 1, 1, "no command in it; a queue that does nothing is KMD_KONIEC alone")
     if not ended:
-        rows.append((Op.KONIEC, 0, 0, 0, []))
-    return _program(rows)
+        program[count] = (count + 1, 0, Op.KONIEC, 0, 0, 0, 0, 0, (0,) * MOST_AXES)
+    return program[: count + (not ended)]
 
 
 def to_text(record: np.void, names: Names) -> str:
@@ -77,7 +78,7 @@ def to_text(record: np.void, names: Names) -> str:
 
 def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:
     """Yields the lines that hold a command, with their numbers and without their comments."""
-    for number, line in enumerate(text.removeprefix("\ufeff").split("\n"), start=1):
+    for number, line in enumerate(_split(text.removeprefix("\ufeff")), start=1):
         if len(line) > LONGEST_LINE:
             raise KmdError(file, number, LONGEST_LINE + 1, f"a line of more than {LONGEST_LINE} characters")
         said = line.partition("#")[0]
@@ -85,17 +86,27 @@ def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:
             yield number, said
 
 
+def _split(text: str) -> Iterator[str]:
+    """Yields the lines one after the other: a list of all of them would take many times the text."""
+    begin = 0
+    while (end := text.find("\n", begin)) >= 0:
+        yield text[begin:end]
+        begin = end + 1
+    yield text[begin:]
+
+
 def _words(line: str) -> list[_Word]:
     return [_Word(found[0], found.start() + 1) for found in _WORD.finditer(line)]
 
 
-def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, list[int]]:
+def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, tuple[int, ...]]:
+    """Command, mask of its axes, and as many arguments as a record has."""
     name, rest = words[0], words[1:]
     spec = COMMANDS.get(name.text)
     if spec is None:
         raise _LineError(name, _unknown(name.text[:40]))
     axes, args = _ARGUMENTS_IN[spec.form](spec, name, rest, names)
-    return spec, axes, args
+    return spec, axes, (*args, *[0] * (MOST_AXES - len(args)))
 
 
 def _unknown(name: str) -> str:
@@ -229,11 +240,3 @@ _ARGUMENTS_OUT: Mapping[ArgumentForm, Callable[[np.void, Names], list[str]]] = {
     ArgumentForm.INPUT: lambda record, names: _switch_out(names.inputs, record, 3),
 }
 
-
-def _program(rows: list[tuple[Op, int, int, int, list[int]]]) -> NDArray[np.void]:
-    program = np.zeros(len(rows), dtype=RECORD)
-    program["sequence"] = np.arange(1, len(rows) + 1)
-    opcodes, flags, axes, floors, args = zip(*rows, strict=True)
-    program["opcode"], program["flags"], program["axes"], program["floor_ticks"] = opcodes, flags, axes, floors
-    program["args"] = [values + [0] * (MOST_AXES - len(values)) for values in args]
-    return program

@@ -24,6 +24,7 @@ from drillctl.ticker.sampler import HAND_WORDS, REQUEST_WORDS
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Trace, TraceError
 from drillctl.trace.segments import MOST_TICKS
+from drillctl.trace.text import COMMAND
 
 BY_HAND = (Request.OUTPUT, Request.PACE)  # have a value, in a signal of their own
 
@@ -79,13 +80,14 @@ def check_tick(recorded: Trace, file: Path, tick: int) -> None:
 
 def program_of(trace: Trace, machine: Machine, file: Path) -> NDArray[np.void]:
     """The program in a trace's header. Raises TraceError."""
-    lines = [value.partition(" ") for value in trace.header_values("command")]
-    text = "\n".join(command for _, _, command in lines)
+    lines = trace.header_values(COMMAND)
+    text = "\n".join(line.partition(" ")[2] for line in lines)
     try:
         program = parse_program(text, names_of(machine), str(file))
     except KmdError as error:
         raise TraceError(str(file), None, f"command {error.line}: {error.reason}") from error
-    if [number for number, _, _ in lines] != [str(n) for n in program["sequence"].tolist()]:
+    counted = all(line.partition(" ")[0] == str(number) for number, line in enumerate(lines, 1))
+    if len(program) != len(lines) or not counted:
         raise TraceError(str(file), None, "the commands are not numbered from 1 to a KMD_KONIEC")
     return program
 

@@ -8,16 +8,19 @@ pytest plugin.
 
 from array import array
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import NoReturn, TextIO
 
 import numpy as np
 
 from drillctl.trace.record import TICK_LIMIT, Signal, Trace
 from drillctl.trace.target import Target, opened
-from drillctl.trace.text import KEY, LINE_LIMIT, MAGIC, RESPONSE, STIMULUS, VERSION
+from drillctl.trace.text import COMMAND, KEY, LINE_LIMIT, MAGIC, RESPONSE, STIMULUS, VERSION
 from drillctl.trace.values import KINDS, Vocabulary, is_plain, is_word, named_signal_kind, quoted
 
-HEADER_LIMIT = 1_000_000  # lines; a long job's commands stand in it
+HEADER_LIMIT = 1_000  # lines, those of commands apart
+COMMANDS_LIMIT = 1_000_000  # lines of a long job
+CHANGES_REMEMBERED = 1 << 14
 SIGNALS_LIMIT = 1024
 REMARKS_LIMIT = 10_000  # lines behind the end
 CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
@@ -77,16 +80,20 @@ def _read_head(lines: _Lines) -> tuple[tuple[tuple[str, str], ...], dict[str, bo
     _check_magic(lines, next(iter(lines), ""))
     header: list[tuple[str, str]] = []
     signals: dict[str, bool] = {}
+    left = {True: COMMANDS_LIMIT, False: HEADER_LIMIT}  # lines, by whether they are commands
     for line in lines:
         key, _, value = line.partition(" ")
         if not line:
             return tuple(header), signals
         if key == "signal":
             _declare(lines, signals, value)
-        elif signals or len(header) == HEADER_LIMIT or not _is_pair(line, key, value):
+        elif signals or not _is_pair(line, key, value):
             lines.refuse(f"{quoted(line)} is out of place: `key value` lines, signals, then a blank line")
         else:
-            header.append((key, value))
+            left[key == COMMAND] -= 1
+            if left[key == COMMAND] < 0:
+                lines.refuse(f"more than {COMMANDS_LIMIT} commands, or {HEADER_LIMIT} other lines in the head")
+            header.append((COMMAND if key == COMMAND else key, value))  # one string for all keys of commands
     lines.refuse("the file stops within its head: it was cut short; record it again")
 
 
@@ -130,16 +137,14 @@ class _Changes:
 
     def read(self) -> int:
         """All changes up to `end TICK`: returns that tick."""
-        meanings: dict[str, tuple[int, int]] = {}  # the same changes come again and again: each is parsed once
+        meaning = lru_cache(CHANGES_REMEMBERED)(self._meaning)  # the same changes come again and again
         place = -1
         for line in self._lines:
             word, _, change = line.partition(" ")
             if word == "end":
                 return self._end(change)
             tick = self._number(word)
-            if change not in meanings:
-                meanings[change] = self._meaning(change)
-            index, value = meanings[change]
+            index, value = meaning(change)
             previous, place = place, tick * len(self._names) + index
             if place <= previous:
                 self._lines.refuse(f"tick {tick} {self._names[index]}: out of order (by tick, then as declared)")
@@ -148,7 +153,7 @@ class _Changes:
 
     def trace(self, header: tuple[tuple[str, str], ...], end: int, trailer: tuple[str, ...]) -> Trace:
         """What was read. The columns are canonical already."""
-        ticks, signal, values = map(np.array, (self._ticks, self._signal, self._values))
+        ticks, signal, values = map(np.asarray, (self._ticks, self._signal, self._values))  # the same memory
         return Trace(header, tuple(map(self._signal_at, range(len(self._names)))), ticks, signal, values, end, trailer)
 
     def _signal_at(self, index: int) -> Signal:

@@ -19,7 +19,7 @@ from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Trace
 from drillctl.trace.segments import MOST_TICKS, OUTPUT, Segments
 from drillctl.trace.tapes import Tape
-from drillctl.trace.text import write_text
+from drillctl.trace.text import COMMAND, write_text
 from drillctl.trace.values import Values
 
 MAGIC = b"drillctl-segments 1\n"
@@ -31,7 +31,6 @@ COUNT = struct.Struct("<Q")
 SUMS = struct.Struct("<QIBBB")  # ticks, CRC-32 of the images, bits of an image, tapes, 1: commands without numbers
 INDEXES = (np.dtype("<u1"), np.dtype("<u2"), np.dtype("<u4"))
 BITS = (32, 64)
-NUMBERED = "command"
 Pairs = tuple[tuple[str, str], ...]
 
 
@@ -139,11 +138,11 @@ def _bare(header: Pairs) -> Pairs | None:
     """The header with commands that don't say their numbers, where these count from 1; else None."""
     found, number = [], 0
     for key, value in header:
-        number += key == NUMBERED
+        number += key == COMMAND
         counted, _, bare = value.partition(" ")
-        if key == NUMBERED and counted != str(number):
+        if key == COMMAND and counted != str(number):
             return None
-        found.append((key, bare if key == NUMBERED else value))
+        found.append((key, bare if key == COMMAND else value))
     return tuple(found)
 
 
@@ -151,8 +150,8 @@ def _numbered(header: Pairs) -> Pairs:
     """``_bare`` undone."""
     found, number = [], 0
     for key, value in header:
-        number += key == NUMBERED
-        found.append((key, f"{number} {value}" if key == NUMBERED else value))
+        number += key == COMMAND
+        found.append((key, f"{number} {value}" if key == COMMAND else value))
     return tuple(found)
 
 

@@ -29,6 +29,7 @@ from drillctl.trace.values import is_plain, named_signal_kind, quoted
 MAGIC = "drillctl-trace"
 VERSION = 1
 KEY = re.compile(r"(?!(signal|end)\b)[a-z][a-z0-9_-]*")
+COMMAND = "command"  # the key of a head's line that is one command of the program
 STIMULUS, RESPONSE = "<", ">"  # how a signal line ends
 LINE_LIMIT = 4096  # characters, the line end included
 ROWS_AT_ONCE = 100_000  # written in one piece: bounds the memory that a long trace takes as Python objects

@@ -4,6 +4,7 @@ import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -28,18 +29,20 @@ def read_journal(file: Path) -> Account:
 
 def account_of(data: bytes, file: Path) -> Account:
     """What the bytes of a journal say; ``file`` is named in what is refused. Raises JournalError."""
-    lines = data.split(b"\n")
-    rest = lines.pop()
-    account = _begun(lines[0] if lines else b"", file)
-    for number, line in enumerate(lines[1:], start=2):
+    lines = BytesIO(data)  # one after the other: a list of many short ones would take many times the file
+    first = lines.readline()
+    account = _begun(first[:-1] if first.endswith(b"\n") else b"", file)
+    for number, line in enumerate(lines, start=2):
+        if not line.endswith(b"\n"):
+            return replace(account, torn=True)
         try:
-            told, seal = unsealed(line, account.seal)
+            told, seal = unsealed(line[:-1], account.seal)
             account = replace(account.with_line(told), seal=seal)
         except Damaged as error:
             raise JournalError(f"{file}:{number}: damaged: not what was written behind the line above") from error
         except OutOfPlace as error:
             raise JournalError(f"{file}:{number}: {error}") from error
-    return replace(account, torn=bool(rest))
+    return account
 
 
 def whole_bytes(data: bytes) -> int:
