@@ -23,6 +23,8 @@ MOST_KEY_PARTS = 32  # of a dotted TOML key: the parser takes the square of thei
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*(?:{_PART}[ \t]*\.[ \t]*){{{MOST_KEY_PARTS}}}", re.M)
 
+_LONG_NUMBER = re.compile(r"0[xob][0-9A-Fa-f_]{1000}")  # Python reads these, but can't write them as decimal
+
 
 def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
     """The file, open for reading; whoever asks closes it. With a ``limit`` in bytes, reading beyond it is an error.
@@ -71,6 +73,8 @@ def toml_of(text: str) -> dict[str, Any]:
     if found := _LONG_KEY.search(text):
         line = text.count("\n", 0, found.start()) + 1
         raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts in line {line}")
+    if _LONG_NUMBER.search(text):
+        raise ValueError("a number of thousands of digits")
     try:
         return tomllib.loads(text)
     except RecursionError as error:

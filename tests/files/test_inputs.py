@@ -130,6 +130,7 @@ def test_json_nested_too_deeply_is_a_value_error(text: str) -> None:
         ("a = " + "[" * 100_000, "nested too deeply"),
         ("a = " + "{b = " * 50_000, "nested too deeply"),
         ("a = " + "9" * 6000, "a number of thousands of digits"),
+        *((f"a = 0{base}{digit * 5000}", "a number of thousands of digits") for base, digit in ("xf", "o7", "b1")),
         ("b = 1\n" + "a." * 100_000 + "a = 1", "a key of more than 32 parts in line 2"),
         ("b = 1\n[" + "'a' . " * 40_000 + "a]", "a key of more than 32 parts in line 2"),
         ("b = {" + '"a".' * 40_000 + "a = 1}", "a key of more than 32 parts in line 1"),

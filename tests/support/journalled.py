@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from drillctl.cli import main
 from drillctl.jobs.journal.chain import NO_SEAL, sealed
 from drillctl.viewmodel.jobs import Site
@@ -14,6 +16,14 @@ SITE = Site("simulated", "free", "ideal")
 
 # Tool 1 comes twice, so the numbers of the holes are not those of the file's lines.
 BOARD = "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nG90\nT1\nX1.0Y1.0\nX3.0Y1.0\nT2\nX1.0Y3.0\nT1\nX3.0Y4.0\nM30\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Holds the board; the test runs in it."""
+    (tmp_path / "job.drl").write_text(BOARD)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
 
 
 def run(*options: str) -> int:
