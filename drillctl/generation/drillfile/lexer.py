@@ -14,8 +14,8 @@ from .numbers import NUMBER
 
 PLACE = f"(?:X{NUMBER}(?:Y{NUMBER})?+|Y{NUMBER})"
 PARTS = f"(?:X({NUMBER}))?+(?:Y({NUMBER}))?+"
-# Possessive: a run of 100,000 lines needs no memory of how it was matched.
-RUN = re.compile(rf"(?:{PLACE}(?:G85{PLACE})?+\n)++")
+RUN_LINES = 20_000  # taken at once: each of their numbers is a string of its own for a moment
+RUN = re.compile(rf"(?:{PLACE}(?:G85{PLACE})?+\n){{1,{RUN_LINES}}}+")
 HOLES = re.compile(rf"{PARTS}\n")  # (x, y) of every line of a run without slots
 SLOTS = re.compile(rf"{PARTS}(?:G85{PARTS})?+\n")  # (x, y, x, y) of every line of a run with slots
 LETTERS_TO_SPACES = str.maketrans("XY", "  ")
@@ -42,7 +42,8 @@ class Word(NamedTuple):
 
 
 def split_run(text: str, at: int) -> tuple[int, list[Sequence[str]]]:
-    """The plain coordinate lines that begin at a line's start: where they end, and their numbers in columns.
+    """The plain coordinate lines that begin at a line's start, at most RUN_LINES: where they end, and their numbers in
+    columns.
 
     Columns are x, y, or x, y, x, y where some lines are slots; '' is an axis not written. No columns where
     there is no such line.
