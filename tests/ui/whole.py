@@ -25,7 +25,7 @@ BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 SCREENS = (
     "drilling", "files", "phase_editor", "ramp_editor", "queue_editor", "signals", "scope", "configuration", "port",
 )  # fmt: skip
-PARTS = re.compile(r"/drillctl/(ui|station)/")
+PARTS = re.compile(r"/drillctl/(ui|console)/")
 Event = str | tuple[str, int, int, int]
 
 
