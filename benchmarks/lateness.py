@@ -29,7 +29,7 @@ from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.ticker.processes import Child
 from drillctl.ticker.realtime import PRIORITY, become_punctual
 from drillctl.ticker.ticker import Ticker
-from drillctl.viewmodel.latency import LatencyReport
+from drillctl.viewmodel.reports import LatencyReport
 
 HZ, FAST_HZ = 500, 2000
 RUNS, CONTROL_RUNS, FAST_RUNS = 7, 3, 5

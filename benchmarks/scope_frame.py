@@ -23,11 +23,10 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Trace
-from drillctl.ui.models.rows import Rows
-from drillctl.ui.models.viewport import Viewport
+from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.scope import Scope
-from drillctl.ui.screens.scope_view import Layout, Look, scope_lines
-from drillctl.ui.widgets.lines import boxed
+from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
+from drillctl.ui.widgets.texts import boxed
 
 LONG_TICKS = 2_000_000
 SIZES = ((80, 20), (160, 46))
@@ -63,9 +62,9 @@ def long_run() -> RunScope:
 
 def frame_ms(scope: RunScope, level: int, columns: int, rows: int) -> float:
     """CPU milliseconds of one frame from the middle of the run, as far as a canvas."""
-    view = Viewport().sized(Layout.of(scope.signals(), columns).waves).of_run(scope.first_tick, scope.last_tick)
+    view = Viewport().sized(ScopeLayout.of(scope.signals(), columns).waves).of_run(scope.first_tick, scope.last_tick)
     view = view.go(scope.last_tick // 2).zoomed(level - view.level)
-    look = Look(view, Rows(len(scope.signals())))
+    look = ScopeLook(view, SignalRows(len(scope.signals())))
 
     def once() -> float:
         started = process_time()

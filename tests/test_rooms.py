@@ -113,7 +113,7 @@ def test_what_a_row_allows_is_used(room: str) -> None:
         ("drillctl.execution.tick", "from .fastforward.engine import run"),
         ("drillctl.portio.registry", "from drillctl.portio.simulated import SimulatedCard"),
         ("drillctl.ui.widgets.keys", "from drillctl.ui.app import Program"),  # the room around the own one
-        ("drillctl.ui.models.rows", "from drillctl.ui.screens import scope"),  # a room beside it
+        ("drillctl.ui.models.viewport", "from drillctl.ui.screens import scope"),  # a room beside it
         ("drillctl.portio.playback", "from drillctl.plant import IdealPlant"),  # a neighbour's right is not its own
         ("drillctl.portio.playback", "from drillctl.plant.ideal import IdealPlant"),
         ("drillctl.plant.ideal", "def f():\n    from drillctl.kmd import Queue"),  # within a function

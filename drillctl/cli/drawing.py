@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from drillctl.cli import streams
 
 if TYPE_CHECKING:
-    from drillctl.viewmodel.picture import Picture
+    from drillctl.viewmodel.reports import Picture
 
 ROWS = 14  # of a chart in characters
 
@@ -39,9 +39,9 @@ def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[
 
 
 def _print(picture: "Picture") -> None:
-    from drillctl.ui.terminal.charts import Look, picture_lines
+    from drillctl.ui.terminal.charts import ChartLook, picture_lines
 
     columns = shutil.get_terminal_size((100, 30)).columns
     plain = not (sys.stdout.encoding or "").lower().startswith("utf")
-    look = Look(columns - 1, ROWS, sys.stdout.isatty() and not plain, plain)
+    look = ChartLook(columns - 1, ROWS, sys.stdout.isatty() and not plain, plain)
     streams.as_it_is(sys.stdout, "\n".join(picture_lines(picture, look)) + "\n")

@@ -45,10 +45,10 @@ def _drawing(drill_file: "DrillFile") -> list[str]:
     """The board as wide as the terminal, and at most half as high; nothing where braille can't be shown."""
     import numpy as np
 
-    from drillctl.ui.widgets.board import board_rows
+    from drillctl.ui.widgets.dots import dot_rows
 
     if "utf" not in (sys.stdout.encoding or "").lower():
         return []
     columns, rows = shutil.get_terminal_size()
     points_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
-    return ["", *(f"  {row}" for row in board_rows(points_mm, min(columns, 100) - 4, rows // 2))]
+    return ["", *(f"  {row}" for row in dot_rows(points_mm, min(columns, 100) - 4, rows // 2))]

@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options
-from drillctl.cli.benches import ScreenMakers
 
 if TYPE_CHECKING:
     from drillctl.viewmodel.scope import ScopeSource
@@ -61,15 +60,82 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
     library = replace(options.library(arguments), tell=tell_nobody)  # the second line says it
     running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace)
-    station = MachineConsole(
+    console = MachineConsole(
         library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)
     )
     try:
-        app = App(station, arguments.theme, plain, ScreenMakers(library, station, plain, run).makers())
+        app = App(console, arguments.theme, plain, EditorScreens(library, console, plain, run).makers())
         if run is not None:
             app.show("scope")
         with remembered() as interrupts:
             app.run(interrupts)
     finally:
-        station.close()
+        console.close()
     return 0
+
+
+if TYPE_CHECKING:
+    import urwid
+
+    from drillctl.console.machine_console import MachineConsole
+    from drillctl.machine import Library
+    from drillctl.ui.app import Maker
+    from drillctl.ui.screens.shell import Shell
+    from drillctl.viewmodel.console import Console
+    from drillctl.viewmodel.scope import ScopeSource
+    from drillctl.viewmodel.tables import TableKind
+
+
+class EditorScreens:
+    """Makers of screens (ui.app.Maker). ``run`` is what the scope shows first; None: the machine's own run."""
+
+    def __init__(self, library: "Library", console: "MachineConsole", plain: bool, run: "ScopeSource | None" = None):
+        self._library, self._console, self._plain, self._run = library, console, plain, run
+
+    def makers(self) -> "dict[str, Maker]":
+        """By name."""
+        return {
+            "phase_editor": self._tables("phase"),
+            "ramp_editor": self._tables("ramp"),
+            "configuration": self._tables("machines"),
+            "queue_editor": self._queue_editor,
+            "port": self._port,
+            "signals": self._signals,
+            "scope": self._scope,
+        }
+
+    def _tables(self, kind: "TableKind") -> "Maker":
+        def made(console: "Console", shell: "Shell") -> "urwid.Widget":
+            from drillctl.console.tables import TableFiles
+            from drillctl.machine.library import user_tables
+            from drillctl.ui.screens.table_list import TableList
+
+            bench = TableFiles(self._library, user_tables(), lambda: self._console.machine)
+            return TableList(console, shell, bench, kind, self._plain)
+
+        return made
+
+    def _queue_editor(self, console: "Console", shell: "Shell") -> "urwid.Widget":
+        from drillctl.console.queues import QueueFiles
+        from drillctl.console.signals import MachineSignals
+        from drillctl.ui.screens.queue_editor import QueueEditor
+
+        return QueueEditor(console, shell, QueueFiles(lambda: self._console.machine), MachineSignals(self._console))
+
+    def _port(self, console: "Console", shell: "Shell") -> "urwid.Widget":
+        from drillctl.console.port import MachinePort
+        from drillctl.ui.screens.port import PortScreen
+
+        return PortScreen(console, shell, MachinePort(self._console))
+
+    def _signals(self, console: "Console", shell: "Shell") -> "urwid.Widget":
+        from drillctl.console.signals import MachineSignals
+        from drillctl.ui.screens.signals import Signals
+
+        return Signals(console, shell, MachineSignals(self._console))
+
+    def _scope(self, console: "Console", shell: "Shell") -> "urwid.Widget":
+        from drillctl.console.scope_runs import ScopeRuns
+        from drillctl.ui.screens.scope import Scope
+
+        return Scope(console, shell, ScopeRuns(self._library, self._console), self._plain, self._run)

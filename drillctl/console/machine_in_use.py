@@ -31,7 +31,7 @@ from drillctl.ticker.table_loading import same_but_tables
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.fault_texts import local_tables
 from drillctl.viewmodel.jobs import Site
-from drillctl.viewmodel.ports import PortView
+from drillctl.viewmodel.signals import PortView
 
 
 class MachineInUse:

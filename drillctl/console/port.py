@@ -12,7 +12,7 @@ from drillctl.portio.registry import open_port, rate_of, select
 from drillctl.ports import Driver, PortError, Telling
 from drillctl.ticker.launch import wiring_of
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.ports import PortReport, PortView
+from drillctl.viewmodel.signals import PortReport, PortView
 
 LISTEN_S = 0.3  # a board reports its inputs when it comes round to them
 LOOK_EVERY_S = 0.01

@@ -1,4 +1,4 @@
-"""Queues of commands as the queue editor sees them (viewmodel/queues.py).
+"""Queues of commands as the queue editor sees them (viewmodel/tables.py).
 
 Rule: a queue is checked by the parser that runs it. Created by the screen verb.
 """
@@ -13,8 +13,7 @@ from drillctl.kmd import COMMANDS, KmdError, Names, Op, parse_program
 from drillctl.kmd.commands import BY_OP, ArgumentForm
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.queues import CommandHelp
-from drillctl.viewmodel.tables import Finding
+from drillctl.viewmodel.tables import CommandHelp, TextFinding
 
 MOVES = (ArgumentForm.XY, ArgumentForm.MOVES)  # their arguments are steps, by axis
 LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it is checked at every key
@@ -35,11 +34,11 @@ class QueueFiles:
         names = self._names()
         return [*names.axes, *names.outputs, *names.inputs]
 
-    def check_queue(self, text: str) -> tuple[Finding, ...]:
+    def check_queue(self, text: str) -> tuple[TextFinding, ...]:
         """Each line alone first, so that all wrong lines are told; then the whole, for what lies between lines."""
         return tuple(_wrong_lines(text, self._names())) or tuple(_wrong(text, self._names(), 0))
 
-    def too_far(self, text: str) -> tuple[Finding, ...]:
+    def too_far(self, text: str) -> tuple[TextFinding, ...]:
         """Base and place are known when the queue runs, and lie within the range: a move longer than it can't fit."""
         return tuple(_too_far(text, self._machine())) if text.strip() else ()
 
@@ -67,12 +66,12 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
     return ((number, line) for number, line in lines if line.partition("#")[0].strip())
 
 
-def _wrong_lines(text: str, names: Names) -> Iterator[Finding]:
+def _wrong_lines(text: str, names: Names) -> Iterator[TextFinding]:
     for number, line in _lines(text):
         yield from _wrong(line, names, number - 1)
 
 
-def _too_far(text: str, machine: Machine) -> Iterator[Finding]:
+def _too_far(text: str, machine: Machine) -> Iterator[TextFinding]:
     for number, line in _lines(text):
         command = parse_program(line, names_of(machine))[0]
         if BY_OP[Op(int(command["opcode"]))].form not in MOVES:
@@ -80,11 +79,11 @@ def _too_far(text: str, machine: Machine) -> Iterator[Finding]:
         for axis, steps in zip(machine.axes, command["args"].tolist(), strict=False):
             if abs(steps) > (span := axis.span_steps):
                 name = axis.name.upper()
-                yield Finding(number, f"{name}: {steps} steps reach beyond the work range, which is {span} long")
+                yield TextFinding(number, f"{name}: {steps} steps reach beyond the work range, which is {span} long")
 
 
-def _wrong(text: str, names: Names, lines_before: int) -> Iterator[Finding]:
+def _wrong(text: str, names: Names, lines_before: int) -> Iterator[TextFinding]:
     try:
         parse_program(text, names)
     except KmdError as error:
-        yield Finding(lines_before + error.line, error.reason, error.column)
+        yield TextFinding(lines_before + error.line, error.reason, error.column)

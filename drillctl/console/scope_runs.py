@@ -149,7 +149,7 @@ def _idle_first(trace: Trace) -> tuple[list[Signal], Values]:
 
 
 class ScopeRuns:
-    """A ScopeDesk for a station and the tables of a library."""
+    """A RunOpening for a station and the tables of a library."""
 
     def __init__(self, library: Library, station: MachineConsole):
         self._library, self._station = library, station

@@ -1,4 +1,4 @@
-"""The machine under a person's hands (viewmodel/manual_control.py): signals, outputs, single ticks.
+"""The machine under a person's hands (viewmodel/signals.py): signals, outputs, single ticks.
 
 Rule: what is shown comes from the status record, what is asked goes down as a request; execution decides again. Created
 by the screen verb.
@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from drillctl.console.machine_console import MachineConsole
 from drillctl.machine import AxisTable, Machine
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.manual_control import SignalView
+from drillctl.viewmodel.signals import SignalView
 
 MOST_TICKS = 1_000_000  # asked for at once
 

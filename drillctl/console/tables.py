@@ -1,4 +1,4 @@
-"""Tables and queues as the screens' editors see them (viewmodel/tables.py, viewmodel/queues.py).
+"""Tables and queues as the screens' editors see them (viewmodel/tables.py).
 
 Rule: a text is checked by the same readers that load it; a file changes whole or not at all, and only the user's own.
 Created by the screen verb.
@@ -26,10 +26,19 @@ from drillctl.machine.settings import Setting, settings, wire_settings
 from drillctl.machine.source import Source
 from drillctl.machine.travel import stopping
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.tables import Checked, FieldView, Finding, Kind, PhaseRow, RampDrawing, StateRow, TableEntry
+from drillctl.viewmodel.tables import (
+    Checked,
+    FieldView,
+    PhaseRow,
+    RampDrawing,
+    StateRow,
+    TableEntry,
+    TableKind,
+    TextFinding,
+)
 
 # What makes a text a table of its kind: a key that only this kind has.
-KEY_OF: dict[Kind, tuple[str, ...]] = {
+KEY_OF: dict[TableKind, tuple[str, ...]] = {
     "phase": ("wire",),
     "ramp": ("state",),
     "motor": ("windings", "pulse"),
@@ -47,7 +56,7 @@ class TableFiles:
     def __init__(self, library: Library, user_folder: Path, machine: Callable[[], Machine | None] = lambda: None):
         self._library, self._user_folder, self._machine = library, user_folder, machine
 
-    def tables(self, kind: Kind) -> list[TableEntry]:
+    def tables(self, kind: TableKind) -> list[TableEntry]:
         """By name."""
         machine = self._machine()
         used = _used(kind, machine) if machine else set()
@@ -56,7 +65,7 @@ class TableFiles:
             for name in self._library.names(kind)
         ]
 
-    def read(self, kind: Kind, name: str) -> str:
+    def read(self, kind: TableKind, name: str) -> str:
         """From the first folder that has it."""
         file = self._library.find(kind, name)
         try:
@@ -64,11 +73,11 @@ class TableFiles:
         except TableError:
             return ""
 
-    def check(self, kind: Kind, text: str) -> Checked:
+    def check(self, kind: TableKind, text: str) -> Checked:
         """By the readers that load tables."""
         return self._check(kind, Source(self._own(kind, "unsaved"), text))
 
-    def save(self, kind: Kind, name: str, text: str) -> Problems:
+    def save(self, kind: TableKind, name: str, text: str) -> Problems:
         """Refused too where a folder named before the user's has a table of this name: that one would still win."""
         own = self._own(kind, name)
         if problems := self._check(kind, Source(own, text)).problems:
@@ -78,7 +87,7 @@ class TableFiles:
             return (f"{found} is looked at before your own copy; change it there, or start without that folder",)
         return write_text(own, text)
 
-    def reset(self, kind: Kind, name: str) -> Problems:
+    def reset(self, kind: TableKind, name: str) -> Problems:
         """Only where there is a shipped one to go back to."""
         own = self._own(kind, name)
         if not own.is_file():
@@ -87,7 +96,7 @@ class TableFiles:
             return (f"{name} does not come with the program; there is nothing to go back to",)
         return _unlinked(own)
 
-    def delete(self, kind: Kind, name: str) -> Problems:
+    def delete(self, kind: TableKind, name: str) -> Problems:
         """One that comes with the program is never deleted, and reset goes back to it."""
         if self._shipped(kind, name).is_file():
             return (f"{name} comes with the program and stays; your own copy goes by a reset",)
@@ -95,14 +104,14 @@ class TableFiles:
             return (f"{self._library.find(kind, name)}: not in your own folder; it is not deleted from here",)
         return _unlinked(self._own(kind, name))
 
-    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+    def diff(self, kind: TableKind, name: str, text: str) -> tuple[str, ...]:
         """From an empty file for a table that does not come with the program."""
         shipped = self._shipped(kind, name)
         before = Source.read(shipped).text if shipped.is_file() else ""
         names = (f"shipped {name}", f"this {name}")
         return tuple(difflib.unified_diff(before.splitlines(), text.splitlines(), *names, lineterm=""))
 
-    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+    def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
         """The copy is named so inside as well."""
         if not NAME.fullmatch(new_name) or len(new_name) > LONGEST_NAME:
             return (f"{new_name!r}: a name is at most {LONGEST_NAME} letters, digits, - and _, no - or _ first",)
@@ -203,28 +212,28 @@ class TableFiles:
         except TableError:
             return None
 
-    def _check(self, kind: Kind, source: Source) -> Checked:
+    def _check(self, kind: TableKind, source: Source) -> Checked:
         try:
             if not set(KEY_OF[kind]) & source.tree().keys():
-                return Checked((Finding(None, f"[{KEY_OF[kind][0]}] is missing: not a table of this kind"),))
-            return Checked((), tuple(Finding(None, hazard) for hazard in self._library.check_source(source)))
+                return Checked((TextFinding(None, f"[{KEY_OF[kind][0]}] is missing: not a table of this kind"),))
+            return Checked((), tuple(TextFinding(None, hazard) for hazard in self._library.check_source(source)))
         except TableError as error:
             ours = error.file == str(source.file)
-            return Checked((Finding(error.line, error.reason) if ours else Finding(None, str(error)),))
+            return Checked((TextFinding(error.line, error.reason) if ours else TextFinding(None, str(error)),))
 
-    def _origin(self, kind: Kind, name: str) -> str:
+    def _origin(self, kind: TableKind, name: str) -> str:
         places = {self._own(kind, name): "yours", self._shipped(kind, name): "shipped"}
         found = self._library.find(kind, name)
         return places.get(found, "other") if found else "other"
 
-    def _own(self, kind: Kind, name: str) -> Path:
+    def _own(self, kind: TableKind, name: str) -> Path:
         return self._user_folder / kind / f"{name}.toml"
 
-    def _shipped(self, kind: Kind, name: str) -> Path:
+    def _shipped(self, kind: TableKind, name: str) -> Path:
         return shipped_tables() / kind / f"{name}.toml"
 
 
-def _used(kind: Kind, machine: Machine) -> set[str]:
+def _used(kind: TableKind, machine: Machine) -> set[str]:
     """The names of the tables that a machine is made of."""
     if kind == "machines":
         return {machine.name}

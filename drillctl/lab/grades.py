@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from drillctl.execution.clock import FAULT_MS, HOLD_MS
-from drillctl.viewmodel.latency import Grade
+from drillctl.viewmodel.reports import Grade
 
 GOOD_SHARE = 0.005  # late ticks that a job does not mind: a step is stretched here and there
 RATES_HZ = (20_000, 10_000, 5_000, 2_000, 1_000, 500, 250, 200, 100, 50)

@@ -25,7 +25,7 @@ from drillctl.machine import Machine
 from drillctl.ticker.processes import Child
 from drillctl.ticker.realtime import become_punctual
 from drillctl.ticker.ticker import Ticker
-from drillctl.viewmodel.latency import LatencyReport
+from drillctl.viewmodel.reports import LatencyReport
 
 MOST_PROCESSORS = 4  # the ticker stays on these, so that a canary sees whatever stops it
 CANARY_WAKES = 2  # a period

@@ -17,7 +17,7 @@ from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, Trial, errors_full_steps, 
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.dynamics import WINDING_DEGREES
 from drillctl.plant.rotor import FULL_TURN
-from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 
 Floats = NDArray[np.float64]
 STANDING_TICKS = 100  # no column for so long: it stands

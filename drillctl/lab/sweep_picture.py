@@ -15,7 +15,7 @@ from drillctl.files.inputs import read_bytes
 from drillctl.lab.answers import FIXED_TAIL
 from drillctl.lab.question import MOST_MACHINES, Question
 from drillctl.lab.sweep import LONGEST_ROW_BYTES
-from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 
 LARGEST_RESULTS_BYTES = MOST_MACHINES * LONGEST_ROW_BYTES
 MOST_LINES = 8

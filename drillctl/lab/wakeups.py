@@ -10,7 +10,7 @@ import os
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.viewmodel.latency import Bar, Lateness
+from drillctl.viewmodel.reports import Bar, Lateness
 
 Spans = NDArray[np.int64]  # (n, 2): from, to, in ns of the monotonic clock
 LONGEST_US = 100_000  # later than that is counted with it; the greatest is known all the same

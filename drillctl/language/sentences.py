@@ -19,7 +19,7 @@ LEAST_LETTERS = 6  # beside its fields: a form with fewer would know any sentenc
 Form = tuple[re.Pattern[str], str]
 
 
-def told(sentence: str) -> str:
+def translated(sentence: str) -> str:
     """The sentence as the operator reads it: as a whole, or behind its place (``FILE:LINE: ``), or before brackets.
 
     What stands in the catalogue word for word is looked for first.
@@ -49,7 +49,7 @@ def _formed(sentence: str) -> str:
     found = ((form.fullmatch(sentence), word) for form, word in _forms(tuple(spoken_words().items())))
     for match, word in found:
         if match:
-            return word.format(**{name: told(value) for name, value in match.groupdict().items()})
+            return word.format(**{name: translated(value) for name, value in match.groupdict().items()})
     return ""
 
 

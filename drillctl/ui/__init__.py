@@ -1,8 +1,15 @@
 """LAYER 1: what a person sees. Every view is a function of a record from viewmodel.
 
-    app.py     the loop of the program on the screen: news in, keys out
-    frame.py   menu bar, the line on the machine, the key line       menus.py   the menus as a table
-    layers.py  dialogs and menus over the frame                      alerts.py  faults, tool changes, mode REAL
-    screens/   Files, Drilling, the editors, the scope               models/    what they know, without a widget
-    widgets/   dialogs, lists, charts, keys: no machine is known     terminal/  what the verbs print and draw
+    app.py     the loop of the program on the screen: the machine's news in, keys out
+    frame.py   the menu bar, the line on the machine, the line of keys
+    layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
+    machines.py  which screens and menus a machine has: a row for each family of machines
+
+    pcb_drill/ the screens and menus of the PCB drill: Drilling, Files, placing by measured holes
+    screens/   what every machine has: tables, ramps, configuration, queue, signals, port, scope
+    models/    what the editors and the scope work on, without a widget
+    widgets/   dialogs, menus, texts, keys, colours: no machine is known
+    terminal/  what the verbs print and draw
+
+The program on the screen imports nothing of terminal/, nor terminal/ of it (tests/ui/test_machines.py).
 """

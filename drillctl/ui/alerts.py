@@ -6,10 +6,10 @@ nothing, so that an Enter meant for something else moves nothing. Used by app.py
 
 from collections.abc import Callable
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import _
 from drillctl.ui.layers import Layers
-from drillctl.ui.screens.board_facts import tool_name
+from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.widgets import dialogs
 from drillctl.ui.widgets.texts import Text
 from drillctl.viewmodel.console import Console, MachineView, ToolWanted
@@ -21,29 +21,29 @@ class Alerts:
 
     def __init__(self, console: Console, layers: Layers):
         self._console, self._layers = console, layers
-        self._fault_told = 0
+        self._fault_shown = 0
         self._was_known = True  # the position, before the newest view
-        self._tool_told: ToolWanted | None = None
+        self._tool_shown: ToolWanted | None = None
         self._tool_box: dialogs.Dialog | None = None
-        self._real_told = ""
+        self._real_shown = ""
 
     def show(self, view: MachineView) -> None:
         """What is new in the view; the fault last, so that it lies on top."""
         self._show_tool(view.tool_wanted)
         self._show_real(view)
         fault = view.fault if view.condition != "returning" else None
-        if fault and fault.code and fault.code != self._fault_told:
+        if fault and fault.code and fault.code != self._fault_shown:
             box = dialogs.message(
                 _fault_title(fault), _fault_lines(fault, self._was_known), self._layers.pop, self._acknowledge
             )
             self._layers.push_dialog(box)
-        self._fault_told = fault.code if fault else 0
+        self._fault_shown = fault.code if fault else 0
         self._was_known = view.position_known
 
     def _show_tool(self, tool: ToolWanted | None) -> None:
-        if tool == self._tool_told:
+        if tool == self._tool_shown:
             return
-        self._tool_told = tool
+        self._tool_shown = tool
         if self._tool_box is not None:
             self._layers.drop(self._tool_box)
             self._tool_box = None
@@ -67,15 +67,15 @@ class Alerts:
     def _show_real(self, view: MachineView) -> None:
         """A machine whose file says REAL is driven on its port after a yes, and simulated until then."""
         wanted = f"{view.machine} {view.real_wanted}" if view.real_wanted else ""
-        if wanted and wanted != self._real_told:
-            asked = _("{machine} is set to REAL. Drive the real machine on {port}?")
-            question = asked.format(machine=view.machine, port=view.real_wanted)
+        if wanted and wanted != self._real_shown:
+            question = _("{machine} is set to REAL. Drive the real machine on {port}?")
+            question = question.format(machine=view.machine, port=view.real_wanted)
             self._layers.push_dialog(dialogs.question(question, self._go_real, self._layers.pop))
-        self._real_told = wanted
+        self._real_shown = wanted
 
     def _go_real(self) -> None:
         if problems := self._console.go_real():
-            lines = [told(problem) for problem in problems]
+            lines = [translated(problem) for problem in problems]
             self._layers.push_dialog(dialogs.message(_("Still simulated"), lines, self._layers.pop))
 
     def _acknowledge(self) -> None:

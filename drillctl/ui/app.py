@@ -11,17 +11,15 @@ from typing import TextIO
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import _
 from drillctl.ui.alerts import Alerts
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
-from drillctl.ui.menus import MENUS, Item, PullDown
-from drillctl.ui.screens.drilling import Drilling
-from drillctl.ui.screens.files import Files
-from drillctl.ui.screens.shell import Live, Shell, unsaved
-from drillctl.ui.screens.unfinished import offer_unfinished
+from drillctl.ui.machines import screens_of
+from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
+from drillctl.ui.widgets.menus import Item, PullDown
 from drillctl.ui.widgets.themes import palette
 from drillctl.viewmodel.console import Console
 
@@ -37,23 +35,21 @@ Pressed = str | tuple[str, int, int, int]
 
 
 class App(Boxes):
-    """The shell of the screens. ``makers`` gives the further screens, by the names that the menus use."""
+    """The shell of the screens. ``makers`` gives the screens that every machine has, by the names that the menus use.
+
+    screens  those that are open; the last is on top
+    """
+
+    screens: list[urwid.Widget]
 
     def __init__(
         self, console: Console, theme: str = "colour", plain: bool = False, makers: Mapping[str, Maker] | None = None,
         terminal: urwid.display.common.BaseScreen | None = None,
     ):  # fmt: skip
-        self._console, self._plain = console, plain
-        self._makers: dict[str, Maker] = {
-            "files": lambda console, shell: Files(console, shell, plain),
-            "drilling": lambda console, shell: Drilling(console, shell, plain, lambda: self.show("files")),
-            **(makers or {}),
-        }
+        self._console, self._plain, self._makers = console, plain, makers or {}
         self._made: dict[str, urwid.Widget] = {}
-        self._first = self._makers["drilling"](console, self)
-        self._made["drilling"] = self._first
-        self.screens = [self._first]
-        self.frame = MainFrame(self.screens[0])
+        self.frame = MainFrame()
+        self._use(screens_of(console.view()))
         terminal = terminal or urwid.display.raw.Screen(output=_terminal())
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows))
         self._alerts = Alerts(console, self.layers)
@@ -67,7 +63,7 @@ class App(Boxes):
         self._interrupts = interrupts
         urwid.set_encoding("ascii" if self._plain else "utf-8")  # of what it writes to, whatever the locale says
         self.loop.set_alarm_in(0, self._beat)
-        self.loop.set_alarm_in(FIRST_LOOK_S, lambda _loop, _data: offer_unfinished(self._console, self))
+        self.loop.set_alarm_in(FIRST_LOOK_S, lambda _loop, _data: self._family.at_start(self._console, self))
         self.loop.run()
 
     def turn(self) -> None:
@@ -137,7 +133,7 @@ class App(Boxes):
     def notices(self) -> None:
         """What the second line has no room for."""
         notices = self._console.view().notices
-        self.message(_("Notices"), [told(notice) for notice in notices] or [_("There is nothing to be said.")])
+        self.message(_("Notices"), [translated(notice) for notice in notices] or [_("There is nothing to be said.")])
 
     def about(self) -> None:
         """What this is."""
@@ -168,9 +164,20 @@ class App(Boxes):
     def take_machine(self, name: str) -> None:
         """Another machine, from its start position."""
         if problems := self._console.choose_machine(name):
-            self.message(_("Refused"), [told(problem) for problem in problems])
-        else:
-            self._refresh_top()
+            self.message(_("Refused"), [translated(problem) for problem in problems])
+            return
+        family = screens_of(self._console.view())
+        if family is not self._family:
+            self._use(family)
+        self._refresh_top()
+
+    def _use(self, family: MachineScreens) -> None:
+        """Takes the menus and the first screen of a family of machines; the screens of the one before are closed."""
+        self._family = family
+        self._made = {name: screen for name, screen in self._made.items() if name in self._makers}
+        self._first = self._made[family.first] = family.makers[family.first](self._console, self, self._plain)
+        self.screens = [self._first]
+        self.frame.bar.show(family.menus)
 
     def _typing_at_rest(self) -> bool:
         """A text field has the cursor, and nothing moves or is going to."""
@@ -186,8 +193,11 @@ class App(Boxes):
         self.turn()
 
     def _screen(self, name: str) -> urwid.Widget | None:
-        if name not in self._made and name in self._makers:
-            self._made[name] = self._makers[name](self._console, self)
+        if name not in self._made:
+            if name in self._makers:
+                self._made[name] = self._makers[name](self._console, self)
+            elif name in self._family.makers:
+                self._made[name] = self._family.makers[name](self._console, self, self._plain)
         return self._made.get(name)
 
     def _refresh_top(self) -> None:
@@ -205,12 +215,13 @@ class App(Boxes):
         if index is None:
             return False
         self.layers.close_menus()
-        index %= len(MENUS)
+        menus = self.frame.bar.menus
+        index %= len(menus)
 
         def sideways(by: int) -> None:
             self._drop(index + by)
 
-        self._pull(MENUS[index].items, self.frame.bar.left_of(index), 1, sideways)
+        self._pull(menus[index].items, self.frame.bar.left_of(index), 1, sideways)
         return True
 
     def _pull(

@@ -8,12 +8,11 @@ from typing import Any
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.menus import MENUS, hot_letter, label_markup, plain_label
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
-from drillctl.ui.widgets.lines import Line, Size, boxed, packed
-from drillctl.ui.widgets.texts import Text
+from drillctl.ui.widgets.menus import Item, hot_letter, label_markup, plain_label
+from drillctl.ui.widgets.texts import Line, Size, Text, boxed, packed
 from drillctl.viewmodel.console import MachineView
 
 # Condition: how it is shown, and its word.
@@ -29,26 +28,30 @@ PAUSED = ("warning", N_("CLOCK STOPPED"))
 
 
 class MenuBar(Text):
-    """The menus side by side; ``left_of`` and ``at`` tell where each of them stands."""
+    """``menus`` side by side; ``left_of`` and ``at`` say where each of them stands."""
+
+    menus: Sequence[Item] = ()
 
     def __init__(self) -> None:
-        parts = [part for menu in MENUS for part in (" ", *label_markup(menu), " ")]
-        super().__init__(parts, wrap="clip")
+        super().__init__("", wrap="clip")
 
-    @staticmethod
-    def left_of(index: int) -> int:
-        """The first column of a menu."""
-        return sum(len(plain_label(menu)) + 2 for menu in MENUS[:index])
+    def show(self, menus: Sequence[Item]) -> None:
+        """Replaces the menus of the bar."""
+        self.menus = menus
+        self.set_text([part for menu in menus for part in (" ", *label_markup(menu), " ")])
+
+    def left_of(self, index: int) -> int:
+        """The first column of a menu, by its index."""
+        return sum(len(plain_label(menu)) + 2 for menu in self.menus[:index])
 
     def at(self, column: int) -> int | None:
-        """Which menu stands at a column."""
-        inside = (i for i in range(len(MENUS)) if self.left_of(i) <= column < self.left_of(i + 1))
+        """The index of the menu at a column; None beside the menus."""
+        inside = (i for i in range(len(self.menus)) if self.left_of(i) <= column < self.left_of(i + 1))
         return next(inside, None)
 
-    @staticmethod
-    def lettered(letter: str) -> int | None:
-        """Which menu has this hot letter."""
-        return next((i for i, menu in enumerate(MENUS) if hot_letter(menu) == letter.lower()), None)
+    def lettered(self, letter: str) -> int | None:
+        """The index of the menu with this hot letter; None where no menu has it."""
+        return next((i for i, menu in enumerate(self.menus) if hot_letter(menu) == letter.lower()), None)
 
 
 class KeyLine(urwid.Widget):
@@ -76,13 +79,13 @@ class KeyLine(urwid.Widget):
 class MainFrame(urwid.Frame[Any, Any, Any]):
     """Bar and machine above, a screen between, keys below."""
 
-    def __init__(self, screen: urwid.Widget):
+    def __init__(self) -> None:
         self.bar = MenuBar()
         self._machine = Text("", wrap="ellipsis")
         self._keys = KeyLine()
         self._shown: Line = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
-        super().__init__(screen, header=header, footer=self._keys)
+        super().__init__(urwid.SolidFill(), header=header, footer=self._keys)
 
     def show_screen(self, screen: urwid.Widget, lowest: bool = True) -> None:
         """Another screen between, its keys below; from the ``lowest`` there is no way back."""
@@ -96,14 +99,14 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         if view.paused:
             attribute, word = PAUSED
         moving = _("moving") if view.moving else _("at rest")
-        known = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
+        position = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
         tables = f" {_('(local)')}" if view.local else ""
         place = f" {view.machine}{tables} | {view.port} | "
         shown = (attribute, f" {_(word)} ")
         title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
-        markup: Line = [title, place, shown, f" {moving} | ", known]
+        markup: Line = [title, place, shown, f" {moving} | ", position]
         if view.notices:
-            markup += [" | ", ("warning", told(view.notices[-1]))]
+            markup += [" | ", ("warning", translated(view.notices[-1]))]
         if markup != self._shown:
             self._shown = markup
             self._machine.set_text(list(markup))

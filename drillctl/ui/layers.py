@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import urwid
 
-from drillctl.ui.menus import PullDown
 from drillctl.ui.widgets import dialogs
-from drillctl.ui.widgets.forms import Choice, Field, FieldsDialog, offer
+from drillctl.ui.widgets.dialogs import ChoiceDialog, Field, FieldsDialog, offer
+from drillctl.ui.widgets.menus import PullDown
 from drillctl.viewmodel.console import Problems
 
 
@@ -119,7 +119,7 @@ class Boxes:
 
     def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
         """See Shell."""
-        self.layers.push_dialog(Choice(title, lines, chosen, self.layers.pop))
+        self.layers.push_dialog(ChoiceDialog(title, lines, chosen, self.layers.pop))
 
     def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
         """See Shell."""

@@ -70,7 +70,7 @@ class MachineView:
     local: bool = False  # some of its tables are neither the shipped ones nor named by the operator
     hot_s: float = 0.0  # after which what was switched on by hand and would burn a winding goes off; 0: nothing is
     cut_off: bool = False  # that has happened, and no output was set since
-    paused: bool = False  # ticks come only as they are granted (viewmodel/manual_control.py)
+    paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +129,7 @@ class Console(Protocol):
     def go_real(self) -> Problems:
         """The machine on the port that its file asks for. Refused while something moves."""
 
-    def load(self, file: str, asked: Asked) -> Problems:
+    def load(self, file: str, options: Asked) -> Problems:
         """Reads a drill file and plans it. Refused with its reasons; the board loaded before then stays."""
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:

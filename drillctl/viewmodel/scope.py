@@ -129,7 +129,7 @@ class ScopeSource(Protocol):
         one of the signal's axis, or of any where the signal is of none."""
 
 
-class ScopeDesk(Protocol):
+class RunOpening(Protocol):
     """Runs that can be looked at."""
 
     def running(self) -> ScopeSource:

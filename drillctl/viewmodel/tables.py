@@ -10,8 +10,8 @@ from typing import Literal, Protocol
 
 from drillctl.viewmodel.console import Problems
 
-Kind = Literal["phase", "ramp", "motor", "machines"]
-Place = tuple[str | int, ...]
+TableKind = Literal["phase", "ramp", "motor", "machines"]
+FieldPath = tuple[str | int, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class TableEntry:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class TextFinding:
     """Something about a text: its line from 1 (None: the whole), its column from 1 where one is known."""
 
     line: int | None
@@ -44,8 +44,8 @@ class Finding:
 class Checked:
     """Problems forbid saving; warnings are for a valid but dangerous table."""
 
-    problems: tuple[Finding, ...] = ()
-    warnings: tuple[Finding, ...] = ()
+    problems: tuple[TextFinding, ...] = ()
+    warnings: tuple[TextFinding, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ class RampDrawing:
 class FieldView:
     """One value of a machine's file: its place there, its axis ("" for none), as text, and what it may be."""
 
-    place: Place
+    place: FieldPath
     axis: str
     value: str
     choices: tuple[str, ...] = ()
@@ -93,28 +93,28 @@ class FieldView:
 class TableEditing(Protocol):
     """Tables as screens edit them. What takes a text draws or changes that text; files change by save and reset."""
 
-    def tables(self, kind: Kind) -> Sequence[TableEntry]:
+    def tables(self, kind: TableKind) -> Sequence[TableEntry]:
         """All tables of a kind, sorted by name."""
 
-    def read(self, kind: Kind, name: str) -> str:
+    def read(self, kind: TableKind, name: str) -> str:
         """The text that is in force; empty where the file can't be read, which ``check`` then tells."""
 
-    def check(self, kind: Kind, text: str) -> Checked:
+    def check(self, kind: TableKind, text: str) -> Checked:
         """What is wrong, and what is dangerous."""
 
-    def save(self, kind: Kind, name: str, text: str) -> Problems:
+    def save(self, kind: TableKind, name: str, text: str) -> Problems:
         """To the user's own copy, whole or not at all; an invalid text is refused."""
 
-    def reset(self, kind: Kind, name: str) -> Problems:
+    def reset(self, kind: TableKind, name: str) -> Problems:
         """The user's copy goes; the shipped table is in force again."""
 
-    def delete(self, kind: Kind, name: str) -> Problems:
+    def delete(self, kind: TableKind, name: str) -> Problems:
         """A table of the user's own that does not come with the program goes for good."""
 
-    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+    def diff(self, kind: TableKind, name: str, text: str) -> tuple[str, ...]:
         """The lines of a unified difference from the shipped table to this text; none where they are the same."""
 
-    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+    def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
         """A table of the user's own, under a name that is free."""
 
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
@@ -140,5 +140,36 @@ class TableEditing(Protocol):
     def wires(self, text: str) -> tuple[FieldView, ...]:
         """The output bit of every motor's wire in a machine's text; none for a text that is no machine."""
 
-    def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
+    def with_field(self, text: str, place: FieldPath, typed: str) -> tuple[str, Problems]:
         """The text with what was typed at a place, or unchanged with the reason."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandHelp:
+    """A command: its name, how its arguments are written, what it does."""
+
+    name: str
+    usage: str
+    meaning: str
+
+
+class QueueEditing(Protocol):
+    """Queues of commands as text."""
+
+    def commands(self) -> Sequence[CommandHelp]:
+        """All commands, in the order of the reference."""
+
+    def words(self) -> Sequence[str]:
+        """What may stand behind a command on this machine: names of axes, outputs and sensors."""
+
+    def check_queue(self, text: str) -> tuple[TextFinding, ...]:
+        """What is wrong, line by line, each with its column; none for a queue that can run."""
+
+    def too_far(self, text: str) -> tuple[TextFinding, ...]:
+        """The moves of a sound queue that end beyond the range wherever they begin: each will be a fault."""
+
+    def open_queue(self, file: str) -> tuple[str, Problems]:
+        """The text of a file; empty, with the reason, where it can't be read."""
+
+    def save_queue(self, file: str, text: str) -> Problems:
+        """To a file, whole or not at all."""

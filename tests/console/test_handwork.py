@@ -12,7 +12,7 @@ from drillctl.console.signals import MachineSignals
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.edit import set_state_row, set_value
 from drillctl.ticker.launch import RunSettings
-from drillctl.viewmodel.manual_control import SignalView
+from drillctl.viewmodel.signals import SignalView
 from tests.support.operator import until
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")

@@ -10,7 +10,7 @@ from drillctl.console.tables import KEY_OF, TableFiles
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.library import user_tables
 from drillctl.ui.models.phase_grid import PhaseGrid
-from drillctl.viewmodel.tables import Checked, Kind
+from drillctl.viewmodel.tables import Checked, TableKind
 
 
 @pytest.fixture
@@ -27,19 +27,19 @@ def bench(user: Path) -> TableFiles:
     ("kind", "name"),
     [("machines", "pcb-drill"), ("phase", "two-phase-forced"), ("ramp", "seven-state")],
 )  # fmt: skip
-def test_what_the_machine_at_hand_is_made_of_is_in_use(user: Path, kind: Kind, name: str) -> None:
+def test_what_the_machine_at_hand_is_made_of_is_in_use(user: Path, kind: TableKind, name: str) -> None:
     library = Library((user, shipped_tables()))
     machine = library.machine("pcb-drill")
     used = [entry.name for entry in TableFiles(library, user, lambda: machine).tables(kind) if entry.in_use]
     assert used == [name] and not any(entry.in_use for entry in TableFiles(library, user).tables(kind))
 
 
-def origin(bench: TableFiles, kind: Kind, name: str) -> str:
+def origin(bench: TableFiles, kind: TableKind, name: str) -> str:
     return next(entry.origin for entry in bench.tables(kind) if entry.name == name)
 
 
 @pytest.mark.parametrize("kind", KEY_OF)
-def test_every_shipped_table_is_found_and_sound(bench: TableFiles, kind: Kind) -> None:
+def test_every_shipped_table_is_found_and_sound(bench: TableFiles, kind: TableKind) -> None:
     entries = bench.tables(kind)
     assert entries and all(entry.origin == "shipped" for entry in entries)
     for entry in entries:
@@ -69,7 +69,9 @@ def test_an_edit_goes_to_the_users_folder_and_wins_and_can_be_taken_back(bench: 
         ("machines", "", "[axis] is missing"),
     ],
 )
-def test_an_invalid_text_is_never_saved(bench: TableFiles, user: Path, kind: Kind, text: str, problem: str) -> None:
+def test_an_invalid_text_is_never_saved(
+    bench: TableFiles, user: Path, kind: TableKind, text: str, problem: str
+) -> None:
     name = bench.tables(kind)[0].name
     before = bench.read(kind, name)
     assert problem in bench.save(kind, name, text)[0]

@@ -18,7 +18,7 @@ from drillctl.lab.wakeups import WakeLog
 from drillctl.machine import Library, Machine
 from drillctl.ticker.ticker import Ticker
 from drillctl.ui.terminal.reports import latency_lines
-from drillctl.viewmodel.latency import LatencyReport
+from drillctl.viewmodel.reports import LatencyReport
 
 COMMAND = (sys.executable, "-m", "drillctl", "latency")
 LONG_S = 600

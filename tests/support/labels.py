@@ -5,7 +5,8 @@ Used by tests/ui and by the pictures in docs.
 """
 
 from drillctl.language import words
-from drillctl.ui.menus import MENUS, Item, hot_letter
+from drillctl.ui.pcb_drill.menus import MENUS
+from drillctl.ui.widgets.menus import Item, hot_letter
 
 POLISH = words.catalogue((words.LOCALE / "pl" / "LC_MESSAGES" / "drillctl.po").read_text("utf-8"))
 

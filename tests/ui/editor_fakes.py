@@ -8,18 +8,18 @@ from typing import Any
 import urwid
 
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.manual_control import SignalView
-from drillctl.viewmodel.queues import CommandHelp
+from drillctl.viewmodel.signals import SignalView
 from drillctl.viewmodel.tables import (
     Checked,
+    CommandHelp,
+    FieldPath,
     FieldView,
-    Finding,
-    Kind,
     PhaseRow,
-    Place,
     RampDrawing,
     StateRow,
     TableEntry,
+    TableKind,
+    TextFinding,
 )  # fmt: skip
 
 SIZE = (100, 30)
@@ -146,33 +146,33 @@ class Tables:
         self.own: dict[str, str] = {}
         self.in_use = True
 
-    def tables(self, kind: Kind) -> list[TableEntry]:
+    def tables(self, kind: TableKind) -> list[TableEntry]:
         return [TableEntry("one", "yours" if kind in self.own else "shipped", in_use=self.in_use)]
 
-    def read(self, kind: Kind, name: str) -> str:
+    def read(self, kind: TableKind, name: str) -> str:
         return self.own.get(kind, self.shipped.get(kind, ""))
 
-    def check(self, kind: Kind, text: str) -> Checked:
+    def check(self, kind: TableKind, text: str) -> Checked:
         lines = list(enumerate(text.split("\n"), start=1))
-        problems = tuple(Finding(number, "it is bad") for number, line in lines if "bad" in line)
-        return Checked(problems, tuple(Finding(None, "all dark") for _number, line in lines if "...." in line))
+        problems = tuple(TextFinding(number, "it is bad") for number, line in lines if "bad" in line)
+        return Checked(problems, tuple(TextFinding(None, "all dark") for _number, line in lines if "...." in line))
 
-    def save(self, kind: Kind, name: str, text: str) -> Problems:
+    def save(self, kind: TableKind, name: str, text: str) -> Problems:
         if problems := self.check(kind, text).problems:
             return tuple(map(str, problems))
         self.own[kind] = text
         return ()
 
-    def reset(self, kind: Kind, name: str) -> Problems:
+    def reset(self, kind: TableKind, name: str) -> Problems:
         return () if self.own.pop(kind, None) is not None else ("there is no copy of your own",)
 
-    def delete(self, kind: Kind, name: str) -> Problems:
+    def delete(self, kind: TableKind, name: str) -> Problems:
         return () if self.own.pop(kind, None) is not None else ("it stays",)
 
-    def diff(self, kind: Kind, name: str, text: str) -> tuple[str, ...]:
+    def diff(self, kind: TableKind, name: str, text: str) -> tuple[str, ...]:
         return () if text == self.shipped[kind] else ("-before", "+after")
 
-    def copy(self, kind: Kind, name: str, new_name: str) -> Problems:
+    def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
         return ("there is one already",) if new_name == name else ()
 
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
@@ -206,7 +206,7 @@ class Tables:
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
         pairs = [line.partition(" ") for line in text.split("\n") if line]
-        places: dict[str, tuple[Place, str, tuple[str, ...]]] = {
+        places: dict[str, tuple[FieldPath, str, tuple[str, ...]]] = {
             "tick_hz": (("tick_hz",), "", ()),
             "mode": (("configuration", "mode"), "", ("REAL", "SIMULATED")),
             "scale": (("axis", 0, "columns_per_inch"), "x", ()),
@@ -218,7 +218,7 @@ class Tables:
     def wires(self, text: str) -> tuple[FieldView, ...]:
         return ()
 
-    def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
+    def with_field(self, text: str, place: FieldPath, typed: str) -> tuple[str, Problems]:
         if not typed or not typed.isalnum():
             return text, (f"{typed!r}: not that",)
         fields = self.fields(text)
@@ -243,12 +243,12 @@ class Queues:
     def words(self) -> list[str]:
         return ["x", "y", "spindle"]
 
-    def check_queue(self, text: str) -> tuple[Finding, ...]:
+    def check_queue(self, text: str) -> tuple[TextFinding, ...]:
         lines = enumerate(text.split("\n"), start=1)
-        return tuple(Finding(n, "unknown command", 1) for n, line in lines if line and not line.startswith("KMD_"))
+        return tuple(TextFinding(n, "unknown command", 1) for n, line in lines if line and not line.startswith("KMD_"))
 
-    def too_far(self, text: str) -> tuple[Finding, ...]:
-        return tuple(Finding(n, "too far") for n, line in enumerate(text.split("\n"), start=1) if "9999" in line)
+    def too_far(self, text: str) -> tuple[TextFinding, ...]:
+        return tuple(TextFinding(n, "too far") for n, line in enumerate(text.split("\n"), start=1) if "9999" in line)
 
     def open_queue(self, file: str) -> tuple[str, Problems]:
         return (self.files[file], ()) if file in self.files else ("", (f"{file}: can't be read",))

@@ -9,12 +9,12 @@ from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.settings import settings
 from drillctl.machine.source import Source
-from drillctl.ui.screens.configuration import Configuration
-from drillctl.ui.screens.field_words import FIELD_WORDS, words_of
+from drillctl.ui.models.machine_fields import FIELD_WORDS, words_of
+from drillctl.ui.screens.configuration import ConfigurationScreen
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.table_actions import label_of
 from drillctl.ui.screens.table_list import EDITORS, TableList
-from drillctl.viewmodel.tables import FieldView, Kind, TableEntry
+from drillctl.viewmodel.tables import FieldView, TableEntry, TableKind
 from tests.ui.editor_fakes import Console, Shell, Tables, attributes_of, press, text_of
 
 FILE = "tick_hz 500\nmode SIMULATED\nscale 1200"
@@ -36,11 +36,11 @@ def desk() -> Tables:
 
 
 @pytest.fixture
-def screen(console: Console, shell: Shell, desk: Tables) -> Configuration:
-    return Configuration(console, shell, desk, "one")
+def screen(console: Console, shell: Shell, desk: Tables) -> ConfigurationScreen:
+    return ConfigurationScreen(console, shell, desk, "one")
 
 
-def row_of(screen: Configuration, label: str) -> list[str]:
+def row_of(screen: ConfigurationScreen, label: str) -> list[str]:
     return next(row for row in text_of(screen).split("\n") if row.startswith(label)).removeprefix(label).split()
 
 
@@ -53,7 +53,7 @@ def test_every_setting_of_a_machine_has_words() -> None:
     assert words_of(FieldView(("new",), "", "1")).label == "new"
 
 
-def test_a_field_has_its_unit_and_bounds_and_the_focused_one_its_meaning(screen: Configuration) -> None:
+def test_a_field_has_its_unit_and_bounds_and_the_focused_one_its_meaning(screen: ConfigurationScreen) -> None:
     assert row_of(screen, "Interrupt frequency") == ["500", "Hz", "1..9999"]
     assert row_of(screen, "Mode") == ["SIMULATED", "REAL", "|", "SIMULATED"]
     assert row_of(screen, "X: scale") == ["1200", "columns/inch", "1..9999"]
@@ -62,14 +62,16 @@ def test_a_field_has_its_unit_and_bounds_and_the_focused_one_its_meaning(screen:
     assert "they drive the card" in text_of(screen)
 
 
-def test_what_is_typed_is_saved_with_the_rest_as_it_was(screen: Configuration, shell: Shell, desk: Tables) -> None:
+def test_what_is_typed_is_saved_with_the_rest_as_it_was(
+    screen: ConfigurationScreen, shell: Shell, desk: Tables
+) -> None:
     press(screen, "end", "backspace", "5", "down", "f6", "f2")
     assert desk.own["machines"] == "tick_hz 505\nmode REAL\nscale 1200"
-    assert not screen.form.changed and "position will be lost" in shell.asked[0]
+    assert not screen.draft.changed and "position will be lost" in shell.asked[0]
 
 
 def test_a_value_that_cannot_be_taken_is_told_and_nothing_is_saved(
-    screen: Configuration, shell: Shell, desk: Tables
+    screen: ConfigurationScreen, shell: Shell, desk: Tables
 ) -> None:
     press(screen, "end", "-", "down", "down", "end", "7")
     assert "problem: Interrupt frequency: '500-': not that" in text_of(screen)
@@ -79,7 +81,7 @@ def test_a_value_that_cannot_be_taken_is_told_and_nothing_is_saved(
 
 
 def test_fields_that_are_right_alone_and_wrong_together_are_not_saved(
-    screen: Configuration, shell: Shell, desk: Tables
+    screen: ConfigurationScreen, shell: Shell, desk: Tables
 ) -> None:
     press(screen, "end", *["backspace"] * 3, *"bad")
     assert "problem: 1: it is bad" in text_of(screen)
@@ -87,27 +89,27 @@ def test_fields_that_are_right_alone_and_wrong_together_are_not_saved(
     assert desk.own == {} and shell.told == [("Not saved", ["1: it is bad"])]
 
 
-def test_the_old_value_typed_again_is_no_change(screen: Configuration) -> None:
+def test_the_old_value_typed_again_is_no_change(screen: ConfigurationScreen) -> None:
     press(screen, "end", "1")
-    assert screen.form.changed and "changed" in text_of(screen)
+    assert screen.draft.changed and "changed" in text_of(screen)
     press(screen, "backspace")
-    assert not screen.form.changed
+    assert not screen.draft.changed
 
 
-def test_choices_go_round_and_a_field_without_any_stays(screen: Configuration) -> None:
+def test_choices_go_round_and_a_field_without_any_stays(screen: ConfigurationScreen) -> None:
     press(screen, "f6")
-    assert not screen.form.changed
+    assert not screen.draft.changed
     press(screen, "down", "f6", "f6")
     assert row_of(screen, "Mode")[0] == "SIMULATED"
 
 
-def test_the_machine_is_chosen_and_a_refusal_told(screen: Configuration, console: Console, shell: Shell) -> None:
+def test_the_machine_is_chosen_and_a_refusal_told(screen: ConfigurationScreen, console: Console, shell: Shell) -> None:
     console.refusal = ("the machine is at work",)
     press(screen, "f5")
     assert console.chosen == ["one"] and shell.told == [("Not loaded", ["the machine is at work"])]
 
 
-def test_a_copy_is_gone_on_with(screen: Configuration, shell: Shell) -> None:
+def test_a_copy_is_gone_on_with(screen: ConfigurationScreen, shell: Shell) -> None:
     shell.types = "two"
     press(screen, "f7")
     assert "Configuration: two" in text_of(screen)
@@ -115,7 +117,7 @@ def test_a_copy_is_gone_on_with(screen: Configuration, shell: Shell) -> None:
     assert shell.told == [("Not copied", ["there is one already"])]
 
 
-def test_a_copy_is_of_what_is_saved_and_loses_nothing_that_is_typed(screen: Configuration, shell: Shell) -> None:
+def test_a_copy_is_of_what_is_saved_and_loses_nothing_that_is_typed(screen: ConfigurationScreen, shell: Shell) -> None:
     shell.types = "two"
     press(screen, "end", "5", "f7")
     assert shell.told[0][0] == "Not copied" and screen.changed and "Configuration: one" in text_of(screen)
@@ -124,7 +126,7 @@ def test_a_copy_is_of_what_is_saved_and_loses_nothing_that_is_typed(screen: Conf
 def test_reset_and_difference(console: Console, desk: Tables) -> None:
     shell = Shell(says_yes=True)
     desk.own["machines"] = FILE.replace("500", "400")
-    screen = Configuration(console, shell, desk, "one")
+    screen = ConfigurationScreen(console, shell, desk, "one")
     press(screen, "f3", "f8")
     assert shell.told == [("Differences", ["-before", "+after"])]
     assert row_of(screen, "Interrupt frequency")[0] == "500"
@@ -138,18 +140,18 @@ class Unread(Tables):
 
 
 def test_a_file_that_cannot_be_read_is_said_to_be_so(console: Console, shell: Shell) -> None:
-    screen = Configuration(console, shell, Unread(machines="bad"), "one")
+    screen = ConfigurationScreen(console, shell, Unread(machines="bad"), "one")
     press(screen, "up", "down", "f6", "f5")
     assert "problem: 1: it is bad" in text_of(screen)
 
 
-def test_leaving_asks_only_where_something_would_be_lost(screen: Configuration, shell: Shell) -> None:
+def test_leaving_asks_only_where_something_would_be_lost(screen: ConfigurationScreen, shell: Shell) -> None:
     assert press(screen, "esc") == ["esc"]
     assert press(screen, "end", "1", "esc") == [] and shell.asked == ["Leave without saving?"]
 
 
 @pytest.mark.parametrize("kind", EDITORS)
-def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: Kind) -> None:
+def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: TableKind) -> None:
     desk = Tables(phase="1a 5 x.", ramp="0 0 0 1", machines=FILE)
     desk.in_use = False
     tables = TableList(console, shell, desk, kind)
@@ -242,7 +244,7 @@ def test_at_eighty_columns_every_field_has_a_line_with_its_unit_and_bounds(
     words.use(language)
     try:
         desk = TableFiles(Library((tmp_path, shipped_tables())), tmp_path)
-        screen = Configuration(console, shell, desk, "pcb-drill")
+        screen = ConfigurationScreen(console, shell, desk, "pcb-drill")
         text = text_of(screen, (80, 60))
         fields = desk.fields(desk.read("machines", "pcb-drill"))
         for field in fields:

@@ -8,13 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from drillctl import console as station
+from drillctl import console
 from drillctl.kmd import Fault
 from drillctl.language import words
 from drillctl.ui import app
 from drillctl.ui.frame import CONDITIONS, screen_keys
-from drillctl.ui.menus import MENUS, plain_label
+from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key
+from drillctl.ui.widgets.menus import plain_label
 from drillctl.viewmodel.console import MachineView
 from drillctl.viewmodel.fault_texts import FAULT_WORDS, fault_report
 from tests.support.labels import POLISH, menu
@@ -58,7 +59,7 @@ def _box(program: Program, below: Program) -> list[str]:
 
 def refusals() -> list[str]:
     """What a station says to a request that it does not take: its constants that have a Polish form."""
-    files = Path(station.__file__).parent.glob("*.py")
+    files = Path(console.__file__).parent.glob("*.py")
     nodes = [node for file in files for node in ast.walk(ast.parse(file.read_text("utf-8")))]
     found = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
     return sorted(found & set(POLISH))

@@ -6,10 +6,11 @@ import pytest
 import urwid
 
 from drillctl.language import words
-from drillctl.ui.menus import MENUS, Item, hot_letter, plain_label
-from drillctl.ui.screens.drilling import Drilling
-from drillctl.ui.screens.files import Files
+from drillctl.ui.pcb_drill.drilling import Drilling
+from drillctl.ui.pcb_drill.files import Files
+from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called
+from drillctl.ui.widgets.menus import Item, hot_letter, plain_label
 from drillctl.ui.widgets.themes import ATTRIBUTES, THEMES, palette
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
 

@@ -14,19 +14,19 @@ import numpy as np
 import pytest
 
 from drillctl import ui
-from drillctl.cli.benches import ScreenMakers
+from drillctl.cli.screen import EditorScreens
 from drillctl.console import signals as handbench
 from drillctl.console.machine_console import MachineConsole
 from drillctl.language import visible
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
 from drillctl.ui import app
-from drillctl.ui.terminal.charts import COLOURS, NO_COLOUR, Look, picture_lines
+from drillctl.ui.terminal.charts import COLOURS, NO_COLOUR, ChartLook, picture_lines
 from drillctl.ui.terminal.image_file import picture_bytes
 from drillctl.ui.widgets import texts
-from drillctl.ui.widgets.forms import Field
+from drillctl.ui.widgets.dialogs import Field
 from drillctl.viewmodel.jobs import Asked, RecentJob, UnfinishedJob
-from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
 from tests.ui.whole import BLINKER, SCREENS, at_home
 
@@ -132,7 +132,7 @@ class JobRunner:
         )
         self.paper = Paper()
         self.paper.size = (100, 40)
-        makers = ScreenMakers(library, self.station, plain=False).makers()
+        makers = EditorScreens(library, self.station, plain=False).makers()
         self.app = app.App(self.station, makers=makers, terminal=self.paper)
 
     def press(self, *keys: str) -> None:
@@ -192,7 +192,7 @@ def picture() -> Picture:
 
 
 def test_a_chart_paints_escaped_words() -> None:
-    for line in picture_lines(picture(), Look(60, 10, coloured=True)):
+    for line in picture_lines(picture(), ChartLook(60, 10, coloured=True)):
         checked(PAINT.sub("", line))
 
 

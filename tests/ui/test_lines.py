@@ -5,7 +5,7 @@ import urwid
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.ui.widgets.lines import Line, boxed
+from drillctl.ui.widgets.texts import Line, boxed
 
 WORDS = st.text("ab ⠁─żł", max_size=12)
 LINES = st.lists(st.lists(st.one_of(WORDS, st.tuples(st.sampled_from(["good", "key"]), WORDS)), max_size=5), max_size=8)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from drillctl.console.tables import TableFiles
 from drillctl.machine import Library, shipped_tables
-from drillctl.ui.models.history import MOST_STATES, History
+from drillctl.ui.models.editing import MOST_STATES, History
 from drillctl.ui.models.phase_grid import LEAST_COLUMNS, PhaseGrid
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.viewmodel.tables import PhaseRow

@@ -6,7 +6,7 @@ import pytest
 
 from drillctl.ui.screens.port import PortScreen
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.ports import PortReport, PortView
+from drillctl.viewmodel.signals import PortReport, PortView
 from tests.ui.desk import VIEW, FakeConsole, Program
 from tests.ui.editor_fakes import Shell, press, text_of
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from drillctl.ui.models.completion import completed, usage
+from drillctl.ui.models.editing import completed, usage
 from drillctl.ui.screens.queue_editor import QueueEditor
 from tests.ui.editor_fakes import Console, Hands, Queues, Shell, attributes_of, press, text_of
 

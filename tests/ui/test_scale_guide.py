@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from drillctl.console.tables import TableFiles
 from drillctl.machine import Library, TableError, shipped_tables
-from drillctl.ui.models.scale import GREATEST_CHANGE, LEAST_TRAVEL_MM, Measurement
-from drillctl.ui.screens.configuration import Configuration
+from drillctl.ui.screens.configuration import ConfigurationScreen
+from drillctl.ui.screens.scale_guide import GREATEST_CHANGE, LEAST_TRAVEL_MM, Measurement
 from drillctl.ui.screens.table_actions import differences
 from drillctl.viewmodel.console import Problems
 from tests.ui.editor_fakes import Shell, press, text_of
@@ -62,10 +62,10 @@ def desk(tmp_path: Path) -> TableFiles:
     return TableFiles(library, tmp_path, lambda: library.machine("pcb-drill"))
 
 
-def measure(rig: Rig, desk: TableFiles, *typed: str, yes: bool = True) -> tuple[Answers, Configuration]:
+def measure(rig: Rig, desk: TableFiles, *typed: str, yes: bool = True) -> tuple[Answers, ConfigurationScreen]:
     """With the cursor on the scale of X."""
     shell = Answers(says_yes=yes, typed=list(typed))
-    screen = Configuration(rig, shell, desk, "pcb-drill")
+    screen = ConfigurationScreen(rig, shell, desk, "pcb-drill")
     press(screen, "down", "down", "down", "f12")
     return shell, screen
 
@@ -117,7 +117,7 @@ def test_the_steps_that_were_made_count_and_not_those_asked_for(desk: TableFiles
 def test_a_reading_while_it_moves_is_asked_for_again(desk: TableFiles) -> None:
     rig = Rig()
     shell = Answers(typed=["2400"])
-    screen = Configuration(rig, shell, desk, "pcb-drill")
+    screen = ConfigurationScreen(rig, shell, desk, "pcb-drill")
     press(screen, "down", "down", "down")
     rig.jog = lambda axis, steps: setattr(rig, "moving", True) or ()
     shell.typed.append("51.3")
@@ -146,7 +146,7 @@ def test_where_a_measurement_would_mean_nothing_it_is_not_begun(
 
 def test_only_an_axis_has_a_scale_and_nothing_typed_may_be_saved_with_it(desk: TableFiles) -> None:
     shell = Answers(typed=["2400", "51.3"])
-    screen = Configuration(Rig(), shell, desk, "pcb-drill")
+    screen = ConfigurationScreen(Rig(), shell, desk, "pcb-drill")
     press(screen, "f12")
     press(screen, "down", "down", "down", "end", "5", "f12")
     assert [lines for _title, lines in shell.told] == [
@@ -175,7 +175,7 @@ def locked(desk: TableFiles, tmp_path: Path) -> TableFiles:
 
 def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: TableFiles) -> None:
     shell = Answers()
-    screen = Configuration(Rig(), shell, locked, "pcb-drill")
+    screen = ConfigurationScreen(Rig(), shell, locked, "pcb-drill")
     rows = [row for row in text_of(screen, (80, 40)).split("\n") if "locked" in row]
     assert [row.split(":")[0].strip()[0] for row in rows] == ["X", "X", "I"]
     press(screen, *["down"] * 5, "end", "9")

@@ -9,12 +9,12 @@ import urwid
 
 from drillctl.language import words
 from drillctl.language.figures import pair_mm
-from drillctl.ui.models.jog_sizes import JOG_SIZES, MM, STEPS
-from drillctl.ui.screens.board_view import BoardPicture
-from drillctl.ui.screens.drilling import Drilling
-from drillctl.ui.screens.files import CHOICES, Files
-from drillctl.ui.screens.side_window import side_pages
-from drillctl.ui.widgets.lines import Line
+from drillctl.ui.pcb_drill.board_view import BoardPicture
+from drillctl.ui.pcb_drill.drilling import Drilling
+from drillctl.ui.pcb_drill.files import CHOICES, Files
+from drillctl.ui.pcb_drill.side_window import side_pages
+from drillctl.ui.screens.jog_controls import JOG_SIZES, MM, STEPS
+from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import Asked, MachineView, ToolWanted
 from drillctl.viewmodel.records import Progress
 from tests.ui.desk import BOARD, VIEW, WIRES, FakeConsole, Program

@@ -11,7 +11,7 @@ from drillctl.generation.drillfile import read
 from drillctl.generation.drillfile.errors import REFUSALS, WARNINGS
 from drillctl.kmd import KmdError, Names, parse_program
 from drillctl.language import words
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.errors import TableError
 from drillctl.machine.source import Source
@@ -47,12 +47,12 @@ def polish() -> Iterator[None]:
     ],
 )  # fmt: skip
 def test_a_sentence_is_told_by_its_form(sentence: str, word: str) -> None:
-    assert told(sentence) == word
+    assert translated(sentence) == word
 
 
 def test_in_english_nothing_changes() -> None:
     words.use("en")
-    assert told("inch 2:4, trailing zeros suppressed") == "inch 2:4, trailing zeros suppressed"
+    assert translated("inch 2:4, trailing zeros suppressed") == "inch 2:4, trailing zeros suppressed"
 
 
 @pytest.mark.parametrize("sentence", sorted(refusals()))
@@ -78,7 +78,7 @@ def test_every_finding_of_the_editors_has_its_polish(sentence: str) -> None:
 def test_a_wrong_line_of_a_queue_is_told(line: str, word: str) -> None:
     with pytest.raises(KmdError) as refused:
         parse_program(line, Names(("x", "y"), {}, {}))
-    assert told(f"3:1: {refused.value.reason}") == f"3:1: {word}"
+    assert translated(f"3:1: {refused.value.reason}") == f"3:1: {word}"
 
 
 @pytest.mark.parametrize(
@@ -101,24 +101,24 @@ def test_a_wrong_machine_is_told(written: str, instead: str, word: str) -> None:
     assert written in text
     with pytest.raises(TableError) as refused:
         Library((shipped_tables(),)).check_source(Source(Path("own.toml"), text.replace(written, instead, 1)))
-    assert told(str(refused.value)).partition(": ")[2] == word
+    assert translated(str(refused.value)).partition(": ")[2] == word
 
 
 @pytest.mark.parametrize("code", [*REFUSALS, *WARNINGS])
 def test_every_remark_on_a_drill_file_has_its_polish(code: str) -> None:
     english = {**REFUSALS, **WARNINGS}[code]
-    assert told(f"{code}: {english} ('G99')") == f"{code}: {POLISH[english]} ('G99')"
+    assert translated(f"{code}: {english} ('G99')") == f"{code}: {POLISH[english]} ('G99')"
 
 
 def test_the_reason_of_a_recognition_is_told_whole(tmp_path: Path) -> None:
     for fmt in (None, "inch,2:4,trailing"):
-        assert told(read(BLINKER, fmt=fmt).reason) != read(BLINKER, fmt=fmt).reason
+        assert translated(read(BLINKER, fmt=fmt).reason) != read(BLINKER, fmt=fmt).reason
     (tmp_path / "bare.drl").write_text("%\nT1C0.031\nX005000Y012500\nX006000Y012500\nX0065Y0135\nM30\n")
-    reason = told(read(tmp_path / "bare.drl").reason)
+    reason = translated(read(tmp_path / "bare.drl").reason)
     assert reason.startswith("nic nie zadeklarowano; ") and "daje: " in reason and "w drugiej kolejności" in reason
     assert not any(word in reason for word in ("suppressed", "zeros", "overlapping", "extent"))
 
 
 @given(st.text(max_size=60))
 def test_any_text_can_be_told(text: str) -> None:
-    assert isinstance(told(text), str)
+    assert isinstance(translated(text), str)

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.ui.models.rows import Rows
-from drillctl.ui.models.viewport import ZOOMS, Viewport
+from drillctl.ui.models.viewport import ZOOMS, SignalRows, Viewport
 
 
 @st.composite
@@ -77,8 +76,8 @@ def test_a_growing_run_leaves_the_view_where_it_is_and_a_forgotten_part_moves_it
     assert (later.left, later.cursor) == (80, 80)
 
 
-ACTS: dict[str, Callable[[Rows, int], Rows]] = {
-    "move": Rows.move,
+ACTS: dict[str, Callable[[SignalRows, int], SignalRows]] = {
+    "move": SignalRows.move,
     "hide": lambda rows, _by: rows.hide(),
     "all": lambda rows, _by: rows.all(),
     "only": lambda rows, by: rows.only([by]),
@@ -88,7 +87,7 @@ ACTS: dict[str, Callable[[Rows, int], Rows]] = {
 
 @given(st.integers(1, 30), st.data())
 def test_the_bar_is_always_on_a_row_that_is_shown(count: int, data: st.DataObject) -> None:
-    rows = Rows(count)
+    rows = SignalRows(count)
     for act, by in data.draw(st.lists(st.tuples(st.sampled_from([*ACTS]), st.integers(-9, 30)))):
         rows = ACTS[act](rows, by)
         assert rows.at in rows.shown
@@ -98,12 +97,12 @@ def test_the_bar_is_always_on_a_row_that_is_shown(count: int, data: st.DataObjec
 
 @pytest.mark.parametrize(("by", "at"), [(1, 3), (-1, 0), (99, 4), (-99, 0)])
 def test_the_bar_skips_what_is_hidden(by: int, at: int) -> None:
-    rows = Rows(5, hidden=frozenset({1, 2})).move(0)
+    rows = SignalRows(5, hidden=frozenset({1, 2})).move(0)
     assert rows.move(by).at == at
 
 
 def test_the_last_row_can_not_be_hidden_and_all_come_back() -> None:
-    rows = Rows(3)
+    rows = SignalRows(3)
     for _ in range(5):
         rows = rows.hide()
     assert len(rows.shown) == 1 and rows.all().shown == [0, 1, 2]

@@ -10,7 +10,7 @@ from drillctl.kmd import FAULTS, Fault
 from drillctl.language.figures import clock
 from drillctl.ui.terminal.progress import ProgressView
 from drillctl.ui.terminal.reports import summary_lines
-from drillctl.ui.widgets.board import board_rows
+from drillctl.ui.widgets.dots import dot_rows
 from drillctl.viewmodel import FAULT_WORDS, Outcome, Progress, fault_report
 
 
@@ -88,7 +88,7 @@ def test_the_time_left_of_a_free_run_is_the_wait_and_machine_time_stands_beside_
 
 
 def test_a_board_is_drawn_to_scale_with_y_upwards() -> None:
-    rows = board_rows(np.array([[0.0, 0.0], [30.0, 0.0], [0.0, 10.0]]), 20, 10)
+    rows = dot_rows(np.array([[0.0, 0.0], [30.0, 0.0], [0.0, 10.0]]), 20, 10)
     assert all(len(row) == 20 for row in rows) and len(rows) <= 4
     assert rows[-1][0] != "\u2800" and rows[-1][-1] != "\u2800", "lowest row: both lower holes"
     assert rows[0][0] != "\u2800" and rows[0][-1] == "\u2800", "highest row: the upper left hole alone"
@@ -96,11 +96,11 @@ def test_a_board_is_drawn_to_scale_with_y_upwards() -> None:
 
 def test_every_hole_far_enough_apart_has_its_dot() -> None:
     grid = np.array([(x, y) for x in range(10) for y in range(5)], float)
-    dots = sum(bin(ord(cell) - 0x2800).count("1") for row in board_rows(grid, 40, 20) for cell in row)
+    dots = sum(bin(ord(cell) - 0x2800).count("1") for row in dot_rows(grid, 40, 20) for cell in row)
     assert dots == 50
 
 
 @pytest.mark.parametrize("points", [np.empty((0, 2)), np.array([[5.0, 5.0]]), np.array([[1.0, 2.0], [1.0, 9.0]])])
 def test_boards_without_extent_are_no_trouble(points: np.ndarray) -> None:
-    rows = board_rows(points, 20, 5)
+    rows = dot_rows(points, 20, 5)
     assert len(rows) <= 5 and (len(rows) > 0) == (len(points) > 0)

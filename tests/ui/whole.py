@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.cli.benches import ScreenMakers
+from drillctl.cli.screen import EditorScreens
 from drillctl.console import signals as handbench
 from drillctl.console.machine_console import MachineConsole
 from drillctl.language import words
@@ -112,7 +112,7 @@ class Whole:
         self.station = Watched()
         self.paper = Paper()
         self.paper.size = size
-        makers = ScreenMakers(Library((shipped_tables(),)), self.station, plain=False).makers()
+        makers = EditorScreens(Library((shipped_tables(),)), self.station, plain=False).makers()
         self.app = app.App(self.station, makers=makers, terminal=self.paper)
 
     def press(self, *events: Event) -> None:

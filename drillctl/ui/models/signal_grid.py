@@ -8,15 +8,15 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from drillctl.language.words import N_, _
-from drillctl.ui.widgets.lines import Line
-from drillctl.viewmodel.manual_control import Kind, SignalView
+from drillctl.ui.widgets.texts import Line
+from drillctl.viewmodel.signals import SignalKind, SignalView
 
 CELL_COLUMNS = 39
 NAME_COLUMNS = 15
 CARD_BITS = 32
-TITLES: dict[Kind, str] = {"input": N_("Inputs"), "output": N_("Outputs"), "coil": N_("Motor")}
+TITLES: dict[SignalKind, str] = {"input": N_("Inputs"), "output": N_("Outputs"), "coil": N_("Motor")}
 # Kind: the words for on and off.
-STATES: dict[Kind, tuple[str, str]] = {
+STATES: dict[SignalKind, tuple[str, str]] = {
     "input": (N_("REACHED"), N_("clear")),
     "output": (N_("ON"), N_("off")),
     "coil": (N_("ON"), N_("off")),

@@ -1,15 +1,12 @@
-"""The screens: each is made with a Console and a Shell, and draws what the Console's records say.
+"""The screens that every machine has: each is made with a Console and a Shell, and draws the records it is given.
 
-files.py         find a drill file, see what it says, place it
-browser.py  board_facts.py  typed.py    its list, words, what is typed      alignment.py  placing by measured holes
-drilling.py      the machine at work: jog, base, start, hold, stop
-at_machine.py    what the screens with jog keys share
-side_window.py   the paper's window at the right: a function of the machine's view
-board_view.py    the board: done, current, to do, and the head
-phase_editor.py  ramp_editor.py  queue_editor.py  configuration.py    the Tests and Configuration menus
-scope.py         a run as a logic analyser shows it: keys and cursor    scope_view.py  its lines    scope_keys.py
-signals.py       every input and output, live    port.py    the port, tested and chosen
-table_list.py    which table to edit
-table_editor.py  shelf.py  compare.py  field_words.py    what the editors share
-scale_guide.py   the scale of an axis measured, step by step
+    shell.py         what a screen may ask of the program around it, and what a family of machines must name
+    menus.py         the menus Tests, Configuration and Help
+    table_list.py    the tables of one kind, to be opened     table_editor.py   what the editors of tables share
+    table_actions.py save, reset, compare, copy, delete       phase_editor.py  ramp_editor.py  queue_editor.py
+    configuration.py the machine's file as fields             scale_guide.py    the scale of an axis measured
+    scope.py         a run as a logic analyser shows it: its keys are in scope_keys.py, its lines in scope_view.py,
+                     its waves in scope_wave.py
+    signals.py       every input and output, live             port.py           the port, tested and chosen
+    machine_lines.py phases and tools as lines of text        jog_controls.py   jog keys, and the line that answers
 """

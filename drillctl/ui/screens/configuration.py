@@ -8,24 +8,22 @@ from typing import Any
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.models.form import ConfigurationDraft
-from drillctl.ui.screens.field_words import words_of
+from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
 from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line
-from drillctl.ui.widgets.texts import Edit, Text
+from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.console import Console
 from drillctl.viewmodel.tables import FieldView, TableEditing
 
 LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
 
 
-class Configuration(urwid.WidgetWrap[urwid.Widget]):
+class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
     title = N_("Configuration")
@@ -41,25 +39,25 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         Key(("f12",), "F12", "measure", N_("measures the scale of the axis under the cursor"), N_("Measure")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: TableEditing, name: str, plain: bool = False):
-        self._console, self._shell, self._desk, self._name = console, shell, desk, name
-        self._shelf = TableActions(console, shell, desk, "machines")
-        self._heading, self._told = Text(""), Text("")
+    def __init__(self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False):
+        self._console, self._shell, self._tables, self._name = console, shell, tables, name
+        self._actions = TableActions(console, shell, tables, "machines")
+        self._heading, self._below = Text(""), Text("")
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
         self._list = urwid.ListBox(self._rows)
         header = urwid.AttrMap(self._heading, "title")
-        super().__init__(urwid.Frame(self._list, header=header, footer=self._told))
+        super().__init__(urwid.Frame(self._list, header=header, footer=self._below))
         self._open()
 
     @property
-    def form(self) -> ConfigurationDraft:
+    def draft(self) -> ConfigurationDraft:
         """What is typed."""
-        return self._form
+        return self._draft
 
     @property
     def changed(self) -> bool:
         """Whether something typed would be lost."""
-        return self._form.changed
+        return self._draft.changed
 
     def keypress(self, size: Size, key: str) -> str | None:
         """The table's keys, then the field's own; Esc asks first where something would be lost."""
@@ -80,37 +78,37 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         field = self._field
         if field is None or not field.choices:
             return
-        now = self._form.shown(field)
+        now = self._draft.shown(field)
         at = field.choices.index(now) if now in field.choices else -1
         self._edits[self._list.focus_position].set_edit_text(field.choices[(at + 1) % len(field.choices)])
         self._take()
 
     def save(self) -> None:
         """All fields or none."""
-        text, refused = self._form.candidate()
+        text, refused = self._draft.candidate()
         if refused:
             self._shell.message(_("Not saved"), refused)
         else:
-            self._shelf.save(self._name, text, self._name, self._open)
+            self._actions.save(self._name, text, self._name, self._open)
 
     def diff(self) -> None:
         """Of what is typed, as far as it can be taken."""
-        self._shelf.diff(self._name, self._form.candidate()[0])
+        self._actions.diff(self._name, self._draft.candidate()[0])
 
     def choose(self) -> None:
         """What is typed and not saved stays out of it."""
-        self._shelf.drive(self._name)
+        self._actions.drive(self._name)
 
     def copy(self) -> None:
         """Of what is saved; the copy is gone on with."""
         if self.changed:
             self._shell.message(_("Not copied"), [_("Save first, or take back, what is typed.")])
         else:
-            self._shelf.copy(self._name, self._go_on_with)
+            self._actions.copy(self._name, self._go_on_with)
 
     def reset(self) -> None:
         """What is typed goes too."""
-        self._shelf.reset(self._name, self._open)
+        self._actions.reset(self._name, self._open)
 
     def measure(self) -> None:
         """With nothing typed that a new scale would be saved with."""
@@ -120,17 +118,17 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         elif self.changed:
             self._shell.message(_("Not measured"), [_("Save first, or take back, what is typed.")])
         else:
-            ScaleGuide(self._console, self._shell, self._desk, self._name, field.axis, self._open).begin()
+            ScaleGuide(self._console, self._shell, self._tables, self._name, field.axis, self._open).begin()
 
     @property
     def _field(self) -> FieldView | None:
-        return self._form.fields[self._list.focus_position] if self._form.fields else None
+        return self._draft.fields[self._list.focus_position] if self._draft.fields else None
 
     def _open(self) -> None:
         at = self._list.focus_position if self._rows else 0
-        self._form = ConfigurationDraft(self._desk, self._desk.read("machines", self._name))
-        self._edits = [Edit(edit_text=field.value) for field in self._form.fields]
-        self._rows[:] = [_row(field, edit) for field, edit in zip(self._form.fields, self._edits, strict=True)]
+        self._draft = ConfigurationDraft(self._tables, self._tables.read("machines", self._name))
+        self._edits = [Edit(edit_text=field.value) for field in self._draft.fields]
+        self._rows[:] = [_row(field, edit) for field, edit in zip(self._draft.fields, self._edits, strict=True)]
         if self._edits:
             self._list.set_focus(min(at, len(self._edits) - 1))
         self._look()
@@ -147,10 +145,10 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
             return
         edit = self._edits[self._list.focus_position]
         if field.locked and edit.edit_text != field.value:
-            refusal = self._form.refusal(field, str(edit.edit_text))
-            self._shell.message(_("Locked"), [told(problem) for problem in refusal])
+            refusal = self._draft.refusal(field, str(edit.edit_text))
+            self._shell.message(_("Locked"), [translated(problem) for problem in refusal])
             edit.set_edit_text(field.value)
-        self._form.type(field, str(edit.edit_text))
+        self._draft.type(field, str(edit.edit_text))
         self._look()
 
     def _go_on_with(self, name: str) -> None:
@@ -158,17 +156,17 @@ class Configuration(urwid.WidgetWrap[urwid.Widget]):
         self._open()
 
     def _look(self) -> None:
-        changed = _(", changed") if self._form.changed else ""
+        changed = _(", changed") if self._draft.changed else ""
         self._heading.set_text(f"{_(self.title)}: {self._name}{changed}")
-        self._told.set_text([part for line in self._lines() for part in [*line, "\n"]][:-1])
+        self._below.set_text([part for line in self._lines() for part in [*line, "\n"]][:-1])
 
     def _lines(self) -> list[Line]:
         field = self._field
         if field is None:
-            return [[("danger", _("problem: ") + told(str(found)))] for found in self._form.check().problems]
-        refused = [(other, self._form.problem(other)) for other in self._form.fields]
-        wrong = [f"{label_of(other)}: {told(problem)}" for other, problem in refused if problem]
-        wrong = wrong or [told(str(found)) for found in self._form.check().problems]
+            return [[("danger", _("problem: ") + translated(str(found)))] for found in self._draft.check().problems]
+        refused = [(other, self._draft.problem(other)) for other in self._draft.fields]
+        wrong = [f"{label_of(other)}: {translated(problem)}" for other, problem in refused if problem]
+        wrong = wrong or [translated(str(found)) for found in self._draft.check().problems]
         problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
         return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
 

@@ -8,14 +8,13 @@ from the list of tables.
 
 from collections.abc import Callable
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid
-from drillctl.ui.models.wire_bits import WireBits
+from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid, WireBits
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
 from drillctl.ui.widgets.keys import Key
-from drillctl.ui.widgets.lines import Line, around
+from drillctl.ui.widgets.texts import Line, around
 from drillctl.viewmodel.tables import FieldView
 
 NAME_COLUMNS, VOLTS_COLUMNS, BIT_COLUMNS, CELL_COLUMNS = 12, 7, 5, 3
@@ -77,20 +76,20 @@ class PhaseEditor(TableEditor):
         if wire is None:
             self._shell.message(_("Not changed"), [_("No motor of the machine at hand uses this table.")])
             return
-        asked: FieldView = wire
+        chosen: FieldView = wire
 
         def accept(typed: str) -> None:
-            taken = self._wires.taken_by(typed, asked)
+            taken = self._wires.taken_by(typed, chosen)
             if taken is None:
-                self._wire(asked, typed)
+                self._wire(chosen, typed)
                 return
             question = _("Bit {bit} switches {wire}. Exchange the two?")
             self._shell.ask(
-                question.format(bit=taken.value, wire=taken.place[-1]), lambda: self._wire(asked, typed, taken)
+                question.format(bit=taken.value, wire=taken.place[-1]), lambda: self._wire(chosen, typed, taken)
             )
 
-        prompt = _("Output bit ({bounds}):").format(bounds=asked.bounds)
-        self._shell.ask_text(_("Bit of {wire}").format(wire=asked.place[-1]), prompt, asked.value, accept)
+        prompt = _("Output bit ({bounds}):").format(bounds=chosen.bounds)
+        self._shell.ask_text(_("Bit of {wire}").format(wire=chosen.place[-1]), prompt, chosen.value, accept)
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
         """Only the columns and rows around the cursor where there is no room for all."""
@@ -107,9 +106,9 @@ class PhaseEditor(TableEditor):
         return [self._numbers(shown), *(lines[row] for row in window), [""], [self._place()]]
 
     def _look(self) -> None:
-        self._grid = PhaseGrid(tuple(self._desk.phase_rows(self.text)))
+        self._grid = PhaseGrid(tuple(self._tables.phase_rows(self.text)))
         machine = self._console.view().machine
-        self._wires = WireBits(self._desk, self._desk.read("machines", machine), self._name)
+        self._wires = WireBits(self._tables, self._tables.read("machines", machine), self._name)
         self._go(self._line, self._column)
         super()._look()
 
@@ -122,15 +121,15 @@ class PhaseEditor(TableEditor):
     def _wire(self, wire: FieldView, typed: str, taken: FieldView | None = None) -> None:
         text, problems = self._wires.with_bit(wire, typed, taken)
         if problems:
-            self._shell.message(_("Not changed"), [told(problem) for problem in problems])
+            self._shell.message(_("Not changed"), [translated(problem) for problem in problems])
             return
         machine = self._console.view().machine
-        TableActions(self._console, self._shell, self._desk, "machines").save(machine, text, machine, self._look)
+        TableActions(self._console, self._shell, self._tables, "machines").save(machine, text, machine, self._look)
 
     def _change(self, operation: Callable[[PhaseGrid], PhaseGrid]) -> None:
         changed = operation(self._grid)
         if changed != self._grid:
-            self.edit(self._desk.with_phase_rows(self.text, changed.rows))
+            self.edit(self._tables.with_phase_rows(self.text, changed.rows))
 
     def _go(self, line: int, column: int) -> None:
         self._line = max(0, min(line, len(self._grid.lines) - 1))

@@ -7,13 +7,13 @@ import textwrap
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import Console, MachineView, Problems
-from drillctl.viewmodel.ports import PortControl, PortReport, PortView
+from drillctl.viewmodel.signals import PortControl, PortReport, PortView
 
 LABEL_COLUMNS = 14
 WORDS = {True: N_("REACHED"), False: N_("clear")}
@@ -31,14 +31,14 @@ class PortScreen(urwid.Widget):
         Key(("s",), "S", "go_simulated", N_("back to the simulated machine; asks first"), N_("Simulated")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: PortControl):
-        self._shell, self._desk = shell, desk
+    def __init__(self, console: Console, shell: Shell, control: PortControl):
+        self._shell, self._control = shell, control
         self._report: PortReport | None = None
-        self._port = desk.port()
+        self._port = control.port()
 
     def refresh(self, view: MachineView) -> None:
         """Another machine's port has not been tested."""
-        port = self._desk.port()
+        port = self._control.port()
         if port != self._port:
             self._port, self._report = port, None
             self._invalidate()
@@ -56,25 +56,25 @@ class PortScreen(urwid.Widget):
 
     def test(self) -> None:
         """May take some seconds: a board starts anew when its line is opened."""
-        self._report = self._desk.test()
+        self._report = self._control.test()
         self._invalidate()
 
     def go_real(self) -> None:
         """The position is unknown afterwards."""
         if not self._port.configured:
-            self._changed(self._desk.go_real())
+            self._changed(self._control.go_real())
             return
-        asked = _("Drive the real machine on {port}? It may move from now on.")
-        self._shell.ask(asked.format(port=self._port.configured), lambda: self._changed(self._desk.go_real()))
+        question = _("Drive the real machine on {port}? It may move from now on.")
+        self._shell.ask(question.format(port=self._port.configured), lambda: self._changed(self._control.go_real()))
 
     def go_simulated(self) -> None:
         """The real one's outputs go off."""
-        asked = _("Go back to the simulated machine? The outputs go off, the position is lost.")
-        self._shell.ask(asked, lambda: self._changed(self._desk.go_simulated()))
+        question = _("Go back to the simulated machine? The outputs go off, the position is lost.")
+        self._shell.ask(question, lambda: self._changed(self._control.go_simulated()))
 
     def _changed(self, problems: Problems) -> None:
         if problems:
-            self._shell.message(_("Nothing changed"), [told(problem) for problem in problems])
+            self._shell.message(_("Nothing changed"), [translated(problem) for problem in problems])
 
 
 def port_lines(port: PortView, report: PortReport | None) -> list[Line]:
@@ -102,8 +102,8 @@ def folded(line: Line, columns: int) -> list[Line]:
 def _report_lines(report: PortReport) -> list[Line]:
     heading: Line = [("title", _("Test of {port}").format(port=report.port or "-"))]
     if report.problem:
-        return [heading, [("danger", _("can't be used: {why}").format(why=told(report.problem)))]]
-    facts: list[Line] = [[told(fact)] for fact in report.facts]
+        return [heading, [("danger", _("can't be used: {why}").format(why=translated(report.problem)))]]
+    facts: list[Line] = [[translated(fact)] for fact in report.facts]
     inputs = [_input(name, reached) for name, reached in report.inputs]
     return [heading, *facts, [("good", _("It can be used. Inputs now:"))], *inputs]
 

@@ -8,19 +8,16 @@ from collections.abc import Callable
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.models.completion import completed, usage
-from drillctl.ui.models.history import History
+from drillctl.ui.models.editing import History, completed, usage
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line
-from drillctl.ui.widgets.texts import Edit, Text
+from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.console import AxisView, Console, MachineView, Problems
-from drillctl.viewmodel.manual_control import ManualControl
-from drillctl.viewmodel.queues import QueueEditing
-from drillctl.viewmodel.tables import Finding
+from drillctl.viewmodel.signals import ManualControl
+from drillctl.viewmodel.tables import QueueEditing, TextFinding
 
 MOST_FINDINGS = 5
 Draft = tuple[str, int]  # a text, and where the cursor stands in it
@@ -42,16 +39,16 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: QueueEditing, hands: ManualControl):
-        self._console, self._shell, self._desk, self._hands = console, shell, desk, hands
+    def __init__(self, console: Console, shell: Shell, queues: QueueEditing, control: ManualControl):
+        self._console, self._shell, self._queues, self._control = console, shell, queues, control
         self._stopped: list[Line] = []
-        self._commands = desk.commands()
+        self._commands = queues.commands()
         self.file = ""
         self._edit = Edit(multiline=True)
-        self._heading, self._told = Text(""), Text("")
+        self._heading, self._below = Text(""), Text("")
         body = urwid.ListBox(urwid.SimpleFocusListWalker([self._edit]))
         header = urwid.AttrMap(self._heading, "title")
-        super().__init__(urwid.Frame(urwid.AttrMap(body, "field"), header=header, footer=self._told))
+        super().__init__(urwid.Frame(urwid.AttrMap(body, "field"), header=header, footer=self._below))
         self._put("", "")
 
     @property
@@ -77,7 +74,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         """Where several words begin alike they are listed below."""
         before, after = self.text[: self._edit.edit_pos], self.text[self._edit.edit_pos :]
         start = before.rfind("\n") + 1
-        line, fits = completed(before[start:], self._commands, self._desk.words())
+        line, fits = completed(before[start:], self._commands, self._queues.words())
         self._edit.set_edit_text(f"{before[:start]}{line}{after}")
         self._edit.set_edit_pos(start + len(line))
         self._keep()
@@ -103,16 +100,16 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
     def run_all(self) -> None:
         """From the first line; or from where the clock stopped."""
         if self._console.view().paused:
-            self._answer(self._hands.go())
+            self._answer(self._control.go())
         else:
             self._run(self.text)
 
     def tick(self) -> None:
         """The first one begins the queue."""
         if self._console.view().paused:
-            self._answer(self._hands.tick(1))
+            self._answer(self._control.tick(1))
         else:
-            self._ask(self.text, self._hands.run_paused, self._first_tick)
+            self._ask(self.text, self._control.run_paused, self._first_tick)
 
     def run_to_cursor(self) -> None:
         """The lines after it stay out."""
@@ -130,7 +127,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         self._run("\n" * self._line + lines[self._line], next_line)
 
     def _first_tick(self) -> None:
-        self._answer(self._hands.tick(1))
+        self._answer(self._control.tick(1))
 
     def save(self) -> None:
         """Asks for the file."""
@@ -180,17 +177,17 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
             if self._answer(run(text)):
                 then()
 
-        if self._answer(tuple(map(str, self._desk.check_queue(text)))):
-            asked_if_real(self._hands, self._shell, _("Run the queue on it?"), begin)
+        if self._answer(tuple(map(str, self._queues.check_queue(text)))):
+            asked_if_real(self._control, self._shell, _("Run the queue on it?"), begin)
 
     def _answer(self, problems: Problems) -> bool:
         if problems:
-            self._shell.message(_("Not run"), [told(problem) for problem in problems])
+            self._shell.message(_("Not run"), [translated(problem) for problem in problems])
         return not problems
 
     def _save(self, file: str) -> None:
-        if problems := self._desk.save_queue(file, self.text):
-            self._shell.message(_("Not saved"), [told(problem) for problem in problems])
+        if problems := self._queues.save_queue(file, self.text):
+            self._shell.message(_("Not saved"), [translated(problem) for problem in problems])
             return
         self.file, self._saved = file, self.text
         self._look()
@@ -199,9 +196,9 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         self._shell.ask_text(_("Open"), _("File:"), self.file, self._open)
 
     def _open(self, file: str) -> None:
-        text, problems = self._desk.open_queue(file)
+        text, problems = self._queues.open_queue(file)
         if problems:
-            self._shell.message(_("Not opened"), [told(problem) for problem in problems])
+            self._shell.message(_("Not opened"), [translated(problem) for problem in problems])
         else:
             self._put(file, text)
 
@@ -210,19 +207,19 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         changed = _(", changed") if self.changed else ""
         self._heading.set_text(f"{_(self.title)}: {self.file or _('new')}{changed}")
         lines = self._lines(fits)
-        self._told.set_text([part for line in lines for part in [*line, "\n"]][:-1])
+        self._below.set_text([part for line in lines for part in [*line, "\n"]][:-1])
 
     def _lines(self, fits: tuple[str, ...]) -> list[Line]:
         line = self.text.split("\n")[self._line]
         column = self._edit.edit_pos - (self.text.rfind("\n", 0, self._edit.edit_pos) + 1)
         place = _("line {line}, column {column}").format(line=self._line + 1, column=column + 1)
         hint = "  ".join(fits) or usage(line, self._commands)
-        found = self._desk.check_queue(self.text) if self.text.strip() else ()
+        found = self._queues.check_queue(self.text) if self.text.strip() else ()
         return [[("key", place)], [hint], *self._verdict(found), *self._stopped]
 
-    def _verdict(self, found: tuple[Finding, ...]) -> list[Line]:
+    def _verdict(self, found: tuple[TextFinding, ...]) -> list[Line]:
         """What can't run; else what will run into a fault, which is no reason not to try it."""
-        too_far = () if found else self._desk.too_far(self.text)
+        too_far = () if found else self._queues.too_far(self.text)
         return _findings(found, "danger") or _findings(too_far, "warning") or [[("good", _("sound"))]]
 
 
@@ -233,12 +230,12 @@ def _stopped_lines(view: MachineView) -> list[Line]:
 
 
 def _axis(axis: AxisView) -> str:
-    told = _("{axis} column {column} ({state}) at {steps}")
-    return told.format(axis=axis.name.upper(), column=axis.column, state=f"{axis.state:+d}", steps=axis.position_steps)
+    text = _("{axis} column {column} ({state}) at {steps}")
+    return text.format(axis=axis.name.upper(), column=axis.column, state=f"{axis.state:+d}", steps=axis.position_steps)
 
 
-def _findings(found: tuple[Finding, ...], attribute: str) -> list[Line]:
-    lines: list[Line] = [[(attribute, told(str(finding)))] for finding in found[:MOST_FINDINGS]]
+def _findings(found: tuple[TextFinding, ...], attribute: str) -> list[Line]:
+    lines: list[Line] = [[(attribute, translated(str(finding)))] for finding in found[:MOST_FINDINGS]]
     more = len(found) - MOST_FINDINGS
     rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
     return [*lines, *rest]

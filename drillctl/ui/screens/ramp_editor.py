@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from drillctl.language.words import N_, _
 from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
 from drillctl.ui.widgets.keys import Key
-from drillctl.ui.widgets.lines import Line, around
+from drillctl.ui.widgets.texts import Line, around
 from drillctl.viewmodel.tables import StateRow
 
 FIELDS = ("accelerate", "brake", "interval")  # as in the file
@@ -85,46 +85,46 @@ class RampEditor(TableEditor):
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
         """The states, those around the cursor where there is no room for all, then the profile."""
-        if not self._told.states:
+        if not self._ramp.states:
             return [[("danger", _("no ramp: its rows can't be read"))]]
         heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS)
         profile = self._profile(columns)
-        window = around(self._line, len(self._told.states), max(rows - len(profile) - 2, LEAST_STATES))
-        states = [self._row(line, self._told.states[line]) for line in window]
+        window = around(self._line, len(self._ramp.states), max(rows - len(profile) - 2, LEAST_STATES))
+        states = [self._row(line, self._ramp.states[line]) for line in window]
         return [[("dark", heading)], *states, [""], *profile]
 
     def _look(self) -> None:
-        self._told = self._desk.ramp(self.text)
-        self._line = max(0, min(self._line, len(self._told.states) - 1))  # undone, there may be fewer
+        self._ramp = self._tables.ramp(self.text)
+        self._line = max(0, min(self._line, len(self._ramp.states) - 1))  # undone, there may be fewer
         super()._look()
 
     def _reach(self, higher: bool) -> None:
-        state = self._told.states[self._line].state if self._told.states else 0
-        self.edit(self._desk.with_top(self.text, higher))
-        states = [row.state for row in self._told.states]
+        state = self._ramp.states[self._line].state if self._ramp.states else 0
+        self.edit(self._tables.with_top(self.text, higher))
+        states = [row.state for row in self._ramp.states]
         self._go(states.index(state) if state in states else 0 if state < 0 else len(states) - 1, self._field)
 
     def _take(self, typed: str) -> None:
         """Into the text as soon as it is a number."""
-        if not self._told.states:
+        if not self._ramp.states:
             return
         self._typed = typed
         if typed.lstrip("-"):
-            state = self._told.states[self._line].state
-            self.edit(self._desk.with_state(self.text, state, FIELDS[self._field], int(typed)))
+            state = self._ramp.states[self._line].state
+            self.edit(self._tables.with_state(self.text, state, FIELDS[self._field], int(typed)))
         self._invalidate()
 
     def _go(self, line: int, field: int) -> None:
         self._typed = None
-        self._line = max(0, min(line, len(self._told.states) - 1))
+        self._line = max(0, min(line, len(self._ramp.states) - 1))
         self._field = max(0, min(field, len(FIELDS) - 1))
         self._invalidate()
 
     def _shown(self) -> str:
         """What stands under the cursor."""
-        if self._typed is not None or not self._told.states:
+        if self._typed is not None or not self._ramp.states:
             return self._typed or ""
-        return str(getattr(self._told.states[self._line], FIELDS[self._field]))
+        return str(getattr(self._ramp.states[self._line], FIELDS[self._field]))
 
     def _row(self, line: int, state: StateRow) -> Line:
         cells = [self._cell(line, field, getattr(state, name)) for field, name in enumerate(FIELDS)]
@@ -137,15 +137,15 @@ class RampEditor(TableEditor):
         return "focus", f"{'[' + self._shown() + ']':>{CELL_COLUMNS}}"
 
     def _profile(self, columns: int) -> list[Line]:
-        ticks = self._told.intervals
+        ticks = self._ramp.intervals
         if not ticks:
             return [[("warning", _("no profile: a ramp is drawn when every move lands exactly"))]]
-        told = _("speed, step by step, of a move of {steps} steps in {ticks} ticks").format(
+        caption = _("speed, step by step, of a move of {steps} steps in {ticks} ticks").format(
             steps=len(ticks), ticks=sum(ticks)
         )
         bars = bar_rows([1 / interval for interval in ticks], columns, PROFILE_ROWS, self._plain)
         profile: list[Line] = [[("lit", row)] for row in bars]
-        return [[told], *profile, [("good", _("every move lands exactly"))]]
+        return [[caption], *profile, [("good", _("every move lands exactly"))]]
 
 
 EIGHTHS = " ▁▂▃▄▅▆▇█"

@@ -6,10 +6,10 @@ configuration screen for the axis under its cursor.
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from drillctl.language.figures import number
 from drillctl.language.words import _
-from drillctl.ui.models.scale import MM_PER_INCH, Measurement
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.viewmodel.console import AxisView, Console
@@ -17,16 +17,60 @@ from drillctl.viewmodel.tables import FieldView, TableEditing
 
 PROPOSED_STEPS = 2400
 SCALE, PER_STEP = "columns_per_inch", "columns_per_step"
+MM_PER_INCH = 25.4
+LEAST_TRAVEL_MM = 5.0
+GREATEST_CHANGE = 2.0  # beyond that the steps or the ruler were another's, not the scale
+READING_MM = 0.1  # how well a person reads a ruler
+
+
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """``old``: columns per inch as configured; ``steps`` made either way, each of ``columns_per_step`` columns."""
+
+    steps: int
+    columns_per_step: int
+    old: int
+    travel_mm: float
+
+    @property
+    def columns_per_inch(self) -> int:
+        """As measured, to the whole column."""
+        return round(abs(self.steps) * self.columns_per_step * MM_PER_INCH / self.travel_mm)
+
+    @property
+    def change_percent(self) -> float:
+        """Of the scale."""
+        return 100 * (self.columns_per_inch / self.old - 1)
+
+    @property
+    def doubt_percent(self) -> float:
+        """What a reading wrong by a tenth of a millimetre makes."""
+        return 100 * READING_MM / self.travel_mm
+
+    def problem(self) -> str:
+        """Why no scale can be had from it; empty where one can."""
+        if not self.steps:
+            return _("the axis has not moved")
+        if self.travel_mm < LEAST_TRAVEL_MM:
+            return _("{mm:g} mm is too short to measure by: {least:g} mm at least").format(
+                mm=self.travel_mm, least=LEAST_TRAVEL_MM
+            )
+        ratio = self.columns_per_inch / self.old
+        if not 1 / GREATEST_CHANGE <= ratio <= GREATEST_CHANGE:
+            return _("{new} columns/inch instead of {old} is not plausible: see what was measured").format(
+                new=self.columns_per_inch, old=self.old
+            )
+        return ""
 
 
 class ScaleGuide:
     """One measurement of ``axis`` on the machine called ``name``; ``then`` follows once a scale was saved."""
 
     def __init__(
-        self, console: Console, shell: Shell, desk: TableEditing, name: str, axis: str, then: Callable[[], None]
+        self, console: Console, shell: Shell, tables: TableEditing, name: str, axis: str, then: Callable[[], None]
     ):
-        self._console, self._shell, self._desk = console, shell, desk
-        self._shelf = TableActions(console, shell, desk, "machines")
+        self._console, self._shell, self._tables = console, shell, tables
+        self._actions = TableActions(console, shell, tables, "machines")
         self._name, self._axis, self._then = name, axis, then
         self._from_steps = 0
 
@@ -66,9 +110,9 @@ class ScaleGuide:
         else:
             self._ask_travel()
 
-    def _ask_travel(self, told: str = "") -> None:
+    def _ask_travel(self, remark: str = "") -> None:
         prompt = _("When {axis} rests, measure how far it went. In mm:").format(axis=self._axis.upper())
-        self._shell.ask_text(self._title, told + prompt, "", self._measured)
+        self._shell.ask_text(self._title, remark + prompt, "", self._measured)
 
     def _measured(self, typed: str) -> None:
         view, axis = self._console.view(), self._now()
@@ -91,24 +135,24 @@ class ScaleGuide:
         if problems:
             self._tell(*problems)
             return
-        asked = _("{steps} steps, {mm:g} mm: {new} columns/inch instead of {old} ({change:+.2f} %). "
+        text_with_fields = _("{steps} steps, {mm:g} mm: {new} columns/inch instead of {old} ({change:+.2f} %). "
                   "A reading wrong by 0.1 mm makes {doubt:.2f} %. Save it?")  # fmt: skip
-        told = asked.format(
+        question = text_with_fields.format(
             steps=found.steps, mm=found.travel_mm, new=found.columns_per_inch, old=found.old,
             change=found.change_percent, doubt=found.doubt_percent,
         )  # fmt: skip
-        self._shell.ask(told, lambda: self._shelf.save(self._name, text, self._name, self._then))
+        self._shell.ask(question, lambda: self._actions.save(self._name, text, self._name, self._then))
 
     def _changed(self, columns_per_inch: int) -> tuple[str, tuple[str, ...]]:
-        text = self._desk.read("machines", self._name)
-        return self._desk.with_field(text, self._field(SCALE).place, str(columns_per_inch))
+        text = self._tables.read("machines", self._name)
+        return self._tables.with_field(text, self._field(SCALE).place, str(columns_per_inch))
 
     def _now(self) -> AxisView | None:
         return next((axis for axis in self._console.view().axes if axis.name == self._axis), None)
 
     def _field(self, key: str) -> FieldView:
         """Of the file as it is saved."""
-        fields = self._desk.fields(self._desk.read("machines", self._name))
+        fields = self._tables.fields(self._tables.read("machines", self._name))
         return next(field for field in fields if field.axis == self._axis and field.place[-1] == key)
 
     def _number(self, key: str) -> int:

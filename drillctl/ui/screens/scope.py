@@ -7,15 +7,14 @@ machine is shown as it was then. Opened from the menu, and by the scope verb.
 import urwid
 
 from drillctl.language.words import N_, _
-from drillctl.ui.models.rows import Rows
-from drillctl.ui.models.viewport import Viewport
+from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS, SEARCH_OF
-from drillctl.ui.screens.scope_view import Layout, Look, scope_lines
+from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import called
-from drillctl.ui.widgets.lines import Size, boxed
+from drillctl.ui.widgets.texts import Size, boxed
 from drillctl.viewmodel.console import Console, MachineView
-from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, ScopeDesk, ScopeSource
+from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, RunOpening, ScopeSource
 
 WHEEL = {4: CLOSER, 5: FURTHER}  # buttons of the mouse
 
@@ -28,23 +27,23 @@ class Scope(urwid.Widget):
     title = N_("Scope")
     keys = SCOPE_KEYS
     _view: Viewport
-    _rows: Rows
+    _rows: SignalRows
     _following: bool
     _seen: object = None  # of the run, when it was last drawn
 
     def __init__(
-        self, _console: Console, shell: Shell, desk: ScopeDesk, plain: bool = False, source: ScopeSource | None = None
+        self, _console: Console, shell: Shell, runs: RunOpening, plain: bool = False, source: ScopeSource | None = None
     ):
-        self._shell, self._desk, self._plain = shell, desk, plain
+        self._shell, self._runs, self._plain = shell, runs, plain
         self._file = ""
         self._live = source is None
-        self._look_at(source or desk.running())
+        self._look_at(source or runs.running())
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """The run as it is now."""
         assert len(size) == 2
         columns, rows = size
-        self._view = self._view.sized(Layout.of(self._source.signals(), columns).waves)
+        self._view = self._view.sized(ScopeLayout.of(self._source.signals(), columns).waves)
         lines, self._top, self._room = scope_lines(self._source, self._look(), columns, rows)
         return boxed(lines, columns, rows)
 
@@ -55,7 +54,7 @@ class Scope(urwid.Widget):
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
         """A click sets cursor and bar, the wheel zooms around where it points."""
         assert len(size) == 2
-        layout = Layout.of(self._source.signals(), size[0])
+        layout = ScopeLayout.of(self._source.signals(), size[0])
         if event != "mouse press" or not 0 <= col - layout.names < layout.waves:
             return False
         self._go(self._view.tick_at(col - layout.names))
@@ -67,7 +66,7 @@ class Scope(urwid.Widget):
 
     def refresh(self, view: MachineView) -> None:
         """Redrawn only where something is new; a machine that was chosen anew has a run of its own."""
-        if self._live and self._desk.running() is not self._source:
+        if self._live and self._runs.running() is not self._source:
             self.show_machine()
         source = self._source
         source.turn()
@@ -83,7 +82,7 @@ class Scope(urwid.Widget):
     def show_machine(self) -> None:
         """The machine's, followed."""
         self._live = True
-        self._look_at(self._desk.running())
+        self._look_at(self._runs.running())
 
     def open_file(self) -> None:
         """Asks which one."""
@@ -165,19 +164,19 @@ class Scope(urwid.Widget):
         self._source = source
         self._following = self._live
         self._marks: dict[str, int] = {}
-        self._rows = Rows(len(source.signals()))
+        self._rows = SignalRows(len(source.signals()))
         self._top = self._room = 0
         source.turn()
         self._view = Viewport().of_run(source.first_tick, source.last_tick)
         self._view = self._view.go(source.last_tick if self._live else source.opening_tick)
         self._say("")
 
-    def _look(self) -> Look:
+    def _look(self) -> ScopeLook:
         marks = tuple(sorted(self._marks.items()))
-        return Look(self._view, self._rows, marks, self._following, self._said, self._plain)
+        return ScopeLook(self._view, self._rows, marks, self._following, self._said, self._plain)
 
     def _open(self, file: str) -> None:
-        source, problems = self._desk.open_trace(file)
+        source, problems = self._runs.open_trace(file)
         if source is None:
             self._shell.message(_("Refused"), [_(problem) for problem in problems])
             return
@@ -204,7 +203,7 @@ class Scope(urwid.Widget):
         self._view, self._following = view, False
         self._say("")
 
-    def _with_rows(self, rows: Rows) -> None:
+    def _with_rows(self, rows: SignalRows) -> None:
         self._rows = rows
         self._say("")
 

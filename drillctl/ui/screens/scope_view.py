@@ -10,18 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from drillctl.language.words import N_, _
-from drillctl.ui.models.rows import Rows
-from drillctl.ui.models.viewport import Viewport
-from drillctl.ui.screens.phase_lines import phase_line, phase_table
+from drillctl.ui.models.viewport import SignalRows, Viewport
+from drillctl.ui.screens.machine_lines import phase_line, phase_table
 from drillctl.ui.screens.scope_wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
-from drillctl.ui.widgets.lines import Line, packed
+from drillctl.ui.widgets.texts import Line, packed
 from drillctl.viewmodel.scope import AxisMoment, Ints, Lack, Moment, ScopeSignal, ScopeSource
 
 WIDE = 116  # columns from which the phase tables stand beside the waves
 TABLES = 36
 VALUES = 10
 MOST_NAME = 16
-BESIDE_NAME = ("sensors", "outputs", "kmd", "run")  # groups that a name needs not be told apart by
+BESIDE_NAME = ("sensors", "outputs", "kmd", "run")  # groups that a name does without
 UNKNOWN = "?"
 LACKS: Mapping[Lack, str] = {
     "forgotten": N_("what was before tick {value} was forgotten"),
@@ -35,11 +34,11 @@ LACKS: Mapping[Lack, str] = {
 
 
 @dataclass(frozen=True)
-class Look:
+class ScopeLook:
     """What is looked at: ticks, rows, the marks A and B, and what was last said."""
 
     view: Viewport
-    rows: Rows
+    rows: SignalRows
     marks: tuple[tuple[str, int], ...] = ()
     following: bool = False
     said: str = ""
@@ -47,7 +46,7 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Layout:
+class ScopeLayout:
     """How a box of columns and rows is shared out."""
 
     names: int
@@ -55,7 +54,7 @@ class Layout:
     tables: int
 
     @classmethod
-    def of(cls, signals: Sequence[ScopeSignal], columns: int) -> "Layout":
+    def of(cls, signals: Sequence[ScopeSignal], columns: int) -> "ScopeLayout":
         """Tables only where there is room."""
         names = min(MOST_NAME, max((len(title(signal)) for signal in signals), default=0)) + 2
         tables = TABLES if columns >= WIDE else 0
@@ -67,9 +66,9 @@ def title(signal: ScopeSignal) -> str:
     return signal.name if signal.group in BESIDE_NAME else f"{signal.group}.{signal.name}"
 
 
-def scope_lines(source: ScopeSource, look: Look, columns: int, rows: int) -> tuple[list[Line], int, int]:
+def scope_lines(source: ScopeSource, look: ScopeLook, columns: int, rows: int) -> tuple[list[Line], int, int]:
     """The lines, the line at which the waves begin, and how many of them there are."""
-    layout = Layout.of(source.signals(), columns)
+    layout = ScopeLayout.of(source.signals(), columns)
     if source.last_tick < source.first_tick:
         return [[("dark", _("Nothing was run yet."))]], 0, 0
     head = _heading(source, look)
@@ -85,14 +84,14 @@ def scope_lines(source: ScopeSource, look: Look, columns: int, rows: int) -> tup
     return [*head, *waves, *foot], len(head) + 1, room
 
 
-def _heading(source: ScopeSource, look: Look) -> list[Line]:
-    told = _("{hz} Hz, ticks {first}..{last}")
-    told = told.format(hz=source.tick_hz, first=source.first_tick, last=source.last_tick)
+def _heading(source: ScopeSource, look: ScopeLook) -> list[Line]:
+    ticks = _("{hz} Hz, ticks {first}..{last}")
+    ticks = ticks.format(hz=source.tick_hz, first=source.first_tick, last=source.last_tick)
     follows: Line = [("good", _(" following"))] if look.following else []
     notices: list[Line] = [
         [("warning", _(LACKS[notice.lack]).format(value=notice.value))] for notice in source.notices()
     ]
-    return [[("title", source.name), f" {told}, {_zoom(look.view, source.tick_hz)}", *follows], *notices]
+    return [[("title", source.name), f" {ticks}, {_zoom(look.view, source.tick_hz)}", *follows], *notices]
 
 
 def _zoom(view: Viewport, tick_hz: int) -> str:
@@ -102,15 +101,15 @@ def _zoom(view: Viewport, tick_hz: int) -> str:
     return _("a column: {ticks} = {ms} ms").format(ticks=ticks, ms=f"{ticks * 1000 / tick_hz:.10g}")
 
 
-def _ruler(look: Look, layout: Layout, edges: Ints) -> Line:
+def _ruler(look: ScopeLook, layout: ScopeLayout, edges: Ints) -> Line:
     view = look.view
     marks = [(view.column_of(tick), name) for name, tick in look.marks]
     cursor = (view.column_of(view.cursor), SIGNS[look.plain].cursor)
-    told = ruler(edges, layout.waves, [*marks, cursor])
-    return [" " * layout.names, ("title", told), ("title", f"{_('at cursor'):>{VALUES}}"[:VALUES])]
+    labels = ruler(edges, layout.waves, [*marks, cursor])
+    return [" " * layout.names, ("title", labels), ("title", f"{_('at cursor'):>{VALUES}}"[:VALUES])]
 
 
-def _row(source: ScopeSource, look: Look, layout: Layout, moment: Moment, edges: Ints, row: int) -> Line:
+def _row(source: ScopeSource, look: ScopeLook, layout: ScopeLayout, moment: Moment, edges: Ints, row: int) -> Line:
     signal, value = source.signals()[row], moment.values[row]
     here = row == look.rows.at
     name = f"{'>' if here else ' '}{title(signal):{layout.names - 1}}"[: layout.names]
@@ -118,30 +117,30 @@ def _row(source: ScopeSource, look: Look, layout: Layout, moment: Moment, edges:
     wave = f"{_wave(source, look, edges, row):{layout.waves}}"
     at = look.view.column_of(look.view.cursor)
     cursor: Line = [("lit", wave[:at]), ("focus", wave[at : at + 1]), ("lit", wave[at + 1 :])]
-    told = fitted(shown, VALUES - 1, signal.shape == "words", SIGNS[look.plain]).strip()
-    return [("focus" if here else "body", name), *cursor, ("body", f"{told:>{VALUES}}")]
+    text = fitted(shown, VALUES - 1, signal.shape == "words", SIGNS[look.plain]).strip()
+    return [("focus" if here else "body", name), *cursor, ("body", f"{text:>{VALUES}}")]
 
 
-def _wave(source: ScopeSource, look: Look, edges: Ints, row: int) -> str:
+def _wave(source: ScopeSource, look: ScopeLook, edges: Ints, row: int) -> str:
     """As far as the signal is known; beyond, where there should be more, a question mark."""
-    known = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
-    unknown = UNKNOWN * (len(edges) - max(1, len(known)))
-    if len(known) < 2:
+    known_edges = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
+    unknown = UNKNOWN * (len(edges) - max(1, len(known_edges)))
+    if len(known_edges) < 2:
         return unknown
-    strip, shape = source.strip(row, known), source.signals()[row].shape
+    strip, shape = source.strip(row, known_edges), source.signals()[row].shape
     exact = look.view.zoom.ticks == 1
     if shape == "wire":
         return wire_line(strip, exact, look.plain) + unknown
 
     def shown(column: int, value: int) -> str:
-        return source.shown(row, value, int(known[column + 1]) - 1)
+        return source.shown(row, value, int(known_edges[column + 1]) - 1)
 
     if shape == "count":
         return number_line(strip, shown, exact, look.plain) + unknown
     return word_line(strip, shown, True, look.plain) + unknown
 
 
-def _foot(source: ScopeSource, look: Look, moment: Moment, columns: int, with_tables: bool) -> list[Line]:
+def _foot(source: ScopeSource, look: ScopeLook, moment: Moment, columns: int, with_tables: bool) -> list[Line]:
     """The machine at the cursor, the time between the marks, what was said."""
     seconds = f"{moment.tick / source.tick_hz:.3f}"
     place: Line = [("title", _("tick {tick}, {seconds} s").format(tick=moment.tick, seconds=seconds)), "  "]
@@ -158,21 +157,21 @@ def _fault(source: ScopeSource, moment: Moment) -> Line:
 
 
 def _axis_part(axis: AxisMoment) -> Line:
-    told = _("{steps}, column {column}, {state}  ")
-    told = told.format(steps=axis.position_steps, column=axis.column, state=f"{axis.state:+d}")
-    return [("title", f"{axis.name.upper()} "), told]
+    text = _("{steps}, column {column}, {state}  ")
+    text = text.format(steps=axis.position_steps, column=axis.column, state=f"{axis.state:+d}")
+    return [("title", f"{axis.name.upper()} "), text]
 
 
-def _between(look: Look, tick_hz: int) -> str:
+def _between(look: ScopeLook, tick_hz: int) -> str:
     """What lies between A and B; from either of them to the cursor while there is only one."""
-    told = " ".join(f"{name} {tick}" for name, tick in look.marks)
+    marks = " ".join(f"{name} {tick}" for name, tick in look.marks)
     if not look.marks:
         return _("A and B: not set")
     first = look.marks[0][1]
     ticks = abs((look.marks[1][1] if len(look.marks) > 1 else look.view.cursor) - first)
     rate = f", {tick_hz / ticks:.4g} Hz" if ticks else ""
     ms = f"{ticks * 1000 / tick_hz:.10g}"
-    return _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=told, ticks=ticks, ms=ms, rate=rate)
+    return _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=marks, ticks=ticks, ms=ms, rate=rate)
 
 
 def _tables(axes: Sequence[AxisMoment], rows: int) -> list[Line]:

@@ -4,15 +4,16 @@ Rule: the shell owns the terminal, the menus and the dialogs; a screen owns its 
 Implemented by app.py; the tests have a shell of their own.
 """
 
-from collections.abc import Callable, Sequence
-from typing import Protocol, runtime_checkable
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import urwid
 
 from drillctl.language.words import _
-from drillctl.ui.widgets.forms import Field
-from drillctl.viewmodel.console import MachineView, Problems
-from drillctl.viewmodel.manual_control import ManualControl
+from drillctl.ui.widgets.dialogs import Field
+from drillctl.ui.widgets.menus import Item
+from drillctl.viewmodel.console import Console, MachineView, Problems
+from drillctl.viewmodel.signals import ManualControl
 
 
 class Shell(Protocol):
@@ -46,6 +47,23 @@ class Shell(Protocol):
         """A dialog with a line to type in, ``text`` to begin with; ``accept`` is called with what was typed."""
 
 
+class MachineScreens(NamedTuple):
+    """The screens and menus of a family of machines: a row of ui/machines.py.
+
+    recognises  whether a machine belongs to the family
+    menus       the menu bar, from left to right
+    makers      the family's own screens, by the names that the menus use; made with ``plain`` without UTF-8
+    first       the screen that is in front to begin with, and is never closed
+    at_start    is called once when the first screen is drawn
+    """
+
+    recognises: Callable[[MachineView], bool]
+    menus: tuple[Item, ...]
+    makers: Mapping[str, Callable[[Console, Shell, bool], urwid.Widget]]
+    first: str
+    at_start: Callable[[Console, Shell], object]
+
+
 @runtime_checkable
 class Live(Protocol):
     """A screen that shows the machine: it is handed the newest view some twenty times a second."""
@@ -67,9 +85,9 @@ def asked_to_leave(screen: urwid.Widget, shell: Shell, key: str, give_up: Callab
     return True
 
 
-def asked_if_real(desk: ManualControl, shell: Shell, what: str, act: Callable[[], None], warning: str = "") -> None:
+def asked_if_real(control: ManualControl, shell: Shell, what: str, act: Callable[[], None], warning: str = "") -> None:
     """Does it at once on a simulated machine, without a ``warning``; else after a yes."""
-    port = desk.real_port()
+    port = control.real_port()
     real = _("A real machine hangs on {port}.").format(port=port) if port else ""
     reasons = " ".join(filter(None, (real, warning)))
     if reasons:

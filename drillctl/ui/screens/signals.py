@@ -6,14 +6,14 @@ real machine moves, so both are asked about first. Opened from the menu.
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
 from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, moved
 from drillctl.ui.screens.shell import Shell, asked_if_real
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import Console, MachineView
-from drillctl.viewmodel.manual_control import ManualControl, SignalView
+from drillctl.viewmodel.signals import ManualControl, SignalView
 
 FOOT_ROWS = 2
 
@@ -34,8 +34,8 @@ class Signals(urwid.Widget):
         Key(("page down",), "PgDn", "downwards", N_("a section of lines down"), argument=8),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: ManualControl):
-        self._console, self._shell, self._desk = console, shell, desk
+    def __init__(self, console: Console, shell: Shell, control: ManualControl):
+        self._console, self._shell, self._control = console, shell, control
         self._signals: tuple[SignalView, ...] = ()
         self._cursor = self._top = 0
         self._columns = 80
@@ -45,7 +45,7 @@ class Signals(urwid.Widget):
 
     def refresh(self, view: MachineView) -> None:
         """Redrawn only if something is new. Another machine has other signals."""
-        signals = tuple(self._desk.signals())
+        signals = tuple(self._control.signals())
         self._limit(view)
         if signals != self._signals:
             self._signals = signals
@@ -90,7 +90,7 @@ class Signals(urwid.Widget):
         warning = _("{name} is a motor's wire: the position will be lost.").format(name=signal.name) if coil else ""
         state = _("off") if signal.on else _("on")
         what = _("Switch {name} {state}?").format(name=signal.name, state=state)
-        asked_if_real(self._desk, self._shell, what, lambda: self._switch(signal), warning)
+        asked_if_real(self._control, self._shell, what, lambda: self._switch(signal), warning)
 
     def sideways(self, by: int) -> None:
         """Stops at the ends."""
@@ -102,8 +102,8 @@ class Signals(urwid.Widget):
             self._go(moved(self._signals, self._cursor, self._columns, 1 if by > 0 else -1))
 
     def _switch(self, signal: SignalView) -> None:
-        if problems := self._desk.set_output(signal.bit, not signal.on):
-            self._say("warning", _("refused: {why}").format(why="; ".join(map(told, problems))))
+        if problems := self._control.set_output(signal.bit, not signal.on):
+            self._say("warning", _("refused: {why}").format(why="; ".join(map(translated, problems))))
         else:
             self._say("body", "")
 
@@ -119,8 +119,8 @@ class Signals(urwid.Widget):
         """What the machine does by itself about outputs that would burn a winding."""
         limited = _("what would have burned a winding went off after a second") if view.cut_off else ""
         if view.hot_s:
-            told = _("this burns a winding at rest: it goes off by itself in {seconds:.1f} s")
-            limited = told.format(seconds=view.hot_s)
+            warning = _("this burns a winding at rest: it goes off by itself in {seconds:.1f} s")
+            limited = warning.format(seconds=view.hot_s)
         if limited != self._limited:
             self._limited = limited
             self._invalidate()
@@ -136,8 +136,8 @@ class Signals(urwid.Widget):
         """What the cursor is on, what was answered, and how much there is above and below."""
         above, below = self._top, max(0, lines - self._top - room)
         more = _("{above} lines above, {below} below").format(above=above, below=below) if above or below else ""
-        return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._told()]]
+        return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._answer_line()]]
 
-    def _told(self) -> tuple[str, str]:
+    def _answer_line(self) -> tuple[str, str]:
         """What was answered, unless a winding is in danger."""
         return ("warning", self._limited) if self._limited else self._said

@@ -7,12 +7,12 @@ and table_list.
 import difflib
 from collections.abc import Callable
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import _
-from drillctl.ui.screens.field_words import words_of
+from drillctl.ui.models.machine_fields import words_of
 from drillctl.ui.screens.shell import Shell
 from drillctl.viewmodel.console import Console, Problems
-from drillctl.viewmodel.tables import FieldView, Kind, TableEditing
+from drillctl.viewmodel.tables import FieldView, TableEditing, TableKind
 
 Then = Callable[[], None]
 
@@ -20,15 +20,15 @@ Then = Callable[[], None]
 class TableActions:
     """The tables of one kind, with the dialogs that go with them."""
 
-    def __init__(self, console: Console, shell: Shell, desk: TableEditing, kind: Kind):
-        self._console, self._shell, self._desk, self._kind = console, shell, desk, kind
+    def __init__(self, console: Console, shell: Shell, tables: TableEditing, kind: TableKind):
+        self._console, self._shell, self._tables, self._kind = console, shell, tables, kind
 
     def save(self, name: str, text: str, machine: str, then: Then) -> None:
         """To the user's own copy; where it drives the machine at hand, ``machine`` can then be started anew with it."""
-        if self._refused(_("Not saved"), self._desk.save(self._kind, name, text)):
+        if self._refused(_("Not saved"), self._tables.save(self._kind, name, text)):
             return
         then()
-        if any(entry.name == name and entry.in_use for entry in self._desk.tables(self._kind)):
+        if any(entry.name == name and entry.in_use for entry in self._tables.tables(self._kind)):
             question = _("Saved. Drive the machine with it now? The position will be lost.")
             self._shell.ask(question, lambda: self.drive(machine))
         else:
@@ -38,10 +38,10 @@ class TableActions:
         """Asks first where there is something to go back to; else the refusal is all there is to say."""
 
         def yes() -> None:
-            if not self._refused(_("Nothing changed"), self._desk.reset(self._kind, name)):
+            if not self._refused(_("Nothing changed"), self._tables.reset(self._kind, name)):
                 then()
 
-        if any(entry.name == name and entry.ships for entry in self._desk.tables(self._kind)):
+        if any(entry.name == name and entry.ships for entry in self._tables.tables(self._kind)):
             self._shell.ask(_("Take your own copy away and go back to the shipped table?"), yes)
         else:
             yes()
@@ -50,7 +50,7 @@ class TableActions:
         """Asks first; there is no way back."""
 
         def yes() -> None:
-            if not self._refused(_("Nothing changed"), self._desk.delete(self._kind, name)):
+            if not self._refused(_("Nothing changed"), self._tables.delete(self._kind, name)):
                 then()
 
         self._shell.ask(_("Delete {name}, which is your own, for good?").format(name=name), yes)
@@ -59,24 +59,24 @@ class TableActions:
         """Asks with which."""
 
         def accept(other: str) -> None:
-            if other not in {entry.name for entry in self._desk.tables(self._kind)}:
+            if other not in {entry.name for entry in self._tables.tables(self._kind)}:
                 self._shell.message(_("Not compared"), [_("there is no table named {name!r}").format(name=other)])
                 return
-            lines = differences(self._desk, self._kind, name, other)
+            lines = differences(self._tables, self._kind, name, other)
             self._shell.message(_("Differences"), lines or [_("none: they are alike")])
 
         self._shell.ask_text(_("Compare"), _("{name} with:").format(name=name), "", accept)
 
     def diff(self, name: str, text: str) -> None:
         """Against the shipped table."""
-        lines = self._desk.diff(self._kind, name, text)
+        lines = self._tables.diff(self._kind, name, text)
         self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
 
     def copy(self, name: str, then: Callable[[str], None]) -> None:
         """Asks for the new name, which ``then`` is given."""
 
         def accept(new_name: str) -> None:
-            if not self._refused(_("Not copied"), self._desk.copy(self._kind, name, new_name)):
+            if not self._refused(_("Not copied"), self._tables.copy(self._kind, name, new_name)):
                 then(new_name)
 
         self._shell.ask_text(_("Copy"), _("New name:"), f"my-{name}", accept)
@@ -87,18 +87,18 @@ class TableActions:
 
     def _refused(self, title: str, problems: Problems) -> bool:
         if problems:
-            self._shell.message(title, [told(problem) for problem in problems])
+            self._shell.message(title, [translated(problem) for problem in problems])
         return bool(problems)
 
 
 LABEL_COLUMNS, VALUE_COLUMNS = 26, 18
 
 
-def differences(desk: TableEditing, kind: Kind, name: str, other: str) -> list[str]:
+def differences(tables: TableEditing, kind: TableKind, name: str, other: str) -> list[str]:
     """A line a difference, empty for two that are alike."""
-    here, there = desk.read(kind, name), desk.read(kind, other)
-    if kind == "machines" and desk.fields(here) and desk.fields(there):
-        return _of_fields(desk.fields(here), desk.fields(there), name, other)
+    here, there = tables.read(kind, name), tables.read(kind, other)
+    if kind == "machines" and tables.fields(here) and tables.fields(there):
+        return _of_fields(tables.fields(here), tables.fields(there), name, other)
     return list(difflib.unified_diff(here.splitlines(), there.splitlines(), name, other, lineterm=""))
 
 
@@ -112,8 +112,8 @@ def _of_fields(first: tuple[FieldView, ...], second: tuple[FieldView, ...], name
     here, there = ({label_of(field): field.value for field in fields} for fields in (first, second))
     labels = [*here, *(label for label in there if label not in here)]
     pairs = [(label, here.get(label, "-"), there.get(label, "-")) for label in labels]
-    told = [_row(*pair) for pair in pairs if pair[1] != pair[2]]
-    return [_row("", name, other), *told] if told else []
+    rows = [_row(*pair) for pair in pairs if pair[1] != pair[2]]
+    return [_row("", name, other), *rows] if rows else []
 
 
 def _row(label: str, value: str, other: str) -> str:

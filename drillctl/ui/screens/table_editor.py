@@ -6,15 +6,15 @@ never saved. PhaseEditor and RampEditor are made of this.
 
 import urwid
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.models.history import History
+from drillctl.ui.models.editing import History
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line, boxed
+from drillctl.ui.widgets.texts import Line, boxed
 from drillctl.viewmodel.console import Console
-from drillctl.viewmodel.tables import Checked, Kind, TableEditing
+from drillctl.viewmodel.tables import Checked, TableEditing, TableKind, TextFinding
 
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid has it; a box has two
 MOST_FINDINGS = 6
@@ -34,13 +34,13 @@ class TableEditor(urwid.Widget):
 
     _sizing = frozenset([urwid.Sizing.BOX])
     _selectable = True
-    kind: Kind
+    kind: TableKind
     title: str
     keys: tuple[Key, ...] = TABLE_KEYS
 
-    def __init__(self, console: Console, shell: Shell, desk: TableEditing, name: str, plain: bool = False):
-        self._console, self._shell, self._desk = console, shell, desk
-        self._shelf = TableActions(console, shell, desk, self.kind)
+    def __init__(self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False):
+        self._console, self._shell, self._tables = console, shell, tables
+        self._actions = TableActions(console, shell, tables, self.kind)
         self._name, self._plain = name, plain
         self._open()
 
@@ -88,15 +88,15 @@ class TableEditor(urwid.Widget):
 
     def save(self) -> None:
         """The history stays: what was saved can be undone on the screen."""
-        self._shelf.save(self._name, self.text, self._console.view().machine, self._keep)
+        self._actions.save(self._name, self.text, self._console.view().machine, self._keep)
 
     def reset(self) -> None:
         """The history ends."""
-        self._shelf.reset(self._name, self._open)
+        self._actions.reset(self._name, self._open)
 
     def diff(self) -> None:
         """Of the text on the screen, saved or not."""
-        self._shelf.diff(self._name, self.text)
+        self._actions.diff(self._name, self.text)
 
     def _give_up(self) -> None:
         """The edits go, and the screen with them."""
@@ -104,14 +104,14 @@ class TableEditor(urwid.Widget):
         self._shell.back()
 
     def _open(self) -> None:
-        self._saved = self._desk.read(self.kind, self._name)
+        self._saved = self._tables.read(self.kind, self._name)
         self._history = History(self._saved)
         self._look()
 
     def _look(self) -> None:
         """Everything that is shown of the text; a kind of table adds its own."""
-        self._checked: Checked = self._desk.check(self.kind, self.text)
-        entries = self._desk.tables(self.kind)
+        self._checked: Checked = self._tables.check(self.kind, self.text)
+        entries = self._tables.tables(self.kind)
         self._origin = next((entry.origin for entry in entries if entry.name == self._name), "other")
         self._invalidate()
 
@@ -124,9 +124,11 @@ class TableEditor(urwid.Widget):
         return f"{_(self.title)}: {self._name} ({_(ORIGINS[self._origin])}{changed})"
 
     def _verdict(self) -> list[Line]:
-        problems: list[Line] = [[("danger", _("problem: ") + told(str(found)))] for found in self._checked.problems]
-        warnings: list[Line] = [[("warning", _("warning: ") + told(str(found)))] for found in self._checked.warnings]
-        lines = [*problems, *warnings]
+        found: list[tuple[str, str, TextFinding]] = [
+            *(("danger", _("problem: "), problem) for problem in self._checked.problems),
+            *(("warning", _("warning: "), warning) for warning in self._checked.warnings),
+        ]
+        lines: list[Line] = [[(look, label + translated(str(finding)))] for look, label, finding in found]
         more = len(lines) - MOST_FINDINGS
         rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
         return [*lines[:MOST_FINDINGS], *rest] if lines else [[("good", _("sound"))]]

@@ -9,7 +9,7 @@ from typing import Any
 import urwid
 
 from drillctl.language.words import N_, _
-from drillctl.ui.screens.configuration import Configuration
+from drillctl.ui.screens.configuration import ConfigurationScreen
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.ramp_editor import RampEditor
 from drillctl.ui.screens.shell import Shell, unsaved
@@ -18,11 +18,11 @@ from drillctl.ui.screens.table_editor import ORIGINS, Size
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Icon
 from drillctl.viewmodel.console import Console
-from drillctl.viewmodel.tables import Kind, TableEditing, TableEntry
+from drillctl.viewmodel.tables import TableEditing, TableEntry, TableKind
 
 Editor = Callable[[Console, Shell, TableEditing, str, bool], urwid.Widget]
-EDITORS: Mapping[Kind, Editor] = {"phase": PhaseEditor, "ramp": RampEditor, "machines": Configuration}
-TITLES: Mapping[Kind, str] = {
+EDITORS: Mapping[TableKind, Editor] = {"phase": PhaseEditor, "ramp": RampEditor, "machines": ConfigurationScreen}
+TITLES: Mapping[TableKind, str] = {
     "phase": N_("Phase tables"),
     "ramp": N_("Ramps"),
     "machines": N_("Machines"),
@@ -41,9 +41,9 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         Key(("x", "delete"), "X", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
     )
 
-    def __init__(self, console: Console, shell: Shell, desk: TableEditing, kind: Kind, plain: bool = False):
-        self._console, self._shell, self._desk, self._plain = console, shell, desk, plain
-        self._shelf = TableActions(console, shell, desk, kind)
+    def __init__(self, console: Console, shell: Shell, tables: TableEditing, kind: TableKind, plain: bool = False):
+        self._console, self._shell, self._tables, self._plain = console, shell, tables, plain
+        self._actions = TableActions(console, shell, tables, kind)
         self.kind, self.title = kind, TITLES[kind]
         self._editors: dict[str, urwid.Widget] = {}
         self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
@@ -57,13 +57,13 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """What was saved meanwhile shows when the list is on top again."""
-        if [*self._desk.tables(self.kind)] != self._entries:
+        if [*self._tables.tables(self.kind)] != self._entries:
             self.fill()
         return super().render(size, focus)
 
     def fill(self) -> None:
         """The list anew; the cursor stays where it was, and is at first on a table in use."""
-        self._entries = [*self._desk.tables(self.kind)]
+        self._entries = [*self._tables.tables(self.kind)]
         in_use = (row for row, entry in enumerate(self._entries) if entry.in_use)
         at = self._list.focus_position if self._rows else next(in_use, 0)
         lines = list(map(_line, self._entries))
@@ -78,28 +78,28 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         name = self._current
         if not unsaved(self._editors.get(name)):
             editor = EDITORS[self.kind]
-            self._editors[name] = editor(self._console, self._shell, self._desk, name, self._plain)
+            self._editors[name] = editor(self._console, self._shell, self._tables, name, self._plain)
         self._shell.open(self._editors[name])
 
     def copy(self) -> None:
         """Asks for the name."""
         if self._entries:
-            self._shelf.copy(self._current, lambda _name: self.fill())
+            self._actions.copy(self._current, lambda _name: self.fill())
 
     def compare(self) -> None:
         """Asks with which."""
         if self._entries:
-            self._shelf.compare(self._current)
+            self._actions.compare(self._current)
 
     def reset(self) -> None:
         """Asks first."""
         if self._entries:
-            self._shelf.reset(self._current, self.fill)
+            self._actions.reset(self._current, self.fill)
 
     def delete(self) -> None:
         """Asks first."""
         if self._entries:
-            self._shelf.delete(self._current, self.fill)
+            self._actions.delete(self._current, self.fill)
 
     @property
     def _current(self) -> str:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import visible
-from drillctl.ui.widgets.board import BRAILLE, CELL_DOTS, braille_cells
-from drillctl.viewmodel.picture import Chart, Curve, Floats, Picture, Style
+from drillctl.ui.widgets.dots import BRAILLE, CELL_DOTS, braille_cells
+from drillctl.viewmodel.reports import Chart, Curve, Floats, Picture, Style
 
 MARGIN = 10  # characters left of a chart, for the numbers
 LEAST_COLUMNS = MARGIN + 10
@@ -24,7 +24,7 @@ NO_DOTS = chr(BRAILLE)
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class ChartLook:
     """How big a chart is, in characters, and what the terminal can show."""
 
     columns: int
@@ -33,7 +33,7 @@ class Look:
     plain: bool = False  # ASCII alone
 
 
-def picture_lines(picture: Picture, look: Look) -> list[str]:
+def picture_lines(picture: Picture, look: ChartLook) -> list[str]:
     """Title, charts and notes. Narrower than LEAST_COLUMNS it is drawn as wide as that."""
     lines = [visible(picture.title)]
     for chart in picture.charts:
@@ -41,7 +41,7 @@ def picture_lines(picture: Picture, look: Look) -> list[str]:
     return [*lines, "", *map(visible, picture.notes)]
 
 
-def _chart_lines(chart: Chart, look: Look) -> list[str]:
+def _chart_lines(chart: Chart, look: ChartLook) -> list[str]:
     curves = [_stepped(curve) for curve in chart.curves]
     points = np.concatenate([np.column_stack((curve.x, curve.y)) for curve in curves])
     points = points[np.isfinite(points).all(axis=1)]
@@ -57,7 +57,7 @@ def _chart_lines(chart: Chart, look: Look) -> list[str]:
     return [*_head(chart, look), *body, foot, visible(chart.x_label).rjust(MARGIN + frame.columns)]
 
 
-def _head(chart: Chart, look: Look) -> list[str]:
+def _head(chart: Chart, look: ChartLook) -> list[str]:
     """What is drawn upwards, and the legend: beside it, or below where there is no room."""
     upwards = visible(chart.y_label)
     names = [f"{_letter(number, chart.curves)} {visible(curve.label)}" for number, curve in enumerate(chart.curves)]
@@ -71,7 +71,7 @@ def _letter(number: int, curves: Sequence[Curve]) -> str:
     return ascii_lowercase[number % len(ascii_lowercase)] if len(curves) > 1 else "--"
 
 
-def _painted(text: str, number: int, look: Look) -> str:
+def _painted(text: str, number: int, look: ChartLook) -> str:
     return COLOURS[number % len(COLOURS)] + text + NO_COLOUR if look.coloured else text
 
 
@@ -85,7 +85,7 @@ class _Frame:
     rows: int
 
     @classmethod
-    def around(cls, points: Floats, to_scale: bool, look: Look) -> "_Frame":
+    def around(cls, points: Floats, to_scale: bool, look: ChartLook) -> "_Frame":
         """All points (n, 2), n > 0, with room for a value that never changes."""
         low, high = points.min(axis=0), points.max(axis=0)
         same = high == low
@@ -96,7 +96,7 @@ class _Frame:
             columns, rows = np.maximum(np.ceil((high - low) * dots_per_mm / CELL_DOTS[::-1]), 2).astype(int).tolist()
         return cls(low, high, columns, rows)
 
-    def drawn(self, curves: Sequence[Curve], look: Look) -> list[str]:
+    def drawn(self, curves: Sequence[Curve], look: ChartLook) -> list[str]:
         """Rows of characters from the top; a cell has the colour of the last curve in it."""
         shape = (self.rows * CELL_DOTS[0], self.columns * CELL_DOTS[1])
         grid, owner = np.zeros(shape, bool), np.zeros((self.rows, self.columns), int)
@@ -130,7 +130,7 @@ def _lettered(down: NDArray[np.int64], across: NDArray[np.int64], wanted: int) -
     return int(down[nearest]), int(across[nearest])
 
 
-def _row(cells: Sequence[str], owners: Sequence[int], look: Look) -> list[str]:
+def _row(cells: Sequence[str], owners: Sequence[int], look: ChartLook) -> list[str]:
     if look.plain:
         return [" " if cell == NO_DOTS else "*" for cell in cells]
     return [_painted(cell, owner, look) for cell, owner in zip(cells, owners, strict=True)]

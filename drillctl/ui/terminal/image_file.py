@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from drillctl.language import visible
-from drillctl.viewmodel.picture import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

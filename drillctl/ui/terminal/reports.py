@@ -6,19 +6,20 @@ from typing import Any
 
 from drillctl.language.figures import clock
 from drillctl.viewmodel import Estimate, Outcome, ToolEstimate
-from drillctl.viewmodel.latency import Bar, LatencyReport, Lateness
+from drillctl.viewmodel.reports import Bar, LatencyReport, Lateness
 
 
-def inspect_lines(name: str, told: Mapping[str, Any]) -> list[str]:
+def inspect_lines(name: str, summary: Mapping[str, Any]) -> list[str]:
     """The lines that ``drillctl inspect`` prints."""
-    lines = [f"{name}: {told['holes']} holes, {told['slots']} slots, {told['routs']} milled cuts"]
-    if box := told["bbox_mm"]:
+    lines = [f"{name}: {summary['holes']} holes, {summary['slots']} slots, {summary['routs']} milled cuts"]
+    if box := summary["bbox_mm"]:
         lines.append(f"  {box[2] - box[0]:.3f} x {box[3] - box[1]:.3f} mm, X {box[0]:.3f}..{box[2]:.3f}, "
                      f"Y {box[1]:.3f}..{box[3]:.3f}")  # fmt: skip
-    zeros = f", {told['zeros']} zeros suppressed" if told["zeros"] else ""
-    lines.append(f"  {told['units']} {told['format']}{zeros} (confidence {told['confidence']:.0%}): {told['reason']}")
-    lines += [_tool_line(tool) for tool in told["tools"]]
-    lines += [f"  warning: {_place(name, warning)}{warning['reason']}" for warning in told["warnings"]]
+    zeros = f", {summary['zeros']} zeros suppressed" if summary["zeros"] else ""
+    confidence = f"(confidence {summary['confidence']:.0%})"
+    lines.append(f"  {summary['units']} {summary['format']}{zeros} {confidence}: {summary['reason']}")
+    lines += [_tool_line(tool) for tool in summary["tools"]]
+    lines += [f"  warning: {_place(name, warning)}{warning['reason']}" for warning in summary["warnings"]]
     return lines
 
 
@@ -37,45 +38,46 @@ DOUBTFUL_SHARE = 0.1  # canaries that are late as often as that meet most late t
 HEADING = f"{'lateness, us':14}{'p50':>8}{'p99':>8}{'p99.9':>8}{'max':>8}"
 
 
-def latency_lines(told: LatencyReport) -> list[str]:
+def latency_lines(report: LatencyReport) -> list[str]:
     """The lines that ``drillctl latency`` prints."""
-    ended = ", ended early" if told.interrupted else ""
-    ticks = told.ticker.wakes
-    lines = [f"{told.machine}, idle: {ticks} ticks at {told.tick_hz} Hz in {told.seconds:.1f} s{ended}"]
-    lines += _scheduling(told)
-    lines += ["", HEADING, _row("ticker", told.ticker), _row("canaries", told.canary), ""]
-    lines += [f"late by more than a period ({told.period_us:.0f} us): {told.late} of {ticks} = {told.late / ticks:.3%}"]
-    lines += _blame(told) if told.late else []
-    lines += [f"processor: {told.cpu_share:.1%} of one core", ""]
-    lines += ["ticks by lateness (bars are logarithmic)", *_histogram(told), ""]
-    lines += [f"grade {told.grade.letter}: good for {told.grade.good_for}", f"advice: {told.grade.advice}"]
-    return [*lines, f"rate: {_rate(told)}"]
+    ended = ", ended early" if report.interrupted else ""
+    ticks = report.ticker.wakes
+    lines = [f"{report.machine}, idle: {ticks} ticks at {report.tick_hz} Hz in {report.seconds:.1f} s{ended}"]
+    lines += _scheduling(report)
+    lines += ["", HEADING, _row("ticker", report.ticker), _row("canaries", report.canary), ""]
+    late = f"{report.late} of {ticks} = {report.late / ticks:.3%}"
+    lines += [f"late by more than a period ({report.period_us:.0f} us): {late}"]
+    lines += _blame(report) if report.late else []
+    lines += [f"processor: {report.cpu_share:.1%} of one core", ""]
+    lines += ["ticks by lateness (bars are logarithmic)", *_histogram(report), ""]
+    lines += [f"grade {report.grade.letter}: good for {report.grade.good_for}", f"advice: {report.grade.advice}"]
+    return [*lines, f"rate: {_rate(report)}"]
 
 
-def _scheduling(told: LatencyReport) -> list[str]:
-    if not told.refused:
+def _scheduling(report: LatencyReport) -> list[str]:
+    if not report.refused:
         return ["scheduling: real-time"]
-    return ["scheduling: not real-time", *(f"  {sentence}" for sentence in told.refused)]
+    return ["scheduling: not real-time", *(f"  {sentence}" for sentence in report.refused)]
 
 
 def _row(name: str, found: Lateness) -> str:
     return f"  {name:12}{found.p50_us:>8}{found.p99_us:>8}{found.p999_us:>8}{found.max_us:>8}"
 
 
-def _blame(told: LatencyReport) -> list[str]:
-    doubt = ", so that says little" if told.canary_late_share > DOUBTFUL_SHARE else ""
-    chance = f"(a canary is late {told.canary_late_share:.2%} of the time{doubt})"
+def _blame(report: LatencyReport) -> list[str]:
+    doubt = ", so that says little" if report.canary_late_share > DOUBTFUL_SHARE else ""
+    chance = f"(a canary is late {report.canary_late_share:.2%} of the time{doubt})"
     rows = [
-        (told.platform, f"PLATFORM: a process that only sleeps was late at that moment too {chance}"),
-        (told.ours, "OURS: the ticker alone was late"),
-        (told.unlabelled, "not looked into: too many"),
+        (report.platform, f"PLATFORM: a process that only sleeps was late at that moment too {chance}"),
+        (report.ours, "OURS: the ticker alone was late"),
+        (report.unlabelled, "not looked into: too many"),
     ]
     return [f"  {count:>6} {whose}" for count, whose in rows if count]
 
 
-def _histogram(told: LatencyReport) -> list[str]:
-    most = max((bar.ticks for bar in told.histogram), default=1)
-    return [f"{_range(bar)} {_drawn(bar.ticks, most):{WIDEST}} {bar.ticks:>8}" for bar in told.histogram]
+def _histogram(report: LatencyReport) -> list[str]:
+    most = max((bar.ticks for bar in report.histogram), default=1)
+    return [f"{_range(bar)} {_drawn(bar.ticks, most):{WIDEST}} {bar.ticks:>8}" for bar in report.histogram]
 
 
 def _range(bar: Bar) -> str:
@@ -87,12 +89,12 @@ def _drawn(ticks: int, most: int) -> str:
     return "#" * (ticks and 1 + round((WIDEST - 1) * math.log(ticks) / max(math.log(most), 1e-9)))
 
 
-def _rate(told: LatencyReport) -> str:
-    if not told.carries_hz:
+def _rate(report: LatencyReport) -> str:
+    if not report.carries_hz:
         return "this lateness is too great for any usual rate"
-    about = f"this lateness would carry {told.carries_hz} Hz"
-    if told.carries_hz > told.tick_hz:
-        return f"{about}; measure there before relying on it (--hz {told.carries_hz})"
+    about = f"this lateness would carry {report.carries_hz} Hz"
+    if report.carries_hz > report.tick_hz:
+        return f"{about}; measure there before relying on it (--hz {report.carries_hz})"
     return about
 
 
@@ -112,19 +114,19 @@ def summary_lines(outcome: Outcome) -> list[str]:
     return lines
 
 
-def estimate_lines(told: Estimate) -> list[str]:
+def estimate_lines(estimate: Estimate) -> list[str]:
     """The lines that ``drillctl estimate`` prints."""
-    about = "" if told.exact else "about "
-    holes = f"{told.holes_total} holes, " if told.holes_total else ""
-    seconds = told.ticks / told.tick_hz
-    ticks = f"{about}{told.ticks} ticks at {told.tick_hz} Hz"
-    lines = [f"{told.machine}: {holes}{ticks} = {clock(seconds)} of machine time"]
-    for tool in told.tools:
+    about = "" if estimate.exact else "about "
+    holes = f"{estimate.holes_total} holes, " if estimate.holes_total else ""
+    seconds = estimate.ticks / estimate.tick_hz
+    ticks = f"{about}{estimate.ticks} ticks at {estimate.tick_hz} Hz"
+    lines = [f"{estimate.machine}: {holes}{ticks} = {clock(seconds)} of machine time"]
+    for tool in estimate.tools:
         diameter = "?" if tool.diameter_mm is None else f"{tool.diameter_mm:.3f}"
-        time = clock(tool.ticks / told.tick_hz)
+        time = clock(tool.ticks / estimate.tick_hz)
         lines.append(f"  T{tool.number:<4} {diameter:>7} mm  {tool.holes:>6} holes  {time:>8}{_drill(tool)}")
-    if told.fault:
-        lines.append(f"it would end in FAULT {told.fault.name}: {told.fault.cause}")
+    if estimate.fault:
+        lines.append(f"it would end in FAULT {estimate.fault.name}: {estimate.fault.cause}")
     return lines
 
 

@@ -1,1 +1,6 @@
-"""Widgets and lines of text that know no machine: dialogs, forms, lists, charts, keys, colours."""
+"""Widgets and lines of text that know no machine.
+
+    texts.py    widgets with words in them, and lines of marked text       dots.py    points as braille dots, to scale
+    dialogs.py  boxes that tell and ask      menus.py  boxes of entries    keys.py    keys, their help and dispatch
+    themes.py   colours by meaning
+"""

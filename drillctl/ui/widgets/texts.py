@@ -4,12 +4,17 @@ Every text on the screen is one of these, or is drawn by lines.py, which escapes
 holds that no screen makes urwid's own. Used by the frame, the dialogs and all screens.
 """
 
-from typing import Any, TypeVar
+from collections.abc import Callable, Hashable, Sequence
+from typing import Any, Literal, TypeVar
 
 import urwid
 
 from drillctl.language import LINES, masked, visible
 
+Line = list[str | tuple[str, str]]
+Names = list[tuple[Hashable, int]]  # of attributes, and of how many bytes
+Charsets = list[tuple[Literal["0", "U"] | None, int]]
+Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid hands it to a widget: nothing, columns, or a box
 KEPT = LINES.replace("\t", "")  # urwid gives a tab no columns
 Markup = TypeVar("Markup")
 
@@ -65,3 +70,86 @@ class Box(urwid.LineBox[urwid.Widget]):
     def set_title(self, text: Any) -> None:
         """Another one."""
         super().set_title(shown(text))
+
+
+class Pick(Text):
+    """``chosen`` is called for Enter and for the further ``keys``, and for a click with the first button."""
+
+    _selectable = True
+
+    def __init__(self, text: str | Line, chosen: Callable[[], object], *keys: str):
+        self._chosen, self._keys = chosen, ("enter", *keys)
+        super().__init__(text, wrap="ellipsis")
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """Anything else is somebody else's."""
+        if key not in self._keys:
+            return key
+        self._chosen()
+        return None
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """A press of the first button."""
+        if event != "mouse press" or button != 1:
+            return False
+        self._chosen()
+        return True
+
+
+def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
+    """A canvas of exactly this size: lines are clipped, missing ones left empty. Drawn without a widget: most of
+    what is new twenty times a second comes by here.
+    """
+    drawn = [_drawn(line, columns) for line in [*lines[:rows], *[[]] * (rows - len(lines))]]
+    texts = [text for text, _names, _sets in drawn]
+    attributes = [names for _text, names, _sets in drawn]
+    charsets = [sets for _text, _names, sets in drawn]
+    return urwid.TextCanvas(texts, attributes, charsets, maxcol=columns, check_width=False)
+
+
+def around(cursor: int, count: int, room: int) -> range:
+    """Which of ``count`` things are shown where there is room for fewer: those about the cursor."""
+    first = min(max(cursor - room // 2, 0), max(count - room, 0))
+    return range(first, min(first + room, count))
+
+
+def packed(parts: Sequence[Line], columns: int) -> list[Line]:
+    """Parts side by side, none of them broken, in as many lines as they need."""
+    lines: list[Line] = [[]]
+    for part in parts:
+        if lines[-1] and width_of([*lines[-1], *part]) > columns:
+            lines.append([])
+        lines[-1].extend(part)
+    return lines
+
+
+def _drawn(line: Line, columns: int) -> tuple[bytes, Names, Charsets]:
+    """A line as canvases have it: its bytes, and how many of them are of each attribute, and of each character set."""
+    text, room = b"", columns
+    attributes: Names = []
+    charsets: Charsets = []
+    for part in line:
+        attribute, words = (None, part) if isinstance(part, str) else part
+        words = visible(words)
+        end, width = _fitting(words, room)
+        encoded, sets = urwid.apply_target_encoding(words[:end])
+        text, room = text + encoded, room - width
+        attributes.append((attribute, len(encoded)))
+        charsets += sets
+        if end < len(words):
+            break
+    return text + b" " * room, [*attributes, (None, room)], [*charsets, (None, room)]
+
+
+def _fitting(words: str, room: int) -> tuple[int, int]:
+    """How many characters of a text fit into so many columns, and how many columns they take."""
+    if words.isascii():
+        return min(len(words), room), min(len(words), room)
+    end, width = urwid.calc_text_pos(words, 0, len(words), room)
+    return end, width
+
+
+def width_of(line: Line) -> int:
+    """Columns that a line takes."""
+    texts = (visible(part if isinstance(part, str) else part[1]) for part in line)
+    return sum(urwid.calc_width(text, 0, len(text)) for text in texts)

@@ -1,10 +1,60 @@
-"""What the fields of configuration.py are called, counted in, and mean. Rule: a table, and how to look into it."""
+"""A machine's fields being typed over: which are changed, which can't be taken, and the text that they would make.
+
+Rule: the text is sound in every field or it is not offered for saving. Used by the configuration screen.
+"""
 
 from collections.abc import Mapping
 from typing import NamedTuple
 
 from drillctl.language.words import N_
-from drillctl.viewmodel.tables import FieldView, Place
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.tables import Checked, FieldPath, FieldView, TableEditing
+
+
+class ConfigurationDraft:
+    """The fields of one machine's text. ``typed`` holds what was changed, by place."""
+
+    def __init__(self, tables: TableEditing, text: str):
+        self._tables, self._text = tables, text
+        self.fields: tuple[FieldView, ...] = tables.fields(text)
+        self.typed: dict[FieldPath, str] = {}
+
+    @property
+    def changed(self) -> bool:
+        """Whether anything differs from the text."""
+        return bool(self.typed)
+
+    def shown(self, field: FieldView) -> str:
+        """What stands in a field on the screen."""
+        return self.typed.get(field.place, field.value)
+
+    def type(self, field: FieldView, typed: str) -> None:
+        """A field's new content; the old one again is no change."""
+        if typed == field.value:
+            self.typed.pop(field.place, None)
+        else:
+            self.typed[field.place] = typed
+
+    def problem(self, field: FieldView) -> str:
+        """Why a field's content can't be taken; empty where it can."""
+        return " ".join(self.refusal(field, self.typed[field.place])) if field.place in self.typed else ""
+
+    def refusal(self, field: FieldView, typed: str) -> Problems:
+        """Why a field would not take this."""
+        return self._tables.with_field(self._text, field.place, typed)[1]
+
+    def candidate(self) -> tuple[str, Problems]:
+        """The text with all that was typed, and the reasons why some of it is not in it."""
+        text = self._text
+        refused: list[str] = []
+        for place, typed in self.typed.items():
+            text, problems = self._tables.with_field(text, place, typed)
+            refused += problems
+        return text, tuple(refused)
+
+    def check(self) -> Checked:
+        """What the whole would be: fields may each be right and yet not fit together."""
+        return self._tables.check("machines", self.candidate()[0])
 
 
 class FieldWords(NamedTuple):
@@ -16,7 +66,7 @@ class FieldWords(NamedTuple):
 
 
 # By a field's place; that of an axis's field without the axis.
-FIELD_WORDS: Mapping[Place, FieldWords] = {
+FIELD_WORDS: Mapping[FieldPath, FieldWords] = {
     ("configuration", "card"): FieldWords(
         N_("Card"), "", N_("The name of the I/O card that the motors' drivers and the sensors are wired to.")
     ),

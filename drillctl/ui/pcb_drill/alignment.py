@@ -11,13 +11,13 @@ from textwrap import wrap
 import urwid
 
 from drillctl.language.figures import pair_mm
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.models.measuring import LEAST_HOLES, Measuring, Place
-from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
+from drillctl.ui.pcb_drill.measuring import LEAST_HOLES, Measuring, PlaceMm
+from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView, Problems
 from drillctl.viewmodel.jobs import Asked, MeasuredHole
 
@@ -25,7 +25,7 @@ WIDTH = 78
 NONE_TO_SPARE = 3  # holes that fix shift, turn, scale and shear just so: their residuals are 0, whatever was measured
 
 
-class AlignmentScreen(AtMachine, urwid.WidgetWrap[urwid.Widget]):
+class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
     """``accept`` places the board by the holes measured, by none of them: as it was asked before."""
 
     title = N_("Measured holes")
@@ -42,12 +42,12 @@ class AlignmentScreen(AtMachine, urwid.WidgetWrap[urwid.Widget]):
     )
 
     def __init__(
-        self, console: Console, shell: Shell, board: BoardView, asked: Asked,
+        self, console: Console, shell: Shell, board: BoardView, options: Asked,
         accept: Callable[[tuple[MeasuredHole, ...]], Problems],
     ):  # fmt: skip
-        AtMachine.__init__(self, console)
+        JogControls.__init__(self, console)
         self._shell, self._accept = shell, accept
-        self.measuring = Measuring(board, asked.measured, asked.mirror is not None, console.align)
+        self.measuring = Measuring(board, options.measured, options.mirror is not None, console.align)
         self._at = 0
         self._paper = _Paper()
         urwid.WidgetWrap.__init__(self, self._paper)
@@ -115,7 +115,7 @@ class AlignmentScreen(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         if self.measuring.measured and not self.measuring.sound:
             self._say("warning", _("these holes can't place the board: see above"))
         elif problems := self._accept(self.measuring.measured):
-            self._shell.message(_("Refused"), [told(problem) for problem in problems])
+            self._shell.message(_("Refused"), [translated(problem) for problem in problems])
         else:
             self._shell.back()
 
@@ -134,7 +134,7 @@ class AlignmentScreen(AtMachine, urwid.WidgetWrap[urwid.Widget]):
             base = base_mm(self._console.view().axes)
             self._find((pair[0] + base[0], pair[1] + base[1]))
 
-    def _find(self, place_mm: Place) -> None:
+    def _find(self, place_mm: PlaceMm) -> None:
         if self.measuring.spots:
             self.measuring.find(self._at, place_mm)
         self._say("body", "")
@@ -156,20 +156,20 @@ class _Paper(urwid.Widget):
         return boxed(self._lines, *size)
 
 
-def base_mm(axes: tuple[AxisView, ...]) -> Place:
+def base_mm(axes: tuple[AxisView, ...]) -> PlaceMm:
     """The working base, X and Y from machine zero."""
     x, y = (axis.position_steps / axis.steps_per_mm - axis.position_mm for axis in axes[:2])
     return x, y
 
 
-def measuring_lines(measuring: Measuring, at: int, base: Place) -> list[Line]:
+def measuring_lines(measuring: Measuring, at: int, base: PlaceMm) -> list[Line]:
     """The holes, a line each, ``at`` marked; then what they say together."""
     header = f"  {_('hole'):>6}  {_('in the file, mm'):>21}  {_('found, mm'):>21}  {_('off by'):>9}"
     rows = [_row(measuring, index, index == at, base) for index in range(len(measuring.spots))]
     return [[("title", header)], *rows, [], *_verdict(measuring)]
 
 
-def _row(measuring: Measuring, index: int, marked: bool, base: Place) -> Line:
+def _row(measuring: Measuring, index: int, marked: bool, base: PlaceMm) -> Line:
     spot, off_mm = measuring.spots[index], measuring.residual_mm(index)
     found = "-" if spot.found_mm is None else f"X{spot.found_mm[0] - base[0]:.3f} Y{spot.found_mm[1] - base[1]:.3f}"
     in_file = f"X{spot.file_mm[0]:.3f} Y{spot.file_mm[1]:.3f}"
@@ -181,7 +181,9 @@ def _row(measuring: Measuring, index: int, marked: bool, base: Place) -> Line:
 def _verdict(measuring: Measuring) -> list[Line]:
     found = measuring.alignment
     problems: list[Line] = [
-        [("danger", line)] for problem in measuring.problems for line in wrap(_("problem: ") + told(problem), WIDTH)
+        [("danger", line)]
+        for problem in measuring.problems
+        for line in wrap(_("problem: ") + translated(problem), WIDTH)
     ]
     if found is None:
         wanted = _("{count} holes at least are to be found; three tell scale and shear too").format(count=LEAST_HOLES)
@@ -191,7 +193,7 @@ def _verdict(measuring: Measuring) -> list[Line]:
     hints: list[Line] = [
         [("danger" if text in found.rejected else "warning", line)]
         for text in found.warnings
-        for line in wrap(f"- {told(text)}", WIDTH, subsequent_indent="  ")
+        for line in wrap(f"- {translated(text)}", WIDTH, subsequent_indent="  ")
     ]
     if found.kind == "affine" and len(found.residual_mm) == NONE_TO_SPARE:
         hints.append([_("with three holes nothing is left to judge by; a fourth would tell")])
@@ -200,6 +202,6 @@ def _verdict(measuring: Measuring) -> list[Line]:
 
 
 def _here(view: MachineView) -> Line:
-    told_mm = (f"{axis.name.upper()} {axis.position_mm:.3f} mm ({axis.position_steps})" for axis in view.axes[:3])
+    places = (f"{axis.name.upper()} {axis.position_mm:.3f} mm ({axis.position_steps})" for axis in view.axes[:3])
     state = _("moving") if view.moving else _("at rest")
-    return [("title", f"{_('Drill')}: "), f"{'  '.join(told_mm)}  {state}"]
+    return [("title", f"{_('Drill')}: "), f"{'  '.join(places)}  {state}"]

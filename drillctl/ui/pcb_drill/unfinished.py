@@ -7,7 +7,7 @@ nothing is taken away but by a button of its own. Called by app.py, files.py and
 from collections.abc import Callable
 from pathlib import Path
 
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import _
 from drillctl.ui.screens.shell import Shell
 from drillctl.viewmodel.console import Console
@@ -30,7 +30,7 @@ def offer_job(job: UnfinishedJob, console: Console, shell: Shell, anew: Callable
 
     def go_on(elsewhere: bool) -> None:
         if problems := console.go_on(job.journal, elsewhere):
-            shell.message(_("Refused"), [told(problem) for problem in problems])
+            shell.message(_("Refused"), [translated(problem) for problem in problems])
         else:
             shell.show("drilling")
 
@@ -42,7 +42,7 @@ def offer_job(job: UnfinishedJob, console: Console, shell: Shell, anew: Callable
 
     def give_up() -> None:
         if problems := console.give_up(job.journal):
-            shell.message(_("Refused"), [told(problem) for problem in problems])
+            shell.message(_("Refused"), [translated(problem) for problem in problems])
         elif anew is not None:
             anew()
 

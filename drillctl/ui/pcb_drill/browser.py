@@ -12,7 +12,7 @@ import urwid
 from drillctl.files.inputs import read_start, real_path
 from drillctl.language import one_line
 from drillctl.language.words import _
-from drillctl.ui.widgets.pick import Pick
+from drillctl.ui.widgets.texts import Pick
 
 DRILL_FILES = "*.drl *.drd *.xln *.xnc *.exc *.cnc *.nc *.txt *.tap *.ncd *.rou"
 MOST_ENTRIES = 2000

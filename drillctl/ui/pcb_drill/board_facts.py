@@ -7,17 +7,17 @@ from typing import NamedTuple
 import numpy as np
 
 from drillctl.language.figures import clock
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.screens.formats import BY_OPTION
-from drillctl.viewmodel.console import BoardView, ToolWanted
+from drillctl.ui.pcb_drill.typed import BY_OPTION
+from drillctl.viewmodel.console import BoardView
 from drillctl.viewmodel.jobs import Asked
 from drillctl.viewmodel.records import ToolEstimate
 
 LEFT_COLUMNS = 24
 
 
-class Choice(NamedTuple):
+class PlacingChoice(NamedTuple):
     """A way to place or drill a board: a field of Asked, its label, its values with the word for each."""
 
     field: str
@@ -26,15 +26,15 @@ class Choice(NamedTuple):
 
 
 CHOICES = (
-    Choice("mirror", N_("Mirror"), ((None, N_("no")), ("x", N_("in X")), ("y", N_("in Y")))),
-    Choice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
-    Choice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
-    Choice(
+    PlacingChoice("mirror", N_("Mirror"), ((None, N_("no")), ("x", N_("in X")), ("y", N_("in Y")))),
+    PlacingChoice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
+    PlacingChoice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
+    PlacingChoice(
         "order",
         N_("Order"),
         (("file", N_("as in the file")), ("nearest", N_("nearest")), ("optimised", N_("best"))),
     ),
-    Choice(
+    PlacingChoice(
         "after_end",
         N_("Behind M30"),
         (("refuse", N_("refuse holes")), ("ignore", N_("leave out")), ("drill", N_("drill too"))),
@@ -42,18 +42,18 @@ CHOICES = (
 )
 
 
-def asked_lines(asked: Asked) -> list[str]:
+def option_lines(options: Asked) -> list[str]:
     """What is always to be chosen, two a line; then what was asked beside it."""
-    offset = "{:g} {:g} mm".format(*asked.offset_mm)
-    pairs = [f"{_('Format')}: {format_word(asked.format)}"]
-    pairs += [f"{_(choice.label)}: {_chosen(choice, asked)}" for choice in CHOICES] + [f"{_('Offset')}: {offset}"]
+    offset = "{:g} {:g} mm".format(*options.offset_mm)
+    pairs = [f"{_('Format')}: {format_word(options.format)}"]
+    pairs += [f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES] + [f"{_('Offset')}: {offset}"]
     lines = [f"{left:{LEFT_COLUMNS}} {right}".rstrip() for left, right in zip_longest(*[iter(pairs)] * 2, fillvalue="")]
-    return [*lines, *_further(asked)]
+    return [*lines, *_further(options)]
 
 
-def _chosen(choice: Choice, asked: Asked) -> str:
+def _chosen(choice: PlacingChoice, options: Asked) -> str:
     """The word for what was chosen; a list of recent jobs may hold values that can't be chosen."""
-    value = getattr(asked, choice.field)
+    value = getattr(options, choice.field)
     return _(dict(choice.values).get(value, str(value)))
 
 
@@ -68,33 +68,34 @@ def format_name(option: str) -> str:
     return f"{name} ({option})" if option else name
 
 
-def recent_line(file: str, asked: Asked) -> str:
+def recent_line(file: str, options: Asked) -> str:
     """A job opened before: the file, and what was asked that is not usual."""
     usual = Asked()
-    told_apart = [
-        _chosen(choice, asked)
+    unusual_choices = [
+        _chosen(choice, options)
         for choice in CHOICES
-        if getattr(asked, choice.field) != getattr(usual, choice.field)
+        if getattr(options, choice.field) != getattr(usual, choice.field)
     ]
-    unusual = [*filter(None, [asked.format]), *told_apart, *_further(asked)]
+    unusual = [*filter(None, [options.format]), *unusual_choices, *_further(options)]
     return "  ".join([Path(file).name, *unusual, str(Path(file).parent)])
 
 
-def _further(asked: Asked) -> list[str]:
+def _further(options: Asked) -> list[str]:
     lines = []
-    if panel := asked.panel:
+    if panel := options.panel:
         text = _("Panel: {columns} x {rows}, {x:g} by {y:g} mm")
         lines.append(text.format(columns=panel.columns, rows=panel.rows, x=panel.pitch_x_mm, y=panel.pitch_y_mm))
-    if asked.measured:
-        lines.append(_("Placed by {count} measured holes").format(count=len(asked.measured)))
-    if asked.peck_mm is not None:
-        lines.append(_("In pecks of {depth:g} mm").format(depth=asked.peck_mm))
-    if asked.spot_mm is not None:
-        lines.append(_("A spot of {depth:g} mm first").format(depth=asked.spot_mm))
-    if asked.skip_tools:
-        lines.append(_("Without tools {numbers}").format(numbers=" ".join(f"T{number}" for number in asked.skip_tools)))
-    if asked.drills:
-        lines.append(_("Drills at hand: {file}").format(file=asked.drills))
+    if options.measured:
+        lines.append(_("Placed by {count} measured holes").format(count=len(options.measured)))
+    if options.peck_mm is not None:
+        lines.append(_("In pecks of {depth:g} mm").format(depth=options.peck_mm))
+    if options.spot_mm is not None:
+        lines.append(_("A spot of {depth:g} mm first").format(depth=options.spot_mm))
+    if options.skip_tools:
+        numbers = " ".join(f"T{number}" for number in options.skip_tools)
+        lines.append(_("Without tools {numbers}").format(numbers=numbers))
+    if options.drills:
+        lines.append(_("Drills at hand: {file}").format(file=options.drills))
     return lines
 
 
@@ -104,9 +105,9 @@ def board_lines(board: BoardView) -> list[str]:
     size = _("{name}: {holes} holes, {width:.2f} x {height:.2f} mm").format(
         name=board.name, holes=len(board.xy_mm), width=width_mm, height=height_mm
     )
-    sure = f"{board.dialect}, {told(board.format)} ({board.confidence:.0%}): {told(board.reason)}"
-    runner_up = [_("else: {format}").format(format=told(board.runner_up))] if board.runner_up else []
-    warnings = [_("warning: {text}").format(text=told(text)) for text in board.warnings]
+    sure = f"{board.dialect}, {translated(board.format)} ({board.confidence:.0%}): {translated(board.reason)}"
+    runner_up = [_("else: {format}").format(format=translated(board.runner_up))] if board.runner_up else []
+    warnings = [_("warning: {text}").format(text=translated(text)) for text in board.warnings]
     return [size, sure, *runner_up, *_tool_lines(board), _whole_time(board), *warnings]
 
 
@@ -138,13 +139,3 @@ def _whole_time(board: BoardView) -> str:
     line = _("Estimate {about}{time}").format(about=about, time=clock(estimate.ticks / estimate.tick_hz))
     fault = estimate.fault
     return line if fault is None else f"{line}; {_('it would end in')} {fault.name}: {_(fault.cause)}"
-
-
-def tool_name(tool: ToolWanted) -> str:
-    """``T3, 1.000 mm``, and the drill at hand that serves it where it is of another diameter."""
-    name = f"T{tool.number}"
-    if tool.diameter_mm is not None:
-        name += f", {tool.diameter_mm:.3f} mm"
-    if tool.drill_mm is not None:
-        name += _(", the drill of {diameter:.3f} mm").format(diameter=tool.drill_mm)
-    return name

@@ -4,22 +4,20 @@ Rule: every motion is one key of the table below or one entry of the menu, and a
 line. Drilling itself asks first. Opened by the frame; it is the screen that stays.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 import urwid
 
 from drillctl.language.figures import clock, pair_mm
 from drillctl.language.words import N_, _
-from drillctl.ui.screens.at_machine import JOG_KEYS, AtMachine
-from drillctl.ui.screens.board_facts import tool_name
-from drillctl.ui.screens.board_view import BoardPicture
+from drillctl.ui.pcb_drill.board_view import BoardPicture
+from drillctl.ui.pcb_drill.side_window import SideWindow
+from drillctl.ui.pcb_drill.unfinished import offer_job
+from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
+from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.screens.side_window import SideWindow
-from drillctl.ui.screens.unfinished import offer_job
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Line, Size
-from drillctl.ui.widgets.texts import Text
+from drillctl.ui.widgets.texts import Line, Size, Text
 from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.records import Progress
 
@@ -28,7 +26,7 @@ NARROW_WINDOW, WIDE_WINDOW = 36, 48
 LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
 
 
-class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
+class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     """The machine at work. ``refresh`` is called with the newest view."""
 
     title = N_("Drilling")
@@ -48,9 +46,9 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         Key(("a",), "A", "acknowledge", N_("the fault has been seen")),
     )
 
-    def __init__(self, console: Console, shell: Shell, plain: bool = False, files: Callable[[], object] | None = None):
-        AtMachine.__init__(self, console)
-        self._shell, self._open_files = shell, files
+    def __init__(self, console: Console, shell: Shell, plain: bool = False):
+        JogControls.__init__(self, console)
+        self._shell = shell
         self._picture = BoardPicture(plain, N_("F opens a drill file."))
         self._window = SideWindow()
         self._was_at_work = False
@@ -101,8 +99,8 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         if cut_off is not None:
             offer_job(cut_off, self._console, self._shell, anew=self._drill)
             return
-        asked = _("Drill {holes} holes of {name}?").format(holes=len(board.xy_mm), name=board.name)
-        self._shell.ask(asked, self._drill)
+        question = _("Drill {holes} holes of {name}?").format(holes=len(board.xy_mm), name=board.name)
+        self._shell.ask(question, self._drill)
 
     def _drill(self) -> None:
         self._answer(self._console.start(dry=False), _("drilling"))
@@ -128,8 +126,8 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
         if tool is None:
             self._say("warning", _("no tool is waited for"))
             return
-        asked = _("Is the tool in? {tool}").format(tool=tool_name(tool))
-        self._shell.ask(asked, lambda: self._answer(self._console.tool_changed(), _("going on")))
+        question = _("Is the tool in? {tool}").format(tool=tool_name(tool))
+        self._shell.ask(question, lambda: self._answer(self._console.tool_changed(), _("going on")))
 
     def initialise(self) -> None:
         """By the limit sensors."""
@@ -145,8 +143,7 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
 
     def files(self) -> None:
         """The other screen."""
-        if self._open_files is not None:
-            self._open_files()
+        self._shell.show("files")
 
     def turn_page(self) -> None:
         """Of the window."""
@@ -195,8 +192,8 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
             self._go_to(*place)
 
     def _go_to(self, x_mm: float, y_mm: float) -> None:
-        told = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
-        self._answer(self._console.go_to(x_mm, y_mm), told)
+        where = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
+        self._answer(self._console.go_to(x_mm, y_mm), where)
 
     def _awaited(self, view: MachineView) -> Line:
         """What the job waits for outlasts whatever was told before."""
@@ -207,5 +204,5 @@ class Drilling(AtMachine, urwid.WidgetWrap[urwid.Widget]):
 
 def _ended(of_board: Progress) -> str:
     """What became of a board."""
-    told = _("ended: {done} of {total} holes in {time}")
-    return told.format(done=of_board.holes_done, total=of_board.holes_total, time=clock(of_board.machine_seconds))
+    text = _("ended: {done} of {total} holes in {time}")
+    return text.format(done=of_board.holes_done, total=of_board.holes_total, time=clock(of_board.machine_seconds))

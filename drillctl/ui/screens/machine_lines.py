@@ -6,7 +6,8 @@ Used by the drilling screen's side window and by the scope.
 from typing import Protocol
 
 from drillctl.language.words import _
-from drillctl.ui.widgets.lines import Line
+from drillctl.ui.widgets.texts import Line
+from drillctl.viewmodel.console import ToolWanted
 
 
 class Phases(Protocol):
@@ -56,3 +57,13 @@ def _wire_line(column: int, name: str, row: str, lit: bool) -> Line:
     before, cell, after = row[:column], row[column : column + 1], row[column + 1 :]
     name_cell = f"[{name}]" if lit else f" {name} "
     return [("lit" if lit else "dark", f"   {name_cell:8}"), ("dark", before), ("lit", f"[{cell}]"), ("dark", after)]
+
+
+def tool_name(tool: ToolWanted) -> str:
+    """``T3, 1.000 mm``, and the drill at hand that serves it where it is of another diameter."""
+    name = f"T{tool.number}"
+    if tool.diameter_mm is not None:
+        name += f", {tool.diameter_mm:.3f} mm"
+    if tool.drill_mm is not None:
+        name += _(", the drill of {diameter:.3f} mm").format(diameter=tool.drill_mm)
+    return name

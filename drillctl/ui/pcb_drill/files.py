@@ -14,20 +14,18 @@ import urwid
 
 from drillctl.files.inputs import real_path
 from drillctl.language.figures import pair_mm
-from drillctl.language.sentences import told
+from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
-from drillctl.ui.screens.alignment import AlignmentScreen
-from drillctl.ui.screens.board_facts import CHOICES, asked_lines, board_lines, format_name, is_warning, recent_line
-from drillctl.ui.screens.board_view import BoardPicture
-from drillctl.ui.screens.browser import Browser, preview
-from drillctl.ui.screens.formats import FORMATS
+from drillctl.ui.pcb_drill.alignment import AlignmentScreen
+from drillctl.ui.pcb_drill.board_facts import CHOICES, board_lines, format_name, is_warning, option_lines, recent_line
+from drillctl.ui.pcb_drill.board_view import BoardPicture
+from drillctl.ui.pcb_drill.browser import Browser, preview
+from drillctl.ui.pcb_drill.typed import FORMATS, accepted, length_mm, panel_of, tool_numbers
+from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.screens.typed import accepted, length_mm, panel_of, tool_numbers
-from drillctl.ui.screens.unfinished import offer_unfinished
-from drillctl.ui.widgets.forms import Field
+from drillctl.ui.widgets.dialogs import Field
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.lines import Size
-from drillctl.ui.widgets.texts import Icon, Text
+from drillctl.ui.widgets.texts import Icon, Size, Text
 from drillctl.viewmodel.console import Console, Problems
 from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob
 
@@ -58,7 +56,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False, folder: Path | None = None):
         self._console, self._shell = console, shell
-        self._asked, self._loaded = Asked(), Path()
+        self._options, self._loaded = Asked(), Path()
         self._picture = BoardPicture(plain)
         self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
         facts = urwid.ListBox(self._rows)
@@ -105,12 +103,12 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def load(self, file: Path) -> None:
         """A file that was chosen. What was measured on another board, and its tools left out, are not asked of it."""
         same = file == self._loaded
-        self._tell(self._try(file, self._asked if same else replace(self._asked, measured=(), skip_tools=())))
+        self._tell(self._try(file, self._options if same else replace(self._options, measured=(), skip_tools=())))
 
     def cycle(self, field: str) -> None:
         """The next value of a choice; the first one after a value that can't be chosen."""
         values = [value for value, _word in BY_FIELD[field].values]
-        now = getattr(self._asked, field)
+        now = getattr(self._options, field)
         self._change(**{field: values[(values.index(now) + 1) % len(values)] if now in values else values[0]})
 
     def choose_format(self) -> None:
@@ -128,7 +126,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def type_format(self) -> None:
         """As on the command line."""
         prompt = _("Units, digits and zeros left out, as in inch,2:4,leading:")
-        self._shell.ask_text(_("Format"), prompt, self._asked.format or "", self.set_format)
+        self._shell.ask_text(_("Format"), prompt, self._options.format or "", self.set_format)
 
     def set_format(self, name: str) -> None:
         """Settled by hand; empty: recognised."""
@@ -136,12 +134,12 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
 
     def offset(self) -> None:
         """Typed."""
-        now = "{:g} {:g}".format(*self._asked.offset_mm)
+        now = "{:g} {:g}".format(*self._options.offset_mm)
         self._shell.ask_text(_("Offset"), _("X and Y in mm from the base:"), now, self._set_offset)
 
     def panel(self) -> None:
         """Columns and rows of the same board; one of each is none."""
-        now = self._asked.panel or PanelOf(1, 1, 0.0, 0.0)
+        now = self._options.panel or PanelOf(1, 1, 0.0, 0.0)
         fields = (
             Field(_("Columns (along X):"), str(now.columns)),
             Field(_("Rows (along Y):"), str(now.rows)),
@@ -152,7 +150,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
 
     def how_to_drill(self) -> None:
         """What ``drillctl run`` knows as --peck, --spot, --skip-tools and --drills."""
-        now = self._asked
+        now = self._options
         fields = (
             Field(_("Pecks of so many mm (empty: at once):"), _typed_mm(now.peck_mm)),
             Field(_("Spot first, mm deep (empty: none):"), _typed_mm(now.spot_mm)),
@@ -165,17 +163,17 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             depths = {"peck_mm": length_mm(texts[0]), "spot_mm": length_mm(texts[1])}
             return {**depths, "skip_tools": tool_numbers(texts[2]), "drills": drills}
 
-        self._shell.ask_fields(_("How to drill"), fields, accepted(read, lambda wishes: self._with(**wishes)))
+        self._shell.ask_fields(_("How to drill"), fields, accepted(read, lambda changes: self._with(**changes)))
 
     def align(self) -> None:
         """By holes measured on the board that is loaded."""
         board = self._console.board()
         if board is None or not self._loaded.name or Path(board.file) != real_path(self._loaded):
             self._shell.message(_("Measured holes"), [_("no board is loaded: open a drill file first")])
-        elif self._asked.panel:
+        elif self._options.panel:
             self._shell.message(_("Measured holes"), [_("Measure a single board first, then repeat it in a panel.")])
         else:
-            self._shell.open(AlignmentScreen(self._console, self._shell, board, self._asked, self._place_by))
+            self._shell.open(AlignmentScreen(self._console, self._shell, board, self._options, self._place_by))
 
     def _place_by(self, measured: tuple[MeasuredHole, ...]) -> Problems:
         """The holes say where the board lies; only whether it lies face down was asked beside them."""
@@ -205,17 +203,17 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._tell(self._with(**changed))
 
     def _with(self, **changed: Any) -> Problems:
-        return self._try(self._loaded, replace(self._asked, **changed))
+        return self._try(self._loaded, replace(self._options, **changed))
 
     def _tell(self, problems: Problems) -> None:
         if problems:
-            self._shell.message(_("Refused"), [told(problem) for problem in problems])
+            self._shell.message(_("Refused"), [translated(problem) for problem in problems])
 
-    def _try(self, file: Path, asked: Asked) -> Problems:
+    def _try(self, file: Path, options: Asked) -> Problems:
         """With a file: read as asked. Without one yet the wish is kept for it."""
-        problems = self._console.load(str(file), asked) if file.name else ()
+        problems = self._console.load(str(file), options) if file.name else ()
         if not problems:
-            self._asked, self._loaded = asked, file
+            self._options, self._loaded = options, file
             self._look_at(file if file.name else self._browser.current)
         return problems
 
@@ -224,7 +222,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         board = self._console.board() if path == self._loaded else None
         self._picture.show(board)
         lines = board_lines(board) if board else preview(path)
-        self._rows[:] = [_row(line) for line in [*asked_lines(self._asked), "", *lines]]
+        self._rows[:] = [_row(line) for line in [*option_lines(self._options), "", *lines]]
         self._rows.set_focus(0)
 
 

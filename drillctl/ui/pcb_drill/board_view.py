@@ -10,11 +10,11 @@ import urwid
 from numpy.typing import NDArray
 
 from drillctl.language.words import _
-from drillctl.ui.widgets.board import BRAILLE, Sheet
-from drillctl.ui.widgets.lines import Line, Size, boxed
+from drillctl.ui.widgets.dots import BRAILLE, Sheet
+from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import BoardView
 
-Place = tuple[float, float]
+PlaceMm = tuple[float, float]
 EMPTY = chr(BRAILLE)
 
 # What a cell shows: its attribute, and its sign with and without UTF-8. Holes to do are braille where there is UTF-8.
@@ -34,9 +34,11 @@ class BoardPicture(urwid.Widget):
     def __init__(self, plain: bool = False, hint: str = ""):
         super().__init__()
         self._plain, self._hint = plain, hint
-        self._state: tuple[BoardView | None, int, bool, Place | None] = (None, 0, False, None)
+        self._state: tuple[BoardView | None, int, bool, PlaceMm | None] = (None, 0, False, None)
 
-    def show(self, board: BoardView | None, done: int = 0, running: bool = False, head_mm: Place | None = None) -> None:
+    def show(
+        self, board: BoardView | None, done: int = 0, running: bool = False, head_mm: PlaceMm | None = None
+    ) -> None:
         """``done`` holes are made; where ``running``, the next is current. Redrawn only if something is new."""
         state = (board, done, running, head_mm)
         if state != self._state:
@@ -58,7 +60,7 @@ class BoardPicture(urwid.Widget):
         return [_runs(row, named) for row, named in zip(signs, states, strict=True)]
 
     def _drawn(
-        self, sheet: Sheet, xy_mm: NDArray[np.float64], done: int, running: bool, head_mm: Place | None
+        self, sheet: Sheet, xy_mm: NDArray[np.float64], done: int, running: bool, head_mm: PlaceMm | None
     ) -> tuple[list[list[str]], list[list[str]]]:
         """Signs and states of the cells, row by row; what is told later lies over what was told before."""
         signs = [[self._sign(sign) for sign in row] for row in sheet.braille(xy_mm)]

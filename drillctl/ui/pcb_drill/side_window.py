@@ -11,8 +11,8 @@ import urwid
 
 from drillctl.language.figures import clock
 from drillctl.language.words import _
-from drillctl.ui.screens.phase_lines import lamp, phase_line, phase_table
-from drillctl.ui.widgets.lines import Line, Size, boxed, width_of
+from drillctl.ui.screens.machine_lines import lamp, phase_line, phase_table
+from drillctl.ui.widgets.texts import Line, Size, boxed, width_of
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView
 from drillctl.viewmodel.records import Progress
 

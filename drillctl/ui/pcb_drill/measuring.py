@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from drillctl.viewmodel.console import BoardView, Problems
 from drillctl.viewmodel.jobs import AlignmentReport, MeasuredHole
 
-Place = tuple[float, float]
+PlaceMm = tuple[float, float]
 Align = Callable[[tuple[MeasuredHole, ...], bool], tuple[AlignmentReport | None, Problems]]
 MOST_HOLES = 12
 LEAST_HOLES = 2
@@ -24,8 +24,8 @@ class Spot:
     """A hole by its number from 1, in the file's coordinates, and where it was found, None as long as it was not."""
 
     number: int
-    file_mm: Place
-    found_mm: Place | None = None
+    file_mm: PlaceMm
+    found_mm: PlaceMm | None = None
 
 
 class Measuring:
@@ -36,7 +36,7 @@ class Measuring:
 
     def __init__(self, board: BoardView, measured: tuple[MeasuredHole, ...], face_down: bool, align: Align):
         self._board, self._face_down, self._align = board, face_down, align
-        self.spots = [_known(board, hole) for hole in measured] or [
+        self.spots = [_spot_of(board, hole) for hole in measured] or [
             self._spot(index) for index in far_apart(board.file_xy_mm)
         ]
         self._look()
@@ -64,12 +64,12 @@ class Measuring:
         del self.spots[index]
         self._look()
 
-    def find(self, index: int, place_mm: Place) -> None:
+    def find(self, index: int, place_mm: PlaceMm) -> None:
         """The hole was found here."""
         self.spots[index].found_mm = place_mm
         self._look()
 
-    def expected_mm(self, index: int, base_mm: Place) -> Place:
+    def expected_mm(self, index: int, base_mm: PlaceMm) -> PlaceMm:
         """Where a hole should be: by what was found so far, else as the board is placed from this working base."""
         spot = self.spots[index]
         if self.alignment is not None:
@@ -105,7 +105,7 @@ def far_apart(xy_mm: NDArray[np.float64]) -> list[int]:
     return list(dict.fromkeys((first, second, int(off_line.argmax()))))
 
 
-def _known(board: BoardView, hole: MeasuredHole) -> Spot:
+def _spot_of(board: BoardView, hole: MeasuredHole) -> Spot:
     file_mm = (hole.file_x_mm, hole.file_y_mm)
     number = int(np.hypot(*(board.file_xy_mm - np.array(file_mm)).T).argmin()) + 1
     return Spot(number, file_mm, (hole.machine_x_mm, hole.machine_y_mm))

@@ -1,16 +1,39 @@
-"""What is typed into the dialogs of the Files screen, read: numbers of holes, lengths, tools. Called by files.py.
+"""The number formats by the names that people know, the paper's four first. A table; used by menus.py and files.py.
 
-Rule: ValueError for what can't be read, with a sentence for the operator; whether the board can be drilled so is not
-asked here.
+What the names stand for: docs/DRILL-FILES.md. EXCELLON *adding zero* leaves trailing zeros out, so that they are to be
+added; the *ASCII drill format* is written at full width.
 """
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
-from drillctl.language.words import _
+from drillctl.language.words import N_, _
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.jobs import PanelOf
+
+
+class Format(NamedTuple):
+    """A name, its hot letter marked by ``&``, and the option it stands for; an empty one: recognised."""
+
+    name: str
+    option: str
+
+
+RECOGNISED = Format(N_("&Recognised"), "")
+FORMATS = (
+    RECOGNISED,
+    Format(N_("&ASCII drill format"), "inch,2:4,none"),
+    Format(N_("EXCELLON &decimal"), "inch,decimal"),
+    Format(N_("EXCELLON adding &zero"), "inch,2:4,trailing"),
+    Format(N_("EXCELLON &metric"), "mm,3:3,trailing"),
+    Format(N_("EXCELLON, &leading zeros left out"), "inch,2:4,leading"),
+    Format(N_("EXCELLON metric, leading zeros le&ft out"), "mm,3:3,leading"),
+    Format(N_("EXCELLON metric, de&cimal"), "mm,decimal"),
+    Format(N_("EXCELLON metric, f&ull width"), "mm,4:2,none"),
+)
+BY_OPTION = {entry.option: entry for entry in FORMATS}
+
 
 Read = TypeVar("Read")
 

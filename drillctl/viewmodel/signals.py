@@ -10,7 +10,7 @@ from typing import Literal, Protocol
 
 from drillctl.viewmodel.console import Problems
 
-Kind = Literal["input", "output", "coil"]
+SignalKind = Literal["input", "output", "coil"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class SignalView:
     forcing       a coil's wire that must not stay on for long: the winding would burn
     """
 
-    kind: Kind
+    kind: SignalKind
     name: str
     bit: int
     level: int
@@ -57,3 +57,44 @@ class ManualControl(Protocol):
 
     def go(self) -> Problems:
         """The clock goes on by itself. Refused where it does."""
+
+
+@dataclass(frozen=True, slots=True)
+class PortReport:
+    """What a test found: facts, a line each; the sensors as they answer now; or why the port can't be used."""
+
+    port: str
+    facts: tuple[str, ...] = ()
+    inputs: tuple[tuple[str, bool], ...] = ()
+    problem: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PortView:
+    """``mode`` and ``card`` as the machine's file has them, the port of that card, and whether an option overrides it.
+
+    configured  NAME[:ADDRESS]; empty where no port drives this card
+    """
+
+    in_use: str
+    real: bool
+    mode: str
+    card: str
+    configured: str
+    overridden: bool
+
+
+class PortControl(Protocol):
+    """The port of the machine in use."""
+
+    def port(self) -> PortView:
+        """Which is in use, which is configured."""
+
+    def test(self) -> PortReport:
+        """Opens the configured port, asks it, gives it back; the one in use is asked as it stands. Takes its time."""
+
+    def go_real(self) -> Problems:
+        """Drives the machine on the configured port. Refused while something moves; then nothing changes."""
+
+    def go_simulated(self) -> Problems:
+        """Back to the simulated machine."""

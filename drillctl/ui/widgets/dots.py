@@ -57,7 +57,7 @@ def braille_cells(grid: NDArray[np.bool_]) -> list[list[str]]:
     return [[*map(chr, row)] for row in codes.tolist()]
 
 
-def board_rows(xy_mm: NDArray[np.float64], columns: int, rows: int) -> list[str]:
+def dot_rows(xy_mm: NDArray[np.float64], columns: int, rows: int) -> list[str]:
     """At most ``rows`` lines of ``columns`` characters for points (n, 2); none for no points."""
     if not len(xy_mm) or columns < 1 or rows < 1:
         return []

@@ -1,0 +1,18 @@
+"""The registry of screens and menus by family of machines: a package beside ``pcb_drill`` and a row here for each.
+
+Rule: a family recognises its machines by what they have, never by their name. A family's package imports ui/screens,
+ui/models and ui/widgets, and nothing of the program around it; the program reaches a family through this table alone.
+"""
+
+from collections.abc import Sequence
+
+from drillctl.ui.pcb_drill import PCB_DRILL
+from drillctl.ui.screens.shell import MachineScreens
+from drillctl.viewmodel.console import MachineView
+
+FAMILIES = (PCB_DRILL,)  # asked from the first on; the last takes every machine
+
+
+def screens_of(view: MachineView, families: Sequence[MachineScreens] = FAMILIES) -> MachineScreens:
+    """The screens and menus for a machine: those of the first family that recognises it, else of the last."""
+    return next((family for family in families if family.recognises(view)), families[-1])

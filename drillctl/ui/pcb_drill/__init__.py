@@ -1,0 +1,25 @@
+"""The screens and menus of the PCB drill, and of every machine that drills a board.
+
+    drilling.py    the machine at work: jog, base, start, hold, stop       board_view.py   the picture of the board
+    side_window.py the paper's window at the right of it                   unfinished.py   jobs that were interrupted
+    files.py       find a drill file, see what it says, place it           browser.py      its list of files
+    typed.py       number formats, and what is typed into its dialogs      board_facts.py  a board in words
+    alignment.py   placing a board by holes measured on it                 measuring.py    what the holes say
+    menus.py       the menus Files and Drilling
+
+PCB_DRILL is the row of ui/machines.py.
+"""
+
+from drillctl.ui.pcb_drill.drilling import Drilling
+from drillctl.ui.pcb_drill.files import Files
+from drillctl.ui.pcb_drill.menus import MENUS
+from drillctl.ui.pcb_drill.unfinished import offer_unfinished
+from drillctl.ui.screens.shell import MachineScreens
+
+PCB_DRILL = MachineScreens(
+    recognises=lambda view: True,
+    menus=MENUS,
+    makers={"drilling": Drilling, "files": Files},
+    first="drilling",
+    at_start=offer_unfinished,
+)
