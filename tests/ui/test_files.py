@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drillctl.ui.models.measuring import far_apart
 
 from drillctl.language import words
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.files import Files
+from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
 from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob, Site, UnfinishedJob
 from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
