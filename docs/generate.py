@@ -1,7 +1,9 @@
-"""Writes docs/KMD.md and docs/FAULTS.md from the tables in the code. A test holds that they are up to date."""
+"""Writes docs/KMD.md, FAULTS.md and STATES.md from the tables in the code. A test holds that they are up to date."""
 
 from pathlib import Path
 
+from drillctl.execution.conditions import TABLE, Event
+from drillctl.execution.controller import CONDITIONS, Stage
 from drillctl.kmd import COMMANDS, FAULTS, Reaction
 from drillctl.kmd.commands import Spec
 from drillctl.viewmodel import FAULT_WORDS
@@ -15,6 +17,12 @@ axes; distances are steps, times are ticks. `KMD_GOTOdXdY`, `KMD_GOTO_X_Y` and `
 others are in its style. Names are Polish: *wiertło* drill, *dół* down, *góra* up, *baza* base, *ruch* motion, *linia*
 line, *prędkość* speed, *czekaj* wait, *wyjście* output, *wejście* input, *wrzeciono* spindle, *narzędzie* tool, *fazy
 wyłączone* phases off, *koniec* end.
+"""
+STATES_INTRO = """
+What execution does on each event at each stage of a controller. The page is the table `TABLE` in
+`drillctl/execution/conditions.py`, whose first lines explain stages and events; in brackets stands the condition that
+the status record shows. An empty cell changes nothing. A cell names what is done, and the next stage if it
+is another.
 """
 REACTIONS = {
     Reaction.STOP: "brakes down the ramp and stops",
@@ -58,7 +66,44 @@ def faults_page() -> str:
     return "\n".join(parts)
 
 
-PAGES = {"KMD.md": commands_page, "FAULTS.md": faults_page}
+def states_page() -> str:
+    stages = [f"{stage.name}<br>({CONDITIONS[stage].name})" for stage in Stage]
+    rows = [[event.name, *(_cell(stage, event) for stage in Stage)] for event in Event]
+    actions = {action.__name__: action for _, action in TABLE.values()}
+    parts = [MADE.format("drillctl/execution/conditions.py"), "", "# States", "", STATES_INTRO.strip(), ""]
+    parts += ["```mermaid", "stateDiagram-v2", "    [*] --> IDLE", *_arrows(), "```", "", "## The table", ""]
+    parts += ["| event | " + " | ".join(stages) + " |", "|---" * (1 + len(stages)) + "|"]
+    parts += ["| " + " | ".join(row) + " |" for row in rows]
+    parts += ["", "## The actions", "", "| action | what it does |", "|---|---|"]
+    parts += [f"| `{_plain(name)}` | {_first_paragraph(action.__doc__)} |" for name, action in sorted(actions.items())]
+    return "\n".join([*parts, ""])
+
+
+def _arrows() -> list[str]:
+    """The transitions to another stage, the events between the same two joined."""
+    events: dict[tuple[int, Stage], list[str]] = {}
+    for (stage, event), (following, _) in TABLE.items():
+        if following != stage:
+            events.setdefault((stage, following), []).append(Event(event).name)
+    return [f"    {Stage(stage).name} --> {to.name}: {', '.join(names)}" for (stage, to), names in events.items()]
+
+
+def _cell(stage: Stage, event: Event) -> str:
+    if (stage, event) not in TABLE:
+        return ""
+    following, action = TABLE[stage, event]
+    return f"`{_plain(action.__name__)}`" + (f"<br>→ {following.name}" if following != stage else "")
+
+
+def _plain(name: str) -> str:
+    return name.lstrip("_")
+
+
+def _first_paragraph(text: str | None) -> str:
+    return " ".join((text or "").strip().split("\n\n")[0].split())
+
+
+PAGES = {"KMD.md": commands_page, "FAULTS.md": faults_page, "STATES.md": states_page}
 
 if __name__ == "__main__":
     for name, page in PAGES.items():

@@ -1,32 +1,64 @@
 """One motor: where it is, which state of its ramp it is in, which column of its phase table is out.
 
-Rule: ``interrupt`` is called once a tick while the axis counts; it waits the interval of its state, puts the next
-column out, and after each whole step asks the ramp for the next state (paper, section 4; machine/ramp.py).
-What comes to rest is marked ``cooling``, and loses its forcing bits in the next tick (docs/SPEC.md, 1.5).
-Called by tick, commands, homing, guard and stops. Positions are steps; nothing here knows of sensors.
+An axis that counts waits the interval of its state, puts the next column out, and after each whole step asks the ramp
+for the next state (paper, section 4; machine/ramp.py). What it is about is one value, ``motion``:
+
+    REST               stands still without forcing
+    SETTLING           came to rest in this tick; the forcing wires go off in the next one (docs/SPEC.md, 1.5)
+    FOLLOWER_SETTLING  the same for a follower whose leader has paused on its line
+    FOLLOWING          steps when its leader steps (line.py); it doesn't count by itself
+    MOVING             counts towards its target and may accelerate
+    BRAKING            counts towards its target; it has braked, so it accelerates no more before state 0
+    HOLDING            counts and brakes down to state 0; the target stays
+    STOPPING           the same, but where it comes to rest is its target
+
+Positions are steps. An axis knows nothing of sensors.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from enum import IntEnum
+from typing import Protocol
 
 from drillctl.machine import AxisTable
 from drillctl.machine.hazards import opposite_halves
 from drillctl.ports import with_bits
 
-if TYPE_CHECKING:
-    from drillctl.execution.line import Line
+
+class Motion(IntEnum):
+    """What an axis is about. From MOVING on it counts."""
+
+    REST = 0
+    SETTLING = 1
+    FOLLOWER_SETTLING = 2
+    FOLLOWING = 3
+    MOVING = 4
+    BRAKING = 5
+    HOLDING = 6
+    STOPPING = 7
+
+
+# Plain integers: a tick compares them for each axis.
+REST, SETTLING, FOLLOWER_SETTLING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING = (motion.value for motion in Motion)
+COOLED = (REST, REST, FOLLOWING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING)  # by motion: once the forcing is off
+
+
+class Followers(Protocol):
+    """The axes that step along with one that leads."""
+
+    def carry(self) -> None:
+        """Puts out the followers' columns; called before each column of the leader."""
+
+    def rest(self) -> None:
+        """Lets the followers rest; called when the leader has come to rest."""
 
 
 class Axis:
-    """The running state of one axis. Created once; every field is an integer, a flag or a table."""
+    """The running state of one axis. Created once; every field is an integer or a table, but ``followers``."""
 
     __slots__ = (
-        "base", "bits", "braked", "clear_mask", "column", "column_in_step", "columns_per_step", "cooling",
-        "count", "counting", "direction", "direction_sign", "drive", "drive_patterns", "feed_hold", "follower",
-        "forcing", "halves", "high", "hold_bits", "hold_patterns", "interval", "least", "length", "limits",
-        "line", "low", "made", "min_interval", "most", "position", "ramp", "reach", "seek_mask", "span",
-        "state", "stopping", "target", "travelled", "up", "wait", "wires",
+        "base", "bits", "clear_mask", "column", "column_in_step", "columns_per_step", "count", "direction",
+        "direction_sign", "drive", "drive_patterns", "followers", "forcing", "halves", "high", "hold_bits",
+        "hold_patterns", "interval", "least", "length", "limits", "low", "made", "min_interval", "most", "motion",
+        "position", "ramp", "reach", "seek_mask", "span", "state", "target", "travelled", "up", "wait", "wires",
     )  # fmt: skip
 
     def __init__(self, table: AxisTable, limits: tuple[int, int, int], reach: tuple[int, int] | None = None):
@@ -50,26 +82,48 @@ class Axis:
         self.direction = 1
         self.wait = self.interval[0]
         self.drive = table.motor.pulse is not None
-        self.counting = self.cooling = self.braked = self.feed_hold = self.stopping = self.follower = False
+        self.motion = REST
         self.seek_mask = self.clear_mask = 0
         self.bits = self.hold_bits = 0  # the column that is out, and the same without its forcing bits
-        self.line: Line | None = None
+        self.followers: Followers | None = None
+
+    @property
+    def counting(self) -> bool:
+        """Whether it counts ticks towards its next column."""
+        return self.motion >= MOVING
+
+    @property
+    def follows(self) -> bool:
+        """Whether another axis leads it along a line."""
+        return self.motion == FOLLOWING or self.motion == FOLLOWER_SETTLING
 
     def set_target(self, target: int, min_interval: int) -> None:
-        """A new target, with the slowest allowed interval. In state 0 the count restarts; in motion it goes on."""
+        """A new target, with the shortest interval allowed. In state 0 the count restarts; in motion it goes on."""
         self.target = target
         self.min_interval = min_interval
-        self.braked = False
+        if self.motion == BRAKING:
+            self.motion = MOVING
         if self.state == 0 and self.column_in_step == 0:
             self.start()
 
     def start(self) -> None:
-        """From state 0: counts towards the target, or stays where it is."""
-        self.counting = self.target != self.position
-        if self.counting:
-            self.set_direction(1 if self.target > self.position else -1)
-            self.count = 0
-            self.wait = max(self.interval[0], self.min_interval)
+        """From state 0: counts towards the target; where it stands there already, it moves no more."""
+        if self.target == self.position:
+            if self.motion >= MOVING:
+                self.motion = SETTLING
+            return
+        if self.motion <= SETTLING:
+            self.cool()
+        self.set_direction(1 if self.target > self.position else -1)
+        self.motion = MOVING
+        self.count = 0
+        self.wait = max(self.interval[0], self.min_interval)
+
+    def follow(self, direction: int) -> None:
+        """From rest: steps in this direction whenever its leader's line says so."""
+        self.cool()
+        self.set_direction(direction)
+        self.motion = FOLLOWING
 
     def set_direction(self, direction: int) -> None:
         """The direction of the steps to come. A drive's direction wire must stand before its first pulse."""
@@ -84,56 +138,56 @@ class Axis:
         if self.count >= self.wait:
             self.count = 0
             self._advance()
-        return self.counting
+        return self.motion >= MOVING
 
     def hold(self) -> None:
-        """Brake down the ramp, keeping the target. An axis led along a line stops as its leader does."""
-        if not self.follower:
-            self.feed_hold = True
+        """Brakes down the ramp and keeps the target. A follower stops as its leader does."""
+        if MOVING <= self.motion < STOPPING:
+            self.motion = HOLDING
             self._rest_if_still()
 
     def resume(self) -> None:
-        """Lift a hold: accelerate again, or count anew from state 0."""
-        self.feed_hold = False
-        self.braked = False
-        if self.state == 0 and self.column_in_step == 0 and not self.counting and not self.follower:
+        """Goes on after a hold: may accelerate again, or counts anew from state 0."""
+        if self.motion == HOLDING:
+            self.motion = MOVING
+        elif self.motion <= SETTLING:
             self.start()
 
     def start_again(self) -> None:
         """The rotor stopped while nobody drove it: forcing goes off, and the count starts anew from state 0."""
         self.state = self.count = 0
-        self.braked = False
         self.cool()
+        if self.motion == BRAKING:
+            self.motion = MOVING
         if self.column_in_step:
             self.wait = max(self.interval[0], self.min_interval)
-        elif self.feed_hold or self.stopping:
+        elif self.motion >= HOLDING:
             self._rest()
-        elif self.counting:
+        elif self.motion == MOVING:
             self.start()
 
     def ramp_down(self) -> None:
-        """Brake down the ramp; where the axis comes to rest is its target. One that is led stops as its leader."""
-        if not self.follower:
-            self.stopping = True
+        """Brakes down the ramp; where it comes to rest is its target. A follower stops as its leader does."""
+        if not self.follows:
+            self.motion = STOPPING
             self._rest_if_still()
 
     def stop_now(self) -> None:
-        """Stop in this tick, without a ramp, keeping the current: from states 0 and 1 nothing is lost."""
+        """Stops in this tick, without a ramp, and keeps the current: from states 0 and 1 no step is lost."""
         while self.drive and self.column_in_step:  # its pulse is out already: the step is made
             self.put_column()
         self.state = self.count = self.column_in_step = 0
-        self.stopping = True
+        self.motion = STOPPING
         self._rest()
-        self.feed_hold = False
 
     def release(self) -> None:
-        """Stop and take the current off all phases; from now on it can be pushed by hand, as far as it likes."""
+        """Stops and takes the current off all phases; from now on it can be pushed by hand, as far as it likes."""
         self.stop_now()
         self.bits = self.hold_bits = 0
         self.least = self.most = self.position
 
     def set_wire(self, bits: int, on: int) -> None:
-        """A wire by hand, at rest, or several: they stay so until the next column is put out."""
+        """Sets one or several wires by hand, at rest: they stay so until the next column is put out."""
         self.bits, self.hold_bits = with_bits(self.bits, bits, on), with_bits(self.hold_bits, bits, on)
 
     def zero(self) -> None:
@@ -141,7 +195,7 @@ class Axis:
         self.position = self.target = self.base = self.least = self.most = 0
 
     def was_at(self, least: int, most: int) -> None:
-        """It has turned round between these places, both included."""
+        """Notes that it has turned round between these places, both included."""
         self.least, self.most = min(self.least, least), max(self.most, most)
 
     def been(self) -> tuple[int, int]:
@@ -149,19 +203,19 @@ class Axis:
         return min(self.least, self.position), max(self.most, self.position)
 
     def in_reach(self, target: int) -> bool:
-        """Of a known place: whether it can be sent there. From beyond its reach it can be sent back towards it."""
+        """Whether an axis whose place is known can be sent there. From beyond its reach it can be sent towards it."""
         low, high = self.reach
         return min(low, self.position) <= target <= max(high, self.position)
 
     def within_travel(self, target: int) -> bool:
-        """Of an unknown place: whether its travel may hold all places that it was at, and the target too."""
+        """Whether the travel of an axis whose place is unknown may hold all places that it was at, and the target."""
         least, most = self.been()
         return least <= target <= most or max(most, target) - min(least, target) <= self.span
 
     def cool(self) -> None:
-        """At rest: the column's 5 V bits stay, forcing goes off; 24 V held would burn the winding."""
+        """Takes the forcing wires off, the column's 5 V bits stay: 24 V at rest would burn the winding."""
         self.bits = self.hold_bits
-        self.cooling = False
+        self.motion = COOLED[self.motion]
 
     def put_column(self) -> bool:
         """Puts the next column out; True when that completes a step."""
@@ -179,32 +233,28 @@ class Axis:
         return True
 
     def _advance(self) -> None:
-        if self.line is not None:
-            self.line.carry()
+        if self.followers is not None:
+            self.followers.carry()
         if self.put_column():
             self._settle()
 
     def _settle(self) -> None:
         """After a whole step: the next state. A hold or a stop takes one state off after every step."""
-        state, direction = self.state, self.direction
+        state, direction, motion = self.state, self.direction, self.motion
         to_go = (self.target - self.position) * direction
-        if self.feed_hold or self.stopping:
+        if motion >= HOLDING:
             after = state - direction if state else 0
         else:
-            may_rise = not self.braked and self.interval[state] > self.min_interval
+            may_rise = motion == MOVING and self.interval[state] > self.min_interval
             after = self.ramp.after_step(state, direction, to_go, may_rise)
         self.state = after
-        if after == 0:
-            self._at_state_zero(to_go)
-        else:
-            self.braked = self.braked or after * direction < state * direction
+        if after:
+            if motion == MOVING and after * direction < state * direction:
+                self.motion = BRAKING
             self.wait = max(self.interval[after], self.min_interval)
-
-    def _at_state_zero(self, to_go: int) -> None:
-        self.braked = False
-        if to_go == 0 or self.feed_hold or self.stopping:
+        elif to_go == 0 or motion >= HOLDING:
             self._rest()
-        else:
+        else:  # it has overrun its target, and turns round
             self.start()
 
     def _rest_if_still(self) -> None:
@@ -212,13 +262,11 @@ class Axis:
             self._rest()
 
     def _rest(self) -> None:
-        self.counting = False
-        self.cooling = True
-        if self.stopping:
+        if self.motion == STOPPING:
             self.target = self.position
-            self.stopping = False
-        if self.line is not None:
-            self.line.rest()
+        self.motion = SETTLING
+        if self.followers is not None:
+            self.followers.rest()
 
 
 def _forcing(table: AxisTable) -> int:

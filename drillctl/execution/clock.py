@@ -2,14 +2,15 @@
 
 Rule: time is stretched. A tick that begins more than half a period late moves all later deadlines with it, so two
 ticks are never closer together than half a period; what is less is jitter, and the next tick is on time again.
-Handed to the ticker's loop, which asks it before each tick.
 """
 
 import time
 from collections.abc import Callable
 
+from drillctl.execution.axis import SETTLING
+from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
-from drillctl.execution.stops import hold, raise_fault, too_fast_to_stop
+from drillctl.execution.stops import too_fast_to_stop
 from drillctl.kmd import Fault
 
 
@@ -58,7 +59,7 @@ FAULT_MS = 250
 def apply_gap(m: Controller) -> None:
     """The gap before this tick: every axis that it stopped starts anew; a long one holds, a longer one is a fault."""
     gap_ticks, m.gap = m.late, 0
-    stopped = [axis for axis in m.axes if (axis.counting or axis.follower) and gap_ticks > axis.interval[0]]
+    stopped = [axis for axis in m.axes if axis.motion > SETTLING and gap_ticks > axis.interval[0]]
     m.caught = any(too_fast_to_stop(m, axis) for axis in stopped)
     for axis in stopped:
         axis.start_again()
@@ -67,4 +68,4 @@ def apply_gap(m: Controller) -> None:
         m.position_known = m.position_known and not m.caught
         raise_fault(m, Fault.LATE_TICK)
     elif gap_ms > HOLD_MS:
-        hold(m)
+        occur(m, Event.HOLD)

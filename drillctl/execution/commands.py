@@ -1,16 +1,17 @@
 """How each KMD command starts and ends. Two tables at the end are the whole of it.
 
 Rule: a command is checked when it is taken from the queue, and nothing moves unless all of it may; it ends in the
-tick in which everything rests and its own condition holds. Called by tick.
+tick in which everything rests and its own condition holds. Both kinds of handler return a fault code, Fault.NONE for
+none; one that ends a command may return GOES_ON instead, while its condition doesn't hold yet.
 """
 
 from collections.abc import Callable, Mapping
 
 from drillctl.execution.axis import Axis
+from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
 from drillctl.execution.heads import heads_lowered, heads_raised, lower_heads, raise_heads
-from drillctl.execution.homing import begin_homing, carry_homing
-from drillctl.execution.stops import raise_fault
+from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
 from drillctl.ports import with_bits
@@ -21,7 +22,8 @@ def start_next(m: Controller) -> bool:
     command = m.command
     while m.queue.take(command):
         if command.epoch == m.epoch:
-            m.busy = m.job = True
+            m.busy = True
+            occur(m, Event.COMMAND)
             m.elapsed = 0
             started = _STARTED.get(command.opcode)
             fault = started(m, command) if started else Fault.BAD_COMMAND
@@ -34,10 +36,13 @@ def start_next(m: Controller) -> bool:
 def finish(m: Controller) -> None:
     """Nothing moves: ends the current command if its own condition holds too."""
     ended = _ENDED.get(m.command.opcode)
-    if ended is None or ended(m, m.command):
+    fault = ended(m, m.command) if ended else Fault.NONE
+    if fault == Fault.NONE:
         m.busy = False
         m.time_limit = 0
         m.done = m.command.sequence
+    elif fault != GOES_ON:
+        raise_fault(m, fault)
 
 
 def _move(m: Controller, command: Command) -> int:
@@ -72,7 +77,9 @@ def _target(axis: Axis, command: Command, index: int) -> int:
 
 
 def _refused(m: Controller, axis: Axis, target: int, absolute: int) -> int:
-    """To where the axis can be sent. Before initialisation only moves from here, all together within the travel."""
+    """Returns the fault of an axis that can't be sent there. Before initialisation only moves from here are allowed,
+    all together within the travel.
+    """
     if m.position_known:
         return Fault.NONE if axis.in_reach(target) else Fault.SOFT_LIMIT
     if absolute:
@@ -85,7 +92,7 @@ def _start_line(m: Controller, command: Command) -> int:
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1:
             if leader is not None and axis.columns_per_step != leader.columns_per_step:
-                return _give_up_targets(m)
+                return _forget_targets(m)
             if abs(axis.target - axis.position) > farthest:
                 leader, farthest = axis, abs(axis.target - axis.position)
     if leader is not None and farthest > 0:
@@ -93,7 +100,7 @@ def _start_line(m: Controller, command: Command) -> int:
     return Fault.NONE
 
 
-def _give_up_targets(m: Controller) -> int:
+def _forget_targets(m: Controller) -> int:
     for axis in m.axes:
         axis.target = axis.position
     return Fault.LINE_MISMATCH
@@ -104,13 +111,14 @@ def _initialise(m: Controller, command: Command) -> int:
     return Fault.NONE
 
 
-def _initialised(m: Controller, command: Command) -> bool:
-    m.position_known = carry_homing(m, raise_fault)
-    return m.position_known
+def _initialised(m: Controller, command: Command) -> int:
+    fault = carry_homing(m)
+    m.position_known = fault == Fault.NONE
+    return fault
 
 
 def _take_base(m: Controller, command: Command) -> int:
-    """The axes named; else all that position the board, not the heads."""
+    """Sets the working base of the axes named; else of all that position the board, not of the heads."""
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1 or (not command.axes and axis not in m.drill_axes):
             axis.base = axis.position
@@ -148,25 +156,25 @@ def _nothing(m: Controller, command: Command) -> int:
     return Fault.NONE
 
 
-def _waited(m: Controller, command: Command) -> bool:
-    return m.elapsed >= command.args[0]
+def _waited(m: Controller, command: Command) -> int:
+    return Fault.NONE if m.elapsed >= command.args[0] else GOES_ON
 
 
-def _answered(m: Controller, command: Command) -> bool:
+def _answered(m: Controller, command: Command) -> int:
     reached = m.sensors >> (command.args[0] & 0xFF) & 1
     if reached == command.args[1]:
-        return True
-    if m.elapsed >= command.args[2]:
-        raise_fault(m, Fault.INPUT_TIMEOUT)
-    return False
+        return Fault.NONE
+    return Fault.INPUT_TIMEOUT if m.elapsed >= command.args[2] else GOES_ON
 
 
-def _end(m: Controller, command: Command) -> bool:
-    m.job = False
-    return True
+def _end(m: Controller, command: Command) -> int:
+    occur(m, Event.JOB_END)
+    return Fault.NONE
 
 
-_STARTED: Mapping[int, Callable[[Controller, Command], int]] = {
+Handler = Callable[[Controller, Command], int]
+
+_STARTED: Mapping[int, Handler] = {
     Op.GOTO_DXDY: _move,
     Op.GOTO_X_Y: _move,
     Op.RUCH: _move,
@@ -186,7 +194,7 @@ _STARTED: Mapping[int, Callable[[Controller, Command], int]] = {
     Op.FAZY_WYL: _release,
     Op.KONIEC: _nothing,
 }
-_ENDED: Mapping[int, Callable[[Controller, Command], bool]] = {
+_ENDED: Mapping[int, Handler] = {
     Op.WIERTLO_DOL: heads_lowered,
     Op.WIERTLO_GORA: heads_raised,
     Op.INICJALIZACJA: _initialised,

@@ -1,8 +1,9 @@
-"""All that a tick works on: axes, current command, sensors, stops. Allocated once, changed in place.
+"""All that a tick works on: axes, current command, sensors, the stage. Allocated once, changed in place.
 
-Rule: this module only holds; what happens to it is in tick, commands, homing, guard and stops.
-Created by the wiring with a machine, a queue, a mailbox and a driver.
+Rule: this module only holds. What changes the stage, and how, is the table in conditions.py.
 """
+
+from enum import IntEnum
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.line import Line
@@ -11,13 +12,35 @@ from drillctl.machine import Machine
 from drillctl.ports import SAFE_IMAGE, Driver
 
 
+class Stage(IntEnum):
+    """What a controller is about: the stages of the table in conditions.py."""
+
+    IDLE = 0
+    RUNNING = 1
+    HOLDING = 2
+    STOPPING = 3
+    FAULT_STOPPING = 4
+    RETURN_STOPPING = 5
+    RETURNING = 6
+    LATCHED = 7
+
+
+CONDITIONS = (
+    Condition.READY, Condition.READY, Condition.HOLDING, Condition.STOPPING, Condition.STOPPING, Condition.STOPPING,
+    Condition.RETURNING, Condition.LATCHED,
+)  # fmt: skip
+
+
 class Controller:
     """The state of execution for one machine.
 
+    stage     a Stage; ``condition`` is what the status record shows of it, ``job`` whether a job is on. Only ``enter``
+              changes the three
     inputs    the input image as latched
     sensors   the same, 1 = reached, whatever the sensor's polarity
     switched  output bits that are no axis's: spindle and the like
     elapsed   ticks of the current command, hold not counted
+    underruns wakes in which a job's next command was missing
     running   sequence of the command that was current in this tick, 0 = none
     served    the requests served in this tick, as bits; unseen: the same of a wake that was no tick
     tick_hz   ticks a second, for what is limited in seconds; set_rate changes it
@@ -46,7 +69,8 @@ class Controller:
         self.set_rate(machine.tick_hz)
 
         self.command = Command()
-        self.busy = self.job = False
+        self.enter(Stage.IDLE)
+        self.busy = False
         self.elapsed = self.time_limit = 0
         self.homing_row = 0
 
@@ -56,16 +80,21 @@ class Controller:
         self.image = SAFE_IMAGE
         self.switched = 0
 
-        self.condition: int = Condition.READY
         self.epoch = 0
         self.fault = 0
-        self.fault_kept = self.return_wanted = self.caught = False
+        self.fault_kept = self.caught = False
         self.position_known = False
 
         self.done = self.hole_begun = self.holes_done = self.tool = 0
 
+    def enter(self, stage: Stage) -> None:
+        """Goes to another stage."""
+        self.stage: int = stage.value
+        self.condition: int = CONDITIONS[stage]
+        self.job = stage in (Stage.RUNNING, Stage.HOLDING)
+
     def set_rate(self, tick_hz: int) -> None:
-        """Ticks a second; what is limited in seconds keeps its seconds."""
+        """Sets the ticks a second; what is limited in seconds keeps its seconds."""
         self.tick_hz = tick_hz
         self.longest_drilling = self.machine.drilling_ticks_at(tick_hz)
 

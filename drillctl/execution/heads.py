@@ -1,48 +1,43 @@
 """The drilling heads: how KMD_WIERTLO_DOL and KMD_WIERTLO_GORA start and end (docs/SPEC.md, 1.10).
 
 Rule: a head goes towards its sensor at that end and stops on it; without one it goes to the distance that the machine's
-file gives. The range's end without the sensor is a fault. Called by commands.
+file gives. The range's end without the sensor is a fault.
 """
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.execution.stops import raise_fault
 from drillctl.kmd import Command, Fault
 
 UP, DOWN = -1, 1
 
 
 def lower_heads(m: Controller, command: Command) -> int:
-    """KMD_WIERTLO_DOL starts, or the fault why not; each head at its own target, and drilling takes only so long."""
+    """Starts KMD_WIERTLO_DOL, each head to its own target; drilling is limited in time. Returns a fault code."""
     m.hole_begun = command.tag or m.hole_begun
     m.time_limit = m.longest_drilling
     return _drive_head(m, command, DOWN)
 
 
 def raise_heads(m: Controller, command: Command) -> int:
-    """KMD_WIERTLO_GORA starts, or the fault why not."""
+    """Starts KMD_WIERTLO_GORA. Returns a fault code."""
     return _drive_head(m, command, UP)
 
 
-def heads_lowered(m: Controller, command: Command) -> bool:
-    """At rest: the hole is made where every head is down; else DRILL_NOT_DOWN."""
+def heads_lowered(m: Controller, command: Command) -> int:
+    """Ends KMD_WIERTLO_DOL at rest: the hole is made where every head is down. Returns a fault code."""
     if not _at_sensors(m, command, DOWN):
-        raise_fault(m, Fault.DRILL_NOT_DOWN)
-        return False
+        return Fault.DRILL_NOT_DOWN
     m.holes_done += command.tag > 0
-    return True
+    return Fault.NONE
 
 
-def heads_raised(m: Controller, command: Command) -> bool:
-    """At rest: whether every head is up; else HEAD_NOT_UP."""
-    if not _at_sensors(m, command, UP):
-        raise_fault(m, Fault.HEAD_NOT_UP)
-        return False
-    return True
+def heads_raised(m: Controller, command: Command) -> int:
+    """Ends KMD_WIERTLO_GORA at rest, where every head is up. Returns a fault code."""
+    return Fault.NONE if _at_sensors(m, command, UP) else Fault.HEAD_NOT_UP
 
 
 def _drive_head(m: Controller, command: Command, direction: int) -> int:
-    """Each head towards its sensor at that end; without one, to the distance that the machine's file gives."""
+    """Sends each head to its sensor at that end; without one, to the distance that the machine's file gives."""
     for index, axis in enumerate(m.axes):
         if _is_head(m, command, index, axis):
             sensor = _head_sensor(m, axis, direction)

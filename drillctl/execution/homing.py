@@ -1,7 +1,7 @@
 """Initialisation: the machine's homing table, row by row (docs/SPEC.md 1.11). Also the way home after a fault.
 
-Rule: by the sensors, never by counters; the next row starts when all axes of the last one rest.
-Called by commands (KMD_INICJALIZACJA) and stops (return). A row is judged when it ends, then the next begins.
+Rule: by the sensors, never by counters; the next row starts when all axes of the last one rest. A row is judged when it
+ends: where its sensors don't say what it wanted, the homing ends with a fault.
 """
 
 from collections.abc import Callable, Mapping
@@ -12,7 +12,7 @@ from drillctl.kmd import Fault
 from drillctl.machine import HomingStep
 
 TOWARDS = {"min": -1, "max": 1}
-RaiseFault = Callable[[Controller, int], None]
+GOES_ON = -1  # instead of a fault code: it has not ended yet
 
 
 def begin_homing(m: Controller) -> None:
@@ -22,20 +22,22 @@ def begin_homing(m: Controller) -> None:
     _start_row(m)
 
 
-def carry_homing(m: Controller, raise_fault: RaiseFault) -> bool:
-    """Nothing moves: judge the row that ends here and start the next. True when the table is through."""
+def carry_homing(m: Controller) -> int:
+    """Nothing moves: judges the row that ends here and starts the next.
+
+    Returns Fault.NONE when the table is through, GOES_ON before, or the fault with which it ended.
+    """
     while m.homing_row < len(m.machine.homing):
         row = m.machine.homing[m.homing_row]
         fault = _ENDED[row.do](m, row)
         if fault:
-            raise_fault(m, fault)
-            return False
+            return fault
         m.homing_row += 1
         if _start_row(m):
-            return False
+            return GOES_ON
     for axis in m.axes:
         axis.base = 0
-    return True
+    return Fault.NONE
 
 
 def _start_row(m: Controller) -> bool:

@@ -1,24 +1,23 @@
-"""The guard: latched sensors, tracked positions and times, before anything moves in a tick.
+"""What can stop a machine: latched sensors, tracked positions and times, looked at before anything moves in a tick.
 
 Rule: sensors and ranges are watched independently, so that one of them broken leaves the other (paper, section 3).
-Called by tick once a tick; raises faults through stops.
 """
 
-from drillctl.execution.axis import Axis
+from drillctl.execution.axis import SETTLING, STOPPING, Axis
+from drillctl.execution.conditions import raise_fault
 from drillctl.execution.controller import Controller
-from drillctl.execution.stops import raise_fault
 from drillctl.kmd import Fault
 
 
 def guard(m: Controller) -> None:
-    """Looks once at everything that can stop the machine; at most one fault a tick is raised."""
+    """Checks everything that can stop the machine; at most one fault a tick is raised."""
     sensors = m.sensors
     for pair in m.pairs:
         if sensors & pair == pair:
             raise_fault(m, Fault.SENSOR_CONTRADICTION)
             return
     for axis in m.axes:
-        if (axis.counting or axis.follower) and not axis.stopping:
+        if SETTLING < axis.motion < STOPPING:
             fault = _watch(m, axis, sensors)
             if fault:
                 raise_fault(m, fault)
@@ -29,7 +28,7 @@ def guard(m: Controller) -> None:
 
 
 def _watch(m: Controller, axis: Axis, sensors: int) -> int:
-    """A moving axis: the sensor that it seeks or leaves, a limit ahead, the range."""
+    """Checks a moving axis: the sensor that it seeks or leaves, a limit ahead, the range. Returns a fault code."""
     if axis.seek_mask and sensors & axis.seek_mask:
         axis.ramp_down()
     elif axis.clear_mask:

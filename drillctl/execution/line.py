@@ -1,14 +1,15 @@
 """Axes linked in a straight line: the axis with the farthest to go runs its automaton, the others follow it.
 
 Rule: integer DDA (Bresenham); after the leader's last step every follower stands on its target too.
-Created once by the controller; started by commands, carried by the leading axis.
 """
 
-from drillctl.execution.axis import Axis
+from drillctl.execution.axis import FOLLOWER_SETTLING, SETTLING, Axis
 
 
 class Line:
-    """The one line of a controller. The lists are by axis: reach in steps, the DDA's error, part in this step."""
+    """The one line of a controller; to its leader it is the axis's Followers. The lists are by axis: reach in steps,
+    the DDA's error, whether it steps in this step of the leader.
+    """
 
     __slots__ = ("axes", "error", "joins", "lead_reach", "leader", "reach")
 
@@ -21,17 +22,16 @@ class Line:
         self.joins = [False] * len(axes)
 
     def start(self, leader: Axis, mask: int, min_interval: int) -> None:
-        """All axes of the mask rest, with their new targets set; the leader begins to count."""
+        """Starts a line of the axes in ``mask``, which rest and have their new targets; the leader begins to count."""
         self.leader = leader
         self.lead_reach = abs(leader.target - leader.position)
         for index, axis in enumerate(self.axes):
             self.reach[index] = abs(axis.target - axis.position) if mask >> index & 1 else 0
             self.error[index] = 0
             self.joins[index] = False
-            axis.follower = self.reach[index] > 0 and axis is not leader
-            if axis.follower:
-                axis.set_direction(1 if axis.target > axis.position else -1)
-        leader.line = self
+            if self.reach[index] > 0 and axis is not leader:
+                axis.follow(1 if axis.target > axis.position else -1)
+        leader.followers = self
         leader.set_target(leader.target, min_interval)
 
     def carry(self) -> None:
@@ -43,20 +43,19 @@ class Line:
                 axis.put_column()
 
     def rest(self) -> None:
-        """The leader has come to rest: forcing goes off everywhere; at its target (or given up) the line ends."""
+        """The leader has come to rest: the followers' forcing goes off. At its target, or stopped, the line ends."""
         over = self.leader.position == self.leader.target
         for axis in self.axes:
-            if axis.follower:
-                axis.cooling = True
-                axis.follower = not over
+            if axis.follows:
+                axis.motion = SETTLING if over else FOLLOWER_SETTLING
                 axis.target = axis.position if over else axis.target
         if over:
-            self.leader.line = None
+            self.leader.followers = None
 
     def _choose(self) -> None:
         """A follower that sits a step out rests meanwhile: a flat line must not hold 24 V for long."""
         for index, axis in enumerate(self.axes):
-            if not axis.follower:
+            if not axis.follows:
                 self.joins[index] = False
                 continue
             error = self.error[index] + self.reach[index]

@@ -5,15 +5,15 @@
 docs/SPEC.md, section 1, has the order to the letter. No container is built here, nothing grows.
 """
 
+from drillctl.execution.axis import FOLLOWING, MOVING, REST
 from drillctl.execution.clock import apply_gap
 from drillctl.execution.commands import finish, start_next
-from drillctl.execution.controller import Controller
+from drillctl.execution.conditions import Event, occur, serve
+from drillctl.execution.controller import Controller, Stage
 from drillctl.execution.hot import cut_off
 from drillctl.execution.limit_checks import guard
-from drillctl.execution.stops import carry_on, serve
-from drillctl.kmd import Condition
 
-READY, LATCHED = Condition.READY.value, Condition.LATCHED.value
+RUNNING, LATCHED = Stage.RUNNING.value, Stage.LATCHED.value
 
 
 def tick(m: Controller) -> None:
@@ -28,23 +28,25 @@ def tick(m: Controller) -> None:
         serve(m)
     if m.hot_until and m.tick >= m.hot_until:
         cut_off(m)
-    if m.condition != LATCHED:
+    if m.stage != LATCHED:
         guard(m)
-    underrun = m.condition == READY and not m.busy and not start_next(m) and m.job
+    command_missing = False
+    if m.stage <= RUNNING and not m.busy:
+        command_missing = not start_next(m)
     for axis in m.axes:
-        if axis.cooling:
+        if REST < axis.motion < FOLLOWING:
             axis.cool()
-    if underrun:
+    if command_missing and m.job:
         m.underruns += 1
         m.unseen = m.served  # a resume: the tick to come has it in its record, and is served it once more in vain
         _put_out(m)  # a winding must not keep its 24 V for as long as the next command takes to come
         return
     m.running = m.command.sequence if m.busy else 0
-    if m.busy and m.condition == READY:
+    if m.busy and m.stage == RUNNING:
         m.elapsed += 1
     moving = 0
     for axis in m.axes:
-        if axis.counting:
+        if axis.motion >= MOVING:
             moving += axis.interrupt()
     m.moving = moving
     if not moving:
@@ -68,10 +70,10 @@ def drop_forcing(m: Controller) -> None:
 
 
 def _at_rest(m: Controller) -> None:
-    if m.condition != READY:
-        carry_on(m)
-    elif m.busy:
+    if m.busy and m.stage == RUNNING:
         finish(m)
+    else:
+        occur(m, Event.REST)
 
 
 def _put_out(m: Controller) -> None:

@@ -13,7 +13,7 @@ from contextlib import suppress
 
 from drillctl.execution import drop_forcing, look
 from drillctl.execution.clock import PacedClock
-from drillctl.execution.stops import raise_fault
+from drillctl.execution.conditions import raise_fault
 from drillctl.kmd import Condition, Fault, Request
 from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.kmd.commands import MOST_AXES

@@ -11,7 +11,7 @@ from typing import cast
 
 import numpy as np
 
-from drillctl.execution.stops import raise_fault
+from drillctl.execution.conditions import raise_fault
 from drillctl.generation.job import Job
 from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes

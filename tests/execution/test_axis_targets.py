@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from drillctl.execution.axis import Axis
+from drillctl.execution.axis import Axis, Motion
 from tests.support.axes import RAMPS, lone_axis, next_step, steps_to_rest
 
 MOVE_STEPS = {"seven-state": 12, "even-interval": 20, "drive-servo": 24}  # through every state and down again
@@ -173,7 +173,7 @@ def test_counting_starts_anew_when_a_hold_in_state_0_is_lifted() -> None:
 
 def test_a_new_target_lifts_the_ban_on_accelerating() -> None:
     axis = started("seven-state", 1)
-    while not axis.braked:
+    while axis.motion != Motion.BRAKING:
         next_step(axis)
     state = axis.state
     axis.set_target(axis.position + 50, 0)
@@ -209,5 +209,5 @@ def test_waiting_in_state_0_in_mid_move_keeps_the_forcing_bits() -> None:
         waits_with_forcing += hot != axis.hold_bits
         for _ in range(6):
             axis.interrupt()
-            assert (axis.bits, axis.cooling) == (hot, False)
+            assert (axis.bits, axis.counting) == (hot, True)
     assert waits_with_forcing > 0

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from drillctl.execution.stops import raise_fault
+from drillctl.execution.conditions import raise_fault
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
 from tests.support.bench import Bench, shipped
 

@@ -104,7 +104,7 @@ def test_a_stop_anywhere_on_a_line_leaves_it_on_the_line_and_free(name: str) -> 
 def test_an_emergency_stop_on_a_line_ends_the_line(start: int) -> None:
     b = Bench(shipped("boiler-drum")).ready().queue("KMD_LINIA x=60 y=37").tick(start)
     b.ask(Request.ESTOP).tick().ask(Request.ACK).tick()
-    assert not any(axis.follower or axis.line for axis in b.m.axes)
+    assert not any(axis.follows or axis.followers for axis in b.m.axes)
     homing = "" if b.m.position_known else "KMD_INICJALIZACJA;"
     b.queue(f"{homing}KMD_LINIA x=5 y=60; KMD_RUCH x=0 y=0")
     b.finish()

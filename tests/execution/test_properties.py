@@ -1,4 +1,7 @@
-"""Random programs, held, resumed and stopped at random ticks: nothing lost, nothing out of range, twice the same."""
+"""Random programs, held, resumed and stopped at random ticks: nothing lost, nothing out of range, twice the same.
+
+The invariants of tests/support/invariants.py are asserted after every tick.
+"""
 
 from dataclasses import dataclass
 
@@ -7,6 +10,7 @@ from hypothesis import strategies as st
 
 from drillctl.kmd import Condition, Fault, Request
 from tests.support.bench import Bench, shipped
+from tests.support.invariants import Invariants
 
 LONGEST_TICKS = 60_000
 EXAMPLES = 60  # the same ones each time; raised, they are a search
@@ -42,12 +46,14 @@ def run(name: str, program: str, asked: list[tuple[int, Request]], homed: bool) 
     if homed:
         b.ready()
     b.queue(program)
+    sound = Invariants(b.m)
     for ticks, request in asked:
-        b.tick(ticks).ask(request)
+        b.ticker.run(ticks, sound)
+        b.ask(request)
         check_inside(b)
-    b.tick()
+    b.ticker.run(1, sound)
     b.ask(Request.RESUME)
-    b.ticker.run(LONGEST_TICKS, b.ticker.over)
+    b.ticker.run(LONGEST_TICKS, lambda: sound() or b.ticker.over())
     b.tick(2)
     return Run(b.images, b.positions(), b.m.fault, b)
 
@@ -61,8 +67,8 @@ def check_inside(b: Bench) -> None:
 def check_at_rest(outcome: Run) -> None:
     b = outcome.bench
     assert b.ticker.over()
-    assert not any(axis.counting or axis.state or axis.follower or axis.stopping or axis.feed_hold for axis in b.m.axes)
-    assert all(axis.line is None for axis in b.m.axes)
+    assert not any(axis.motion or axis.state for axis in b.m.axes)
+    assert all(axis.followers is None for axis in b.m.axes)
     assert all(abs(lost) == 0 for lost in b.ticker.lost_steps())
     assert (b.m.condition == Condition.LATCHED) == (b.m.fault != Fault.NONE)
     check_inside(b)
@@ -104,10 +110,10 @@ def test_holds_change_nothing_but_time(name: str, program: str, holds: list[tupl
 def test_no_input_makes_a_tick_raise(name: str, program: str, noise: list[tuple[int, int, int]]) -> None:
     """Sensors that say anything at any time, and requests in any order."""
     b = Bench(shipped(name)).queue(f"KMD_INICJALIZACJA\n{program}")
-    before = b.m.tick + b.m.underruns
+    before, sound = b.m.tick + b.m.underruns, Invariants(b.m)
     for stuck, ticks, request in noise:
         b.card.stuck_high, b.card.stuck_low = stuck, ~stuck
-        b.tick(ticks)
+        b.ticker.run(ticks, sound)
         if request:
             b.ask(Request(request))
     assert b.m.tick + b.m.underruns - before == sum(ticks for _, ticks, _ in noise)

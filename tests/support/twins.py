@@ -17,7 +17,7 @@ from drillctl.ticker.sampler import Sampler, signals
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Recorder, Trace
 
-OF_BOOKS = ("ramp", "line", "least", "most")  # not compared as they stand: ``been`` says what matters of the last two
+OF_BOOKS = ("ramp", "followers", "least", "most")  # compared by ``been`` and ``led by``
 Disturbances = Mapping[int, int]  # by tick: requests as bits of the mailbox, or below 0 a gap of so many periods
 
 
@@ -71,7 +71,7 @@ def remembered(ticker: Ticker) -> dict[str, Any]:
     for number, axis in enumerate(m.axes):
         told |= {f"{number}.{slot}": getattr(axis, slot) for slot in Axis.__slots__ if slot not in OF_BOOKS}
         told[f"{number}.been"] = axis.been()
-        told[f"{number}.led by"] = axis.line is not None
+        told[f"{number}.led by"] = axis.followers is not None
         told[f"{number}.rotor"] = {k: v for k, v in vars(plant.rotors[number]).items() if k != "equilibrium"}
         told[f"{number}.sensors"] = [dict(vars(sensor)) for sensor in plant.carriages[number].sensors]
     told |= {name: value for name, value in vars(plant).items() if isinstance(value, int)}

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.axis import Axis
+from drillctl.execution.axis import REST, SETTLING, Axis
 from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.trace.tapes import PERIOD, Count, ImagePool
 
@@ -133,7 +133,6 @@ class AxisBatch:
         axis.position = axis.target = int(self.position[-1])
         axis.min_interval = int(self.min_interval[self.sent][-1])
         axis.seek_mask = axis.clear_mask = 0
-        axis.braked = False
         if self.steps.any():
             self._leave_moved(int(longest[-1]))
 
@@ -147,8 +146,9 @@ class AxisBatch:
         axis.wait = self.profiles(axis.direction, int(self.min_interval[row])).last_wait(abs(int(self.steps[row])))
         turn = axis.direction * axis.direction_sign
         axis.hold_bits = axis.hold_patterns[turn][axis.column]
-        axis.cooling = row == len(self.steps) - 1 and int(self.ticks[row]) == longest  # just come to rest
-        axis.bits = axis.drive_patterns[turn][axis.column] if axis.cooling else axis.hold_bits
+        just_at_rest = row == len(self.steps) - 1 and int(self.ticks[row]) == longest
+        axis.motion = SETTLING if just_at_rest else REST
+        axis.bits = axis.drive_patterns[turn][axis.column] if just_at_rest else axis.hold_bits
 
 
 def _positions(axis: Axis, given: Count, placed: NDArray[np.bool_], shifted: NDArray[np.bool_]) -> Count:

@@ -76,7 +76,7 @@ class Stroked:
                 grown = sum(n * kind.grown[number][counter] for n, kind in zip(times, self.kinds, strict=True))
                 setattr(axis, name, getattr(axis, name) + grown)
             if len(self.rows) and self.rows[-1] == last_row:
-                axis.cooling, axis.bits = self.kinds[self.which[-1]].last[number]
+                axis.motion, axis.bits = self.kinds[self.which[-1]].last[number]
             world.recall(head, place.memories[number])
 
 

@@ -7,8 +7,8 @@ that tick does for the first time is recorded.
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.axis import Axis
-from drillctl.execution.controller import Controller
+from drillctl.execution.axis import SETTLING, Axis
+from drillctl.execution.controller import Controller, Stage
 from drillctl.execution.fastforward.batch import Batch
 from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.plan import foresee, is_stroke, signatures
@@ -73,7 +73,7 @@ class Engine:
         m, last = self._m, batch.commands[-1]
         m.command.load(last)
         m.running = m.done = m.command.sequence
-        m.job = m.command.opcode != Op.KONIEC
+        m.enter(Stage.IDLE if m.command.opcode == Op.KONIEC else Stage.RUNNING)
         m.elapsed = int(batch.ticks[-1])
         m.tick += batch.end
         m.late = m.served = 0
@@ -102,8 +102,7 @@ class Engine:
 def _rests(axis: Axis) -> bool:
     """Nothing is left of a move, a line or a stop; and a drive's direction wire is a wire as any other at rest."""
     alike = not axis.drive or axis.drive_patterns == axis.hold_patterns
-    moves = axis.counting or axis.state or axis.column_in_step
-    return alike and not (moves or axis.line or axis.feed_hold or axis.stopping or axis.follower)
+    return alike and axis.motion <= SETTLING and axis.followers is None
 
 
 def _travel(axis: Axis) -> int:

@@ -9,7 +9,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import Any
 
-from drillctl.execution.axis import Axis
+from drillctl.execution.axis import COOLED, Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.trace.tapes import ImagePool
@@ -17,7 +17,7 @@ from drillctl.trace.tapes import ImagePool
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
 MOTION = ("column", "position", "state")
 POSITION = MOTION.index("position")
-TABLES = ("ramp", "interval", "drive_patterns", "hold_patterns", "limits", "line", "reach", "forcing", "halves")
+TABLES = ("ramp", "interval", "drive_patterns", "hold_patterns", "limits", "followers", "reach", "forcing", "halves")
 BEEN = ("least", "most")  # strokes are foreseen from known places alone, where nothing depends on these
 REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES, *BEEN))
 
@@ -30,7 +30,7 @@ class Stroke:
     touches  (tick, place of each head in steps) where the bit met the board
     motions  by head: tick and MOTION, changes only
     grown    by head, what it adds to the COUNTERS
-    last     by head, whether its forcing is still on in the last tick, and its bits then
+    last     by head, its Motion in the last tick, in which its forcing may still be on, and its bits then
     after    the place it ends at
     """
 
@@ -40,7 +40,7 @@ class Stroke:
     touches: tuple[tuple[int, tuple[float, ...]], ...]
     motions: tuple[tuple[tuple[int, ...], ...], ...]
     grown: tuple[tuple[int, ...], ...]
-    last: tuple[tuple[bool, int], ...]
+    last: tuple[tuple[int, int], ...]
     after: "Place"
 
 
@@ -86,8 +86,8 @@ class Strokes:
 
 def _cooled(axis: Axis, slot: str) -> Any:
     """A slot's value once the forcing has gone off."""
-    if slot == "cooling":
-        return False
+    if slot == "motion":
+        return COOLED[axis.motion]
     return axis.hold_bits if slot == "bits" else getattr(axis, slot)
 
 
@@ -127,7 +127,7 @@ class Recording:
             for now, then in zip(self._count(), self._counters, strict=True)
         ]
         strips = tuple(map(self._strokes.lay, self._strips))
-        last = tuple((axis.cooling, axis.bits) for axis in self._axes)
+        last = tuple((axis.motion, axis.bits) for axis in self._axes)
         self._start.known[self._signature] = Stroke(
             ticks, strips, tuple(self._inputs), tuple(self._touches), tuple(map(tuple, self._motions)), tuple(grown),
             last, self._strokes.here(),
