@@ -1,14 +1,14 @@
-"""The only reader and writer of tables/: checks them and hands out tuples of integers. Imports nothing of ours.
+"""The only reader and writer of tables/. It checks them and hands out immutable machines: tuples of integers.
 
-model.py    a machine as everyone else sees it
-phase.py    phase tables         ramp.py   the automaton and its one rule       motor.py   what pulls a rotor
-dynamics.py what the dynamic plant must know of a motor and its load
-config.py   machine files        shape.py   what may stand in one       parts.py   the tables that one names
-library.py  where all these are found                                   hazards.py valid but dangerous
-travel.py   what follows from a ramp alone             settings.py   what the configuration screen shows
-edit.py     values changed in a table's text, comments kept     edit_ramp.py   a ramp's states added, taken away
-bundle.py   a machine with its tables as one text
-source.py   a TOML file that can say on which line a fault stands               errors.py  TableError
+model.py     a machine as everyone else sees it
+phase.py     phase tables         ramp.py   the automaton and its one rule       motor.py   where windings pull a rotor
+dynamics.py  what the dynamic plant must know of a motor and its load
+config.py    machine files        shape.py   which keys may stand in one         parts.py   the tables that one names
+library.py   where all these are found                                  hazards.py   tables that are valid but dangerous
+travel.py    times and distances that follow from a ramp alone          settings.py  what the configuration screen shows
+edit.py      values, patterns and states changed in a table's text, comments kept
+bundle.py    a machine with its tables as one text
+source.py    a TOML file that knows on which line a key stands (positions.py)     errors.py   TableError
 """
 
 from drillctl.machine.dynamics import Dynamics

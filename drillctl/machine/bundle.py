@@ -1,6 +1,6 @@
-"""A machine and the tables that it names as one text: what is handed to a process that has the machine running (LOAD).
+"""A machine and the tables that it names as one text: what LOAD hands to a process that has the machine running.
 
-Rule: what comes out is checked by the readers of files, with the same words for what is wrong. Called by the wiring.
+Rule: what is read from it is checked by the readers of files, with the same messages.
 """
 
 import json
@@ -15,16 +15,16 @@ from drillctl.machine.source import Source
 
 
 def bundle(machine: Machine) -> str:
-    """Its files as they are now, its own first. Raises TableError where one can't be read."""
+    """Returns the machine's files as they are now, its own first. Raises TableError where one can't be read."""
     files = dict.fromkeys(machine.files)
     return json.dumps({"shipped": machine.shipped, "files": [(file, Source.read(Path(file)).text) for file in files]})
 
 
 def unbundle(text: str) -> Machine:
-    """The machine of a bundle. Raises TableError, naming the file that is wrong."""
-    told = json_of(text)
-    sources = [Source(Path(file), content) for file, content in told["files"]]
-    return parse_machine(sources[0], told["shipped"], _BundledParts(sources))
+    """Returns the machine of a bundle. Raises TableError, which names the file that is wrong."""
+    bundled = json_of(text)
+    sources = [Source(Path(file), content) for file, content in bundled["files"]]
+    return parse_machine(sources[0], bundled["shipped"], _BundledParts(sources))
 
 
 class _BundledParts(Parts):

@@ -1,7 +1,7 @@
-"""Machine files: axes, wiring, sensors, homing, configuration. Checked whole before anything is handed out.
+"""Machine files: axes, wiring, sensors, homing, configuration. Checked whole before a machine is handed out.
 
 Rule: an unknown key is an error, and so is a wire without a bit, a bit used twice, an edge outside its range.
-Called by library.py, which finds the files that a machine names.
+library.py finds the files that a machine names.
 """
 
 from collections.abc import Iterable, Mapping
@@ -16,12 +16,12 @@ from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
 
-# Names that a trace gives to its own signals and scopes: an axis of such a name could not be told from them.
+# Names that a trace gives to its own signals and scopes: an axis must not have the same name.
 TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
 
 
 def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
-    """A machine from its file's text; ``parts`` finds the tables that it names. Raises TableError."""
+    """Returns the machine that a file's text describes; ``parts`` finds the tables that it names. Raises TableError."""
     raw = source.records(MachineFile)
     _check_names(source, raw)
     wiring, outputs = (source.numbers(getattr(raw, table), Bit, table) for table in ("wiring", "outputs"))
@@ -99,11 +99,11 @@ def _wire_bit(source: Source, wiring: Mapping[str, int], name: str) -> int:
 def _check_wiring(
     source: Source, wiring: Mapping[str, int], outputs: Mapping[str, int], axes: Iterable[AxisTable]
 ) -> None:
-    known = {f"{axis.name}.{wire}" for axis in axes for wire in axis.phase.wire_names()}
+    wires = {f"{axis.name}.{wire}" for axis in axes for wire in axis.phase.wire_names()}
     for name in wiring:
-        if name in known:
+        if name in wires:
             continue
-        if meant := nearest(name, sorted(known)):
+        if meant := nearest(name, sorted(wires)):
             raise source.error(f'wiring: no axis has a wire "{name}"; did you mean "{meant}"?', "wiring", name)
         raise source.error(f'wiring: no axis has a wire "{name}"', "wiring", name)
     taken: dict[int, str] = {}
@@ -126,10 +126,10 @@ def _check_inputs(source: Source, raw: MachineFile) -> None:
 def _check_locked(source: Source, raw: MachineFile) -> None:
     if not raw.locked:
         return
-    known = frozenset(name for setting in (*settings_of(raw), *wire_settings_of(raw)) for name in setting.names)
+    settings = frozenset(name for setting in (*settings_of(raw), *wire_settings_of(raw)) for name in setting.names)
     for name in raw.locked:
-        if name not in known:
-            raise source.error(f"locked: no setting is named {name!r}; {known_words(name, sorted(known))}", "locked")
+        if name not in settings:
+            raise source.error(f"locked: no setting is named {name!r}; {known_words(name, sorted(settings))}", "locked")
 
 
 def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -> None:

@@ -1,7 +1,7 @@
 """What the dynamic plant must know of a motor and its load: windings, supply, torque, inertia, friction.
 
-Rule: SI units, named in the key; the plant alone uses them, so they are no part of a machine's digest. Only motors of
-two phases with centre taps can be described. Read by config.py for an axis that names such a table.
+Rule: SI units, named in the key. Only the plant uses them, so they are no part of a machine's digest. Only motors of
+two phases with centre taps can be described.
 """
 
 from dataclasses import dataclass
@@ -43,10 +43,10 @@ class Dynamics:
     """A motor and what it moves, as seen from its shaft.
 
     cycles_per_turn   electrical cycles to a turn of the shaft: the rotor's teeth
-    switch_volts      what is lost in switch and diode of a winding that is on
-    freewheel_volts   what drives the current of a winding that is off down, through its diode
+    switch_volts      voltage lost in switch and diode of a winding that is on
+    freewheel_volts   voltage across the diode that drives the current of a winding that is off down
     torque_nm_per_a   of one half winding at its best angle; the back-EMF in V s too
-    forcing           (forcing wire, half windings that it feeds while they are on) pairs
+    forcing           pairs: a forcing wire, and the half windings that it feeds while they are on
     """
 
     name: str
@@ -66,18 +66,18 @@ class Dynamics:
 
 
 def parse_dynamics(source: Source) -> Dynamics:
-    """A motor and its load from a file's text. Raises TableError."""
+    """Reads a motor and its load from a file's text. Raises TableError."""
     raw = source.records(_File)
     if raw.forcing_volts < raw.normal_volts:
         raise source.error("forcing_volts is below normal_volts", "forcing_volts")
-    told = msgspec.structs.asdict(raw)
-    del told["description"]
-    told["forcing"] = tuple((wire, tuple(windings)) for wire, windings in raw.forcing.items())
-    return Dynamics(**told)
+    fields = msgspec.structs.asdict(raw)
+    del fields["description"]
+    fields["forcing"] = tuple((wire, tuple(windings)) for wire, windings in raw.forcing.items())
+    return Dynamics(**fields)
 
 
 def misfit(dynamics: Dynamics, motor: Motor, phase: PhaseTable) -> str | None:
-    """Why a motor with this phase table can't be described so, or None where it can."""
+    """Returns why these dynamics can't describe the motor with this phase table, or None where they can."""
     if sorted(angle % 360 for _, angle in motor.windings) != sorted(WINDING_DEGREES):
         return f"motor {motor.name} has not the four half windings, a quarter cycle apart, that dynamics are told of"
     forcing = {wire.name for wire in phase.wires if wire.forcing}

@@ -1,7 +1,7 @@
-"""Single values of a table changed in its text, comments and layout kept. Pure functions: text in, text out.
+"""Changes single values of a table in its text and keeps comments and layout. Pure functions: text in, text out.
 
-Rule: nothing is checked here beyond the place being there; what the result means is the readers' business, and an
-editor asks Library.check_source before it saves. Called by the workbench for the screens' editors.
+Rule: only whether the place exists is checked here. What the result means is checked by the readers: an editor calls
+Library.check_source before it saves.
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ UNSAVED = "table"  # what errors call a text that has no file yet
 
 
 def set_value(text: str, place: Place, value: Value) -> str:
-    """The value at a place such as ``("axis", 0, "range", 1)``. Raises TableError where there is no such place.
+    """Sets the value at a place such as ``("axis", 0, "range", 1)``. Raises TableError where there is no such place.
 
     A key that is not written yet is added to its table, and so is a table of the first level.
     """
@@ -34,12 +34,12 @@ def set_value(text: str, place: Place, value: Value) -> str:
 
 
 def set_pattern(text: str, wire: str, pattern: str) -> str:
-    """The pattern of a phase table's wire. Raises TableError where there is no such wire."""
+    """Sets the pattern of a phase table's wire. Raises TableError where there is no such wire."""
     return set_value(text, ("wire", _row_of(text, "wire", "name", wire), "pattern"), pattern)
 
 
 def set_reverse(text: str, patterns: Mapping[str, str]) -> str:
-    """The patterns of motion backwards, by wire; none take the ``[[reverse]]`` rows away."""
+    """Sets the patterns of motion backwards, by wire; an empty mapping removes the ``[[reverse]]`` rows."""
     document = opened(text)
     rows = document.get("reverse", ())
     if list(patterns) == [row["name"] for row in rows]:
@@ -54,7 +54,9 @@ def set_reverse(text: str, patterns: Mapping[str, str]) -> str:
 
 
 def set_state_row(text: str, state: int, field: str, value: int) -> str:
-    """``accelerate``, ``brake`` or ``interval`` of a ramp's state. Raises TableError where there is no such state."""
+    """Sets ``accelerate``, ``brake`` or ``interval`` of a ramp's state. Raises TableError where
+    there is no such state.
+    """
     return set_value(text, ("state", _row_of(text, "state", "state", state), field), value)
 
 
@@ -67,7 +69,7 @@ def _reverse_rows(patterns: Mapping[str, str]) -> AoT:
 
 
 def opened(text: str) -> tomlkit.TOMLDocument:
-    """A text to be changed. Raises TableError for what is not TOML."""
+    """Parses a text so that it can be changed. Raises TableError for what is not TOML."""
     try:
         return tomlkit.parse(text)
     except TOMLKitError as error:
@@ -90,7 +92,7 @@ def _missing(place: Place) -> TableError:
 
 
 def _as_written(inner: Any, key: str | int, value: Value) -> Any:
-    """An address that stands in hexadecimal stays so."""
+    """Returns the value in the notation of the one it replaces: an address in hexadecimal stays so."""
     old = inner.get(key) if isinstance(inner, dict) else None
     if isinstance(old, Integer) and old.as_string().lower().startswith("0x") and isinstance(value, int) and value >= 0:
         return tomlkit.value(f"0x{value:X}")
@@ -105,7 +107,9 @@ def _row_of(text: str, rows: str, key: str, wanted: str | int) -> int:
 
 
 def with_states(text: str, state: int, accelerate: int, brake: int, interval: int) -> str:
-    """With a row of this state above the others, and its mirror image below. Raises TableError for a text not TOML."""
+    """Adds a row for this state above the others, and its mirror image below. Raises TableError for a text that is not
+    TOML.
+    """
     document = opened(text)
     rows = document["state"]
     assert isinstance(rows, AoT)
@@ -124,7 +128,7 @@ def _row(state: int, accelerate: int, brake: int, interval: int) -> Table:
 
 
 def without_states(text: str, state: int) -> str:
-    """Without the rows of this state and of its mirror image. Raises TableError for a text not TOML."""
+    """Removes the rows of this state and of its mirror image. Raises TableError for a text that is not TOML."""
     document = opened(text)
     rows = document["state"]
     for index in reversed(range(len(rows))):

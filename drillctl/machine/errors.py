@@ -1,4 +1,4 @@
-"""Whose fault: a table's. Raised by every reader in this room; nothing is loaded when it is."""
+"""The error of every reader in this room; nothing is loaded when it is raised."""
 
 from pathlib import Path
 

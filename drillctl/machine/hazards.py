@@ -1,7 +1,7 @@
-"""Valid tables that are dangerous: loaded with a warning, since trying that in simulation is what the lab is for.
+"""Tables that are valid but dangerous: they are loaded with a warning, since trying that in simulation is what the
+laboratory is for.
 
-Rule: never raises; says which columns, counted from 1 as the paper does; rows of their own for motion backwards are
-looked at as well. Called by library.check and the editors.
+Rule: never raises; names columns, counted from 1 as the paper does; rows for motion backwards are checked as well.
 """
 
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from drillctl.machine.phase import PhaseTable
 
 
 def phase_hazards(table: PhaseTable, motor: Motor) -> list[str]:
-    """One sentence for each hazard of a phase table on a motor; empty for a sound one or a pulse drive."""
+    """Returns a sentence for each hazard of a phase table on a motor; none for a sound table or a pulse drive."""
     if motor.pulse:
         return []
     forward = _patterns(table, [wire.forward for wire in table.wires])
@@ -24,18 +24,18 @@ def phase_hazards(table: PhaseTable, motor: Motor) -> list[str]:
 
 
 def _patterns(table: PhaseTable, rows: list[tuple[bool, ...]]) -> list[frozenset[str]]:
-    """The wires that are on, column by column."""
+    """Returns the wires that are on, column by column."""
     names = table.wire_names()
     return [frozenset(compress(names, column)) for column in zip(*rows, strict=True)]
 
 
 def _dangers(table: PhaseTable, motor: Motor, patterns: list[frozenset[str]]) -> list[str]:
-    """Of the columns in one direction of motion; a jump is as long whichever way it is gone."""
+    """Returns the hazards of the columns in one direction of motion; a jump is as long in either direction."""
     return [*_both_halves(motor, patterns), *_forcing_alone(table, patterns), *_bad_jumps(motor, patterns)]
 
 
 def opposite_halves(motor: Motor) -> list[tuple[str, str]]:
-    """The wires of each winding that has two halves: they pull against each other."""
+    """Returns, for each winding that has two halves, the wires of both: they pull against each other."""
     angles = {angle % 360: name for name, angle in motor.windings}
     return [(name, angles[angle + 180]) for angle, name in angles.items() if angle + 180 in angles]
 
@@ -49,7 +49,9 @@ def _both_halves(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[str]:
 
 
 def _forcing_alone(table: PhaseTable, patterns: list[frozenset[str]]) -> Iterator[str]:
-    """A forcing wire such as ``24a`` raises the windings of its phase: ``1a``, ``1b`` end or begin alike."""
+    """Yields the columns in which forcing is on without its phase. A forcing wire such as ``24a`` belongs to the
+    windings whose names end alike: ``1a``, ``2a``.
+    """
     forcing = {wire.name for wire in table.wires if wire.forcing}
     for number, on in enumerate(patterns, start=1):
         if (on & forcing) and not (on - forcing):

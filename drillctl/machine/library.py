@@ -1,7 +1,7 @@
 """Where tables are found: ``--tables DIR``, the project's ``tables/``, the user's own, the shipped ones.
 
-Rule: the first that has the file wins; a name never leaves its folder. A table that nobody pointed at and that is not
-the shipped one (from ``./tables``, or the user's own) is told to whoever asked. Called by the wiring and the CLI.
+Rule: the first folder that has the file wins; a name never leaves its folder. A table that nobody asked for by name and
+that is not the shipped one (from ``./tables``, or the user's own folder) is reported to ``tell``.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -25,20 +25,22 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 
 
 def shipped_tables() -> Path:
-    """The tables that come with the program: inside an installed wheel, or beside the package in a checkout."""
+    """Returns the folder of the tables that come with the program: in an installed wheel, or beside the package in a
+    checkout.
+    """
     inside = _PACKAGE / "tables"
     return inside if inside.is_dir() else _PACKAGE.parent / "tables"
 
 
 def user_tables() -> Path:
-    """The folder of the user's own copies, which win over the shipped ones."""
+    """Returns the folder of the user's own tables, which win over the shipped ones."""
     from platformdirs import user_config_path
 
     return user_config_path("drillctl", appauthor=False) / "tables"
 
 
 def tell_nobody(files: tuple[Path, ...]) -> None:
-    """For those who look at ``Library.local`` themselves."""
+    """Ignores the local tables: the ``tell`` of callers that look at ``Library.local`` themselves."""
 
 
 @dataclass(frozen=True)
@@ -55,45 +57,49 @@ class Library:
 
     @classmethod
     def standard(cls, extra: Path | None = None) -> "Library":
-        """The usual search: ``extra`` (``--tables``), ``./tables``, the user's, the shipped.
+        """Returns the usual library: ``extra`` (``--tables``), ``./tables``, the user's folder, the shipped tables.
 
-        In a checkout ``./tables`` is the shipped folder itself; it then has the last word only, not the first.
+        In a checkout ``./tables`` is the shipped folder itself; it is then searched last, not before the user's.
         """
         shipped, project = shipped_tables(), Path("tables")
         own = [] if real_path(project) == shipped else [project]
-        asked = real_path(extra) if extra else shipped
-        unasked = tuple(folder for folder in (*own, user_tables()) if real_path(folder) not in (asked, shipped))
+        named = real_path(extra) if extra else shipped
+        unasked = tuple(folder for folder in (*own, user_tables()) if real_path(folder) not in (named, shipped))
         return cls((*([extra] if extra else []), *own, user_tables(), shipped), unasked)
 
     def local(self, files: Iterable[str | Path]) -> tuple[Path, ...]:
-        """Those of these table files that lie in an ``unasked`` folder and are not, to the byte, shipped ones."""
+        """Returns those of these table files that are in an ``unasked`` folder and differ from the shipped ones."""
         folders = {real_path(folder) for folder in self.unasked}
         found = [Path(file) for file in files if real_path(Path(file)).parent.parent in folders]
         return tuple(file for file in found if not _is_shipped(file))
 
     def machine_names(self) -> list[str]:
-        """The names of all machines that can be found, sorted."""
+        """Returns the names of all machines that can be found, sorted."""
         return self.names("machines")
 
     def names(self, kind: str) -> list[str]:
-        """The names of all tables of a kind (phase, ramp, motor, dynamics, machines) that can be found, sorted."""
+        """Returns the names of all tables of a kind (phase, ramp, motor, dynamics, machines) that
+        can be found, sorted.
+        """
         return sorted({file.stem for folder in self.folders for file in (folder / kind).glob("*.toml")})
 
     def find(self, kind: str, name: str) -> Path | None:
-        """The file of a table, in the first folder that has it."""
+        """Returns the file of a table in the first folder that has it, or None."""
         found = find_table(self.folders, kind, name)
         if found is not None and (local := self.local([found])):
             self.tell(local)
         return found
 
     def machine(self, name_or_file: str) -> Machine:
-        """A machine by its name, or by its file's path (anything with a slash or ``.toml``). Raises TableError."""
+        """Returns a machine by its name, or by its file's path (anything with a slash or
+        ``.toml``). Raises TableError.
+        """
         if "/" in name_or_file or name_or_file.endswith(".toml"):
             return self._machine_of(Source.read(Path(name_or_file)))
         found = find_table(self.folders, "machines", name_or_file)
         if found is None:
-            known = known_words(name_or_file, self.machine_names())
-            raise TableError(name_or_file, f"no machine of this name; {known}")
+            hint = known_words(name_or_file, self.machine_names())
+            raise TableError(name_or_file, f"no machine of this name; {hint}")
         return self._parse(Source.read(found))
 
     def check(self, file: Path) -> list[str]:
@@ -110,7 +116,7 @@ class Library:
         raise TableError(source.file, f"no table of this program: {kinds}, dynamics have inertia_kgm2")
 
     def _machine_of(self, source: Source) -> Machine:
-        """A machine given by its file: the tables beside it come first."""
+        """Returns a machine given by its file, with the tables beside it searched first."""
         beside = _tables_beside(source.file)
         unasked = tuple(folder for folder in self.unasked if real_path(folder) != real_path(beside))
         return replace(self, folders=(beside, *self.folders), unasked=unasked)._parse(source)
@@ -154,15 +160,14 @@ _KINDS: Mapping[str, Callable[[Library, Source], list[str]]] = {
 
 
 def _same_as_shipped(files: tuple[str, ...]) -> bool:
-    """Whether all of a machine's files are shipped ones, to the byte: a checkout where the program is installed too.
-
-    Its traces call the machine by its name then, and can be replayed elsewhere.
+    """Returns whether all of a machine's files are shipped ones, to the byte: a checkout where the program is installed
+    too. Its traces then call the machine by its name, and can be replayed elsewhere.
     """
     return all(map(_is_shipped, map(Path, files)))
 
 
 def _is_shipped(file: Path) -> bool:
-    """Whether it is the shipped table of its kind and name, or the same to the byte."""
+    """Returns whether the file is the shipped table of its kind and name, or equal to it."""
     return _same_bytes(file, shipped_tables() / file.parent.name / file.name)
 
 
@@ -175,12 +180,12 @@ def _bytes(file: Path) -> bytes:
 
 
 def _tables_beside(machine_file: Path) -> Path:
-    """The folder whose phase/, ramp/ and motor/ belong to a machine that is given by its file."""
+    """Returns the folder whose phase/, ramp/ and motor/ belong to a machine that is given by its file."""
     folder = real_path(machine_file).parent
     return folder.parent if folder.name == "machines" else folder
 
 
 def machine_hazards(machine: Machine) -> list[str]:
-    """The hazards of all the phase tables of a machine, each table once."""
+    """Returns the hazards of all the phase tables of a machine, each table once."""
     tables = {axis.phase: axis.motor for axis in machine.axes}
     return [f"{table.name}: {hazard}" for table, motor in tables.items() for hazard in phase_hazards(table, motor)]

@@ -1,7 +1,7 @@
 """A machine as every other room sees it: checked, complete, immutable; integers and tuples.
 
-Rule: no reading here and no checking; config.py builds these, and nobody else does.
-Positions, ranges and edges are steps from machine zero; ``columns`` are columns of the axis's phase table.
+Rule: nothing is read or checked here; config.py builds these. Positions, ranges and edges are steps from machine zero;
+``columns`` are columns of the axis's phase table.
 """
 
 import hashlib
@@ -13,14 +13,14 @@ from drillctl.machine.dynamics import Dynamics
 from drillctl.machine.motor import Motor
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
+from drillctl.ports import CARD_BITS
 
 MM_PER_INCH = 25.4
-CARD_BITS = 32
 
 
 @dataclass(frozen=True, slots=True)
 class AxisTable:
-    """One axis: its tables, its scale, its work range (both ends included), where a simulation finds it."""
+    """One axis: its tables, its scale, its work range (both ends included), and where a simulation finds it."""
 
     name: str
     phase: PhaseTable
@@ -34,11 +34,11 @@ class AxisTable:
     invert: bool
     wire_bits: tuple[int, ...]
     backlash_steps: int = 0
-    dynamics: Dynamics | None = field(default=None, repr=False)  # the plant's alone: not told in the digest
+    dynamics: Dynamics | None = field(default=None, repr=False)  # the plant's alone: not in the digest
 
     @property
     def steps_per_mm(self) -> float:
-        """Steps of the automaton to a millimetre of travel."""
+        """Steps of the ramp to a millimetre of travel."""
         return self.columns_per_inch / self.columns_per_step / MM_PER_INCH
 
     @property
@@ -72,7 +72,7 @@ class HomingStep:
 
 @dataclass(frozen=True, slots=True)
 class Configuration:
-    """The paper's configuration screen (Fig. 4) beside scale, ranges and tick rate."""
+    """The settings of the paper's configuration screen (Fig. 4), without scale, ranges and tick rate."""
 
     card: str
     card_address: int
@@ -87,8 +87,8 @@ class Surroundings:
     """What the dynamic plant meets beside its motors.
 
     scatter_mm       standard deviation of where a sensor answers
-    thrust_n         what a sharp drill needs to advance in the board
-    thrust_growth    by how much of that it grows with each metre of board drilled
+    thrust_n         thrust that a sharp drill needs to advance in the board
+    thrust_growth    by which part of that it grows with each metre of board drilled
     """
 
     scatter_mm: float = 0.0
@@ -118,12 +118,12 @@ class Machine:
 
     @property
     def file(self) -> str:
-        """The machine's own file."""
+        """The path of the machine's own file."""
         return self.files[0]
 
     @property
     def axis_names(self) -> tuple[str, ...]:
-        """The axes' names in the order of the file: the order of bits in a command's axis mask."""
+        """The axes' names in the order of the file, which is the order of bits in a command's axis mask."""
         return tuple(axis.name for axis in self.axes)
 
     @property
@@ -134,15 +134,15 @@ class Machine:
         return max(bits) // CARD_BITS + 1
 
     def axis_index(self, name: str) -> int | None:
-        """The index of an axis by name, or None."""
+        """Returns the index of an axis by its name, or None."""
         return self.axis_names.index(name) if name in self.axis_names else None
 
     def sensor_at(self, axis: int, end: str) -> Sensor | None:
-        """The sensor at an end of an axis, or None where that end has none."""
+        """Returns the sensor at an end of an axis, or None where that end has none."""
         return next((s for s in self.sensors if s.axis == axis and s.end == end), None)
 
     def reach(self, axis: int) -> tuple[int, int]:
-        """The steps an axis can be sent to: its range, short of where its limit sensors answer."""
+        """Returns the positions that an axis can be sent to: its range, short of where its limit sensors answer."""
         table = self.axes[axis]
         low, high = self.sensor_at(axis, "min"), self.sensor_at(axis, "max")
         lowest = table.low_steps if low is None else max(table.low_steps, low.edge_steps + low.hysteresis_steps)
@@ -155,21 +155,23 @@ class Machine:
         return self.drilling_ticks_at(self.tick_hz)
 
     def drilling_ticks_at(self, tick_hz: int) -> int:
-        """The same at another interrupt frequency."""
+        """Returns the configured drilling time in ticks, at an interrupt frequency."""
         return round(self.configuration.longest_drilling_s * tick_hz)
 
     def at_rate(self, tick_hz: int) -> "Machine":
-        """The same machine at another interrupt frequency."""
+        """Returns the same machine at another interrupt frequency."""
         return replace(self, tick_hz=tick_hz)
 
     def reference_from(self, folder: Path) -> str:
-        """What a trace in ``folder`` calls this machine: a shipped one by name, else its file from there."""
+        """Returns what a trace in ``folder`` calls this machine: a shipped one by name, else its file's path from
+        there.
+        """
         if self.shipped:
             return self.name
         return Path(os.path.relpath(os.path.realpath(self.file), os.path.realpath(folder))).as_posix()
 
     @property
     def digest(self) -> str:
-        """16 hex digits over all that decides a run, the tick rate and the files' places left out."""
-        told = replace(self, files=(), shipped=False, description="", tick_hz=0)
-        return hashlib.sha256(repr(told).encode()).hexdigest()[:16]
+        """16 hex digits over everything that decides a run. Tick rate and file names are left out."""
+        decisive = replace(self, files=(), shipped=False, description="", tick_hz=0)
+        return hashlib.sha256(repr(decisive).encode()).hexdigest()[:16]

@@ -1,7 +1,7 @@
-"""Motors as the plant and the warnings know them: where each winding pulls the rotor, or what a pulse does.
+"""Motors as the plant and the hazards know them: where each winding pulls the rotor, or what a pulse does.
 
-Rule: angles are whole electrical degrees; a rotor's place is counted in columns, ``columns_per_cycle`` to an
-electrical cycle. Read by config.py; used by hazards.py and by plant/rotor.
+Rule: angles are whole electrical degrees; a rotor's place is counted in columns, ``columns_per_cycle`` to an electrical
+cycle.
 """
 
 from dataclasses import dataclass
@@ -31,9 +31,9 @@ class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Motor:
-    """A stepper's windings, or (with ``pulse``) a drive that counts rising edges for itself.
+    """A stepper's windings, or (with ``pulse``) a drive that counts rising edges.
 
-    windings           (wire name, electrical degrees) pairs
+    windings           pairs: wire name, electrical degrees
     columns_per_cycle  the unit of the rotor's place: columns of the nominal table to a cycle, or to a pulse
     rests_per_cycle    places of a cycle in which the rotor can rest
     zero_degrees       the electrical angle at which the count is 0
@@ -48,13 +48,13 @@ class Motor:
     direction: str | None = None
 
     def wire_names(self) -> frozenset[str]:
-        """The wires that this motor must find in its phase table; forcing wires are extra."""
+        """Returns the wires that this motor must find in its phase table; forcing wires may be there too."""
         if self.pulse and self.direction:
             return frozenset((self.pulse, self.direction))
         return frozenset(name for name, _ in self.windings)
 
     def equilibrium_degrees(self, on: frozenset[str]) -> int | None:
-        """Where the windings that are on pull the rotor, -180 < angle <= 180; None where they cancel."""
+        """Returns where the windings that are on pull the rotor, -180 < angle <= 180; None where they cancel."""
         pulls = [radians(angle) for name, angle in self.windings if name in on]
         x, y = sum(map(cos, pulls)), sum(map(sin, pulls))
         if hypot(x, y) < WEAKEST_PULL:
@@ -64,7 +64,7 @@ class Motor:
 
 
 def parse_motor(source: Source) -> Motor:
-    """A motor from its file's text: a stepper's windings or a drive's pulse, never both. Raises TableError."""
+    """Reads a motor from its file's text: a stepper's windings or a drive's pulse, never both. Raises TableError."""
     raw = source.records(_File)
     drive = (raw.pulse, raw.direction, raw.columns_per_pulse)
     stepper = (raw.windings, raw.columns_per_cycle, raw.rests_per_cycle)

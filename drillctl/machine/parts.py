@@ -1,7 +1,6 @@
-"""The phase, ramp and motor tables that a machine's file names: found by name, read, and remembered as files.
+"""Finds and reads the phase, ramp, motor and dynamics tables that a machine's file names, and remembers the files read.
 
-Rule: the first folder that has the file wins; a name never leaves its folder. Made by library.py for one machine's
-file, asked by config.py.
+Rule: the first folder that has the file wins; a name never leaves its folder.
 """
 
 import os
@@ -19,7 +18,7 @@ Place = tuple[str | int, ...]
 
 
 def find_table(folders: Sequence[Path], kind: str, name: str) -> Path | None:
-    """The file of a table in the first folder that has it, or None; ``kind`` is the folder's name."""
+    """Returns the file of a table in the first folder that has it, or None; ``kind`` is the folder's name."""
     if Path(name).name != name:
         return None
     files = (folder / kind / f"{name}.toml" for folder in folders)
@@ -27,7 +26,7 @@ def find_table(folders: Sequence[Path], kind: str, name: str) -> Path | None:
 
 
 class Parts:
-    """Reads what one machine's file names. ``files`` are all that were read for it, the machine's own first.
+    """The tables of one machine's file. ``files`` are all files that were read for it, the machine's own first.
 
     Each method raises TableError, at ``place`` in the machine's ``source`` where there is no such table.
     """
@@ -37,15 +36,17 @@ class Parts:
         self.files = [machine_file]
 
     def phase(self, name: str, source: Source, place: Place) -> PhaseTable:
-        """The phase table of this name."""
+        """Returns the phase table of this name."""
         return parse_phase(self._open("phase", name, source, place))
 
     def ramp(self, name: str, source: Source, place: Place) -> RampTable:
-        """The ramp of this name."""
+        """Returns the ramp of this name."""
         return parse_ramp(self._open("ramp", name, source, place))
 
     def motor(self, name: str | None, table: PhaseTable, source: Source, place: Place) -> Motor:
-        """The motor named, or the one whose windings are just the wires of the table, forcing wires apart."""
+        """Returns the motor of this name; without a name the one whose windings are just the wires of the phase table,
+        forcing wires apart.
+        """
         wires = {wire.name for wire in table.wires if not wire.forcing}
         if name is None:
             return self._motor_for(wires, source, place)
@@ -58,7 +59,7 @@ class Parts:
     def dynamics(
         self, name: str | None, motor: Motor, table: PhaseTable, source: Source, place: Place
     ) -> Dynamics | None:
-        """The dynamics named, which must fit the motor and its wires; None where none is."""
+        """Returns the dynamics of this name, which must fit the motor and its wires; None without a name."""
         if name is None:
             return None
         dynamics = parse_dynamics(self._open("dynamics", name, source, place))

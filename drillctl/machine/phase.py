@@ -1,7 +1,6 @@
 """Phase tables: which wire is on in which column. Drawn in rows of ``x`` and ``.``, as the paper draws them.
 
-Rule: a table is data; a wire above the table's normal voltage is a forcing wire, and is not held at rest.
-Read by config.py for a machine's axes, by hazards.py for warnings, by execution/axis for its columns.
+Rule: a table is data. A wire above the table's lowest voltage is a forcing wire, and is off at rest.
 """
 
 import re
@@ -45,7 +44,9 @@ class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """One row: ``forward[i]`` and ``backward[i]`` say whether it is on in column i (from 0), by direction of motion."""
+    """One row: ``forward[i]`` and ``backward[i]`` say whether the wire is on in column i (from 0), by direction of
+    motion.
+    """
 
     name: str
     forcing: bool
@@ -62,12 +63,12 @@ class PhaseTable:
     columns: int
 
     def wire_names(self) -> tuple[str, ...]:
-        """The wires' names in the order of the table's rows: the order of bits in a pattern."""
+        """Returns the wires' names in the order of the table's rows, which is the order of bits in a pattern."""
         return tuple(wire.name for wire in self.wires)
 
 
 def parse_phase(source: Source) -> PhaseTable:
-    """Checks a phase table's text. Raises TableError naming the file, the row and the reason."""
+    """Reads and checks a phase table. Raises TableError naming file, row and reason."""
     raw = source.records(_File)
     columns = len(raw.wire[0].pattern)
     if not 2 <= columns <= LONGEST_TABLE:
@@ -87,7 +88,9 @@ def parse_phase(source: Source) -> PhaseTable:
 
 
 def phase_rows(source: Source) -> list[tuple[str, float, str, str | None]]:
-    """Name, volts, pattern and own reverse pattern of each wire as written, right or wrong. Raises TableError."""
+    """Returns name, volts, pattern and own reverse pattern of each wire as written, right or wrong.
+    Raises TableError.
+    """
     raw = source.records(_File)
     reverse = {row.name: row.pattern for row in raw.reverse}
     return [(row.name, row.volts, row.pattern, reverse.get(row.name)) for row in raw.wire]

@@ -1,7 +1,7 @@
-"""On which line every key of a TOML text stands.
+"""Finds the line of every key of a TOML text, which tomllib does not tell.
 
-Rule: the text is valid TOML (tomllib has read it), so that only its structure is followed here: headers, keys, inline
-tables and arrays; what stands in strings and comments is passed over. tomllib itself tells no positions.
+Rule: the text is valid TOML (tomllib has read it), so only its structure is followed here: headers, keys, inline tables
+and arrays; strings and comments are passed over.
 """
 
 import re
@@ -24,9 +24,10 @@ _PLAIN = re.compile(r"[^,\]}\n#]*")  # a number, a date or a truth value
 
 
 def key_lines(text: str) -> dict[Place, int]:
-    """The line, from 1, of every key, array element and table header, by its place in the tree that tomllib reads.
+    """Returns the line, from 1, of every key, array element and table header, by its place in the tree that tomllib
+    reads.
 
-    A table that several headers open stands where the first of them is.
+    A table that several headers open has the line of the first of them.
     """
     found: dict[Place, int] = {}
     for place, at in _Walk(text).statements():
@@ -42,7 +43,7 @@ class _Walk:
         self._rows: dict[Place, int] = {}  # how many rows each array of tables has so far
 
     def statements(self) -> Iterator[tuple[Place, int]]:
-        """Places with the offset at which each is written, in the order of the text."""
+        """Yields places with the offset at which each is written, in the order of the text."""
         table: Place = ()
         self._skip_blank()
         while self._at < len(self._text):
@@ -60,7 +61,7 @@ class _Walk:
             self._skip_blank()
 
     def _pair(self, table: Place) -> Iterator[tuple[Place, int]]:
-        """``key = value``, the key dotted or not."""
+        """Reads ``key = value``, the key dotted or not."""
         start = self._at
         place = (*table, *self._keys())
         self._at += len("=")
@@ -83,7 +84,7 @@ class _Walk:
         yield from self._value(place)
 
     def _items(self, end: str, item: ItemWalk) -> Iterator[tuple[Place, int]]:
-        """What stands between brackets, apart by commas; a comma may end it."""
+        """Reads what is between brackets, separated by commas; a comma may end it."""
         number = 0
         self._skip_blank()
         while not self._passed(end):
@@ -94,7 +95,7 @@ class _Walk:
             self._skip_blank()
 
     def _keys(self) -> Place:
-        """A key, dotted or not; the next character after it is that of ``=`` or ``]``."""
+        """Reads a key, dotted or not; the next character is then ``=`` or ``]``."""
         keys = [self._key()]
         while self._passed("."):
             keys.append(self._key())
@@ -110,7 +111,7 @@ class _Walk:
         return str(toml_of(f"key = {written}")["key"]) if written[0] in "\"'" else written
 
     def _resolved(self, keys: Place) -> Place:
-        """A header's place: within an array of tables it means the last row so far."""
+        """Returns a header's place: within an array of tables it means the last row so far."""
         place: Place = ()
         for key in keys:
             place = (*place, key)
@@ -124,7 +125,7 @@ class _Walk:
         return (*array, self._rows[array] - 1)
 
     def _passed(self, mark: str) -> bool:
-        """Whether the text goes on with ``mark``, which is then behind."""
+        """Returns whether ``mark`` comes next, and passes it if so."""
         if not self._text.startswith(mark, self._at):
             return False
         self._at += len(mark)
@@ -137,5 +138,5 @@ class _Walk:
 
 
 def _with_outer(table: Place, start: int) -> Iterator[tuple[Place, int]]:
-    """A header opens the tables around its own too."""
+    """Yields the table and those around it, which its header opens too."""
     return ((table[:length], start) for length in range(1, len(table) + 1))

@@ -43,7 +43,7 @@ class _WrittenRow(msgspec.Struct, frozen=True):
 
 
 class _Written(msgspec.Struct, frozen=True):
-    """Rows in which an editor shows any number, that it may be put right."""
+    """The rows of an editor: any number is allowed, so that a wrong one can be shown and corrected."""
 
     state: list[_WrittenRow]
 
@@ -52,7 +52,7 @@ class _Written(msgspec.Struct, frozen=True):
 class RampTable:
     """A checked automaton. Each tuple has 2n+1 entries, indexed by the signed state from -n to n.
 
-    interval    a new step is put out in every interval-th interrupt
+    interval    a new column is put out in every interval-th interrupt
     accelerate  steps to go (unsigned) above which the state rises
     brake       steps to go (unsigned) below which the state falls
     """
@@ -64,9 +64,10 @@ class RampTable:
     brake: tuple[int, ...]
 
     def after_step(self, state: int, direction: int, to_go: int, may_rise: bool) -> int:
-        """The state after a step in ``direction`` (+1, -1) that leaves ``to_go`` steps (negative: passed).
+        """Returns the state after a step in ``direction`` (+1, -1) that leaves ``to_go`` steps (negative: passed).
 
-        A target passed, or met too fast, is braked through: ``to_go`` is then below every brake distance.
+        A target that was passed, or is reached too fast, is braked through: ``to_go`` is then below every brake
+        distance.
         """
         if to_go == 0 and -1 <= state <= 1:
             return 0
@@ -77,23 +78,23 @@ class RampTable:
         return state
 
     def walk(self, steps: int, floor_ticks: int = 0) -> Iterator[tuple[int, int]]:
-        """A move of ``steps`` (signed) from rest: for each step (interval waited, state in which it is made).
+        """Yields for each step of a move of ``steps`` (signed) from rest: interval waited, state in which it is made.
 
-        After braking there is no accelerating until state 0; under a floor the state rises no further
-        once its own interval is not above the floor.
+        After braking there is no accelerating until state 0; under a floor the state rises no further once its own
+        interval is not above the floor.
         """
         for _, state, _ in self._course(steps, floor_ticks):
             yield max(self.interval[state], floor_ticks), state
 
     def straight_from(self) -> int:
-        """From this distance on, one step more is one cruising interval more: head and tail don't touch."""
+        """Returns the distance from which on one step more is one cruising interval more."""
         return 2 * self.top + max(self.accelerate) + max(self.brake) + 1
 
     def first_inexact(self) -> tuple[int, int] | None:
-        """The first move that meets its target too fast to stop there: (state, signed distance), or None.
+        """Returns the first move that reaches its target too fast to stop there: (state, signed distance), or None.
 
-        Tried: every distance up to where moves only grow by cruising steps, both ways, and under every floor
-        that caps the automaton at a lower state, so that feeds and creeping land exactly too.
+        Tried: every distance up to where moves only grow by cruising steps, both ways, and under every floor that caps
+        the automaton at a lower state, so that feeds and creeping land exactly too.
         """
         for direction, floor_ticks in product((1, -1), (0, *sorted(set(self.interval)))):
             proven: set[tuple[int, int, bool]] = set()
@@ -104,7 +105,7 @@ class RampTable:
         return None
 
     def _course(self, steps: int, floor_ticks: int) -> Iterator[tuple[int, int, bool]]:
-        """For each step of a move from rest: (steps to go after it, state in which it is made, braking begun)."""
+        """Yields for each step of a move from rest: steps to go after it, state in which it is made, braking begun."""
         direction = 1 if steps >= 0 else -1
         state, braked = 0, False
         for to_go in range(abs(steps) - 1, -1, -1):
@@ -115,7 +116,7 @@ class RampTable:
             state = after
 
     def _last_state(self, steps: int, floor_ticks: int, proven: set[tuple[int, int, bool]]) -> int:
-        """The state of a move's last step; 0 once it goes on as a move did that is proven to land (one way)."""
+        """Returns the state of a move's last step; 0 once the move goes on as one that was found to land."""
         state = 0
         for place in self._course(steps, floor_ticks):
             if place in proven:
@@ -131,7 +132,7 @@ def read_ramp(file: Path) -> RampTable:
 
 
 def parse_ramp(source: Source) -> RampTable:
-    """As ``read_ramp``, for text that is already at hand. Every distance must be landed on exactly."""
+    """As ``read_ramp``, from a text. Every distance must be landed on exactly."""
     raw = source.records(_File)
     for index, row in enumerate(raw.state):
         _check_row(source, index, row)
@@ -154,20 +155,22 @@ def parse_ramp(source: Source) -> RampTable:
 
 
 def ramp_rows(source: Source) -> list[tuple[int, int, int, int]]:
-    """State, accelerate, brake and interval of each row as written, by state, right or wrong. Raises TableError."""
+    """Returns state, accelerate, brake and interval of each row as written, by state, right or wrong. Raises
+    TableError.
+    """
     rows = source.records(_Written).state
     return sorted((row.state, row.accelerate, row.brake, row.interval) for row in rows)
 
 
 def proposals(top_row: tuple[int, int, int, int]) -> Iterator[tuple[int, int, int, int]]:
-    """Rows for the state above the top one, for an editor to try: as fast as that one, braking ever earlier."""
+    """Yields rows for the state above the top one, for an editor to try: as fast as that one, braking ever earlier."""
     state, accelerate, brake, interval = top_row
     for further in range(1, 2 * state + 2):
         yield state + 1, accelerate + 1, brake + further, interval
 
 
 def _rows_by_state(source: Source, raw: _File) -> dict[int, int]:
-    """The index of each state's row; every state from -n to n must have just one."""
+    """Returns the index of each state's row; every state from -n to n must have just one."""
     rows: dict[int, int] = {}
     for index, row in enumerate(raw.state):
         if row.state in rows:

@@ -1,9 +1,8 @@
 """The values of a machine's file that screens change: the configuration (the paper's Fig. 4) and the bit of each wire
 (Table 1), with what each may be.
 
-Rule: types and bounds come from shape.py, which holds files to them too; no bound is written twice. What ``locked``
-names, by its key or as AXIS.KEY, is shown and not changed. Called by the workbench, which turns these into what screens
-draw, and by config.py for the names.
+Rule: types and bounds come from shape.py, by which files are checked too; no bound is written twice. What ``locked``
+names, by its key or as AXIS.KEY, is shown and not changed.
 """
 
 import math
@@ -61,18 +60,20 @@ class Setting:
 
     @property
     def key(self) -> str:
-        """What the file calls it; the two ends of a range are one key."""
+        """The key in the file; the two ends of a range have the same."""
         return next(part for part in reversed(self.place) if isinstance(part, str))
 
     @property
     def names(self) -> frozenset[str]:
-        """What ``locked`` may call it; all wires together are ``ticker``."""
+        """What ``locked`` may call it; all wires together are ``wiring``."""
         if self.place[0] == WIRING:
             return frozenset({WIRING, self.key})
         return frozenset({self.key, f"{self.axis}.{self.key}"} if self.axis else {self.key})
 
     def parsed(self, typed: str) -> Value:
-        """What was typed, as the file will hold it. Raises ValueError, in words, where it can't be that."""
+        """Returns what was typed as the value for the file. Raises ValueError, with the reason,
+        where it can't be that.
+        """
         value = self._converted(typed.strip())
         if self.choices and value not in self.choices:
             raise ValueError(f"{typed!r}: it is one of {', '.join(self.choices)}")
@@ -96,7 +97,9 @@ class Setting:
 
 
 def settings(source: Source) -> tuple[Setting, ...]:
-    """All settings of a machine's text, in the order of the screen. Raises TableError for a text of wrong shape."""
+    """Returns all settings of a machine's text, in the order of the screen. Raises TableError for a text of wrong
+    shape.
+    """
     return settings_of(source.records(MachineFile))
 
 
@@ -110,12 +113,14 @@ def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
 
 
 def wire_settings(source: Source) -> tuple[Setting, ...]:
-    """The output bit of every motor's wire, in the order of the file. Raises TableError for a text of wrong shape."""
+    """Returns the output bit of every motor's wire, in the order of the file. Raises TableError for a text of wrong
+    shape.
+    """
     return wire_settings_of(source.records(MachineFile))
 
 
 def wire_settings_of(raw: MachineFile) -> tuple[Setting, ...]:
-    """As ``wire_settings``, for a file whose shape was checked. A bit that is no number is left to the readers."""
+    """As ``wire_settings``, for a file whose shape was checked. A bit that is no number is refused by the readers."""
     axes = {row.name for row in raw.axis}
     wires = ((name, name.partition(".")[0], bit) for name, bit in raw.wiring.items() if isinstance(bit, int))
     return _with_locks(

@@ -1,14 +1,14 @@
-"""What may stand in a machine's file, key by key: types, bounds, defaults. An unknown key is an error.
+"""Which keys may stand in a machine's file: types, bounds, defaults. An unknown key is an error.
 
-Rule: shapes only; what the values mean to each other is checked by config.py, which alone uses these.
+Rule: shapes only; config.py checks what the values mean to each other.
 """
 
 from typing import Annotated, Any, Literal
 
 import msgspec
 
-from drillctl.machine.model import CARD_BITS
 from drillctl.machine.phase import Name
+from drillctl.ports import CARD_BITS
 
 MOST_CARDS = 4
 SLOWEST_TICK_HZ, FASTEST_TICK_HZ = 1, 100_000
@@ -21,7 +21,7 @@ End = Literal["min", "max"]
 
 
 class Strict(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """A table with just these keys."""
+    """A table in which no other keys are allowed."""
 
 
 class AxisRow(Strict, frozen=True):
@@ -62,7 +62,7 @@ class HomingRow(Strict, frozen=True):
 
 
 class ConfigurationPart(Strict, frozen=True):
-    """``[configuration]``: the paper's screen."""
+    """``[configuration]``: the settings of the paper's configuration screen."""
 
     card: str = "simulated"
     card_address: Annotated[int, msgspec.Meta(ge=0, le=0xFFFF)] = 0x2A0

@@ -1,7 +1,6 @@
-"""One TOML file as text and as checked records, able to say on which line a fault stands.
+"""One TOML file as text and as checked records, which knows the line of a fault.
 
-Rule: nothing leaves here unchecked in shape; what the values mean is checked by the reader that asked.
-Called by phase.py, ramp.py, motor.py and config.py.
+Rule: only data of the right shape leaves here; what the values mean is checked by the reader that asked.
 """
 
 import re
@@ -53,7 +52,7 @@ class Source:
             raise TableError(file, "not UTF-8 text, so not a table", line) from error
 
     def tree(self) -> dict[str, Any]:
-        """The file as plain tables, lists and values. Raises TableError for what is not TOML."""
+        """Returns the file as plain tables, lists and values. Raises TableError for what is not TOML."""
         try:
             return toml_of(self.text)
         except tomllib.TOMLDecodeError as error:
@@ -65,14 +64,18 @@ class Source:
             raise TableError(self.file, str(error)) from error
 
     def records(self, shape: type[RecordT]) -> RecordT:
-        """The file as a record of the given shape. Raises TableError for bad TOML, unknown keys, wrong types."""
+        """Returns the file as a record of the given shape. Raises TableError for bad TOML, unknown
+        keys, wrong types.
+        """
         try:
             return msgspec.convert(self.tree(), shape)
         except msgspec.ValidationError as error:
             raise self._shape_error(str(error)) from error
 
     def numbers(self, table: Mapping[str, Any], kind: Any, *place: str) -> dict[str, int]:
-        """A table of free keys, each value checked to be of ``kind``. Raises TableError on the line of its key."""
+        """Returns a table of free keys, each value checked to be of ``kind``. Raises TableError on
+        the line of its key.
+        """
         checked = {}
         for key, value in table.items():
             try:
@@ -82,17 +85,17 @@ class Source:
         return checked
 
     def error(self, reason: str, *place: str | int) -> TableError:
-        """A TableError at a place such as ``"state", 2, "brake"``: the key in the third ``[[state]]``."""
+        """Returns a TableError at a place such as ``"state", 2, "brake"``: the key in the third ``[[state]]``."""
         return TableError(self.file, reason, self.line_of(*place))
 
     def line_of(self, *place: str | int) -> int | None:
-        """The line, from 1, where a place of this sound TOML text stands.
+        """Returns the line, from 1, of a place of this valid TOML text.
 
         Where its key is not written: that of the nearest table around it, None where there is none.
         """
         lines = key_lines(self.text)
-        known = (place[:length] for length in range(len(place), 0, -1))
-        return next((lines[found] for found in known if found in lines), None)
+        outer = (place[:length] for length in range(len(place), 0, -1))
+        return next((lines[found] for found in outer if found in lines), None)
 
     def _shape_error(self, message: str) -> TableError:
         found = _AT.match(message)

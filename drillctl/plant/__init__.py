@@ -1,14 +1,15 @@
-"""Beyond the ports: the machine itself, as far as a port can tell. It sees coil bits only and believes nobody.
+"""The simulated machine beyond the ports. It sees output bits only, and takes nothing from the controller.
 
-    base.py      what every plant offers            choice.py   which one stands behind a card
-    rotor.py     one motor: where the windings that are on pull it, or what its drive has counted
-    carriage.py  what it moves, and the sensors that this passes
-    ideal.py     the ideal plant: rotors without inertia      foreseen.py  where they will be, without driving them
-    dynamic/     the dynamic plant: currents, inertia, friction; rotors that lose steps
-    faults.py    what can be told to be wrong with a machine
+    base.py      what every plant offers            choice.py   which plant stands behind a card
+    rotor.py     one motor: where the windings that are on pull it, or how many pulses its drive has counted
+    carriage.py  what a motor moves, and the sensors that it passes
+    ideal.py     the ideal plant: motors without inertia
+    forecast.py  where its rotors will be, without driving them
+    dynamic/     the dynamic plant: currents, inertia, friction; motors that lose steps
+    faults.py    what can be wrong with a machine (--fault)
 
-An instrument, not a layer: the wiring builds it, hands it to portio/simulated and reads what it observed.
-May import machine. On a real port it is not there.
+Not a layer: whoever opens the simulated port builds a plant, hands it to portio/simulated, and reads holes and lost
+steps from it. May import machine. On a real port there is no plant.
 """
 
 from drillctl.plant.base import Plant

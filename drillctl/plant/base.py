@@ -1,4 +1,4 @@
-"""What every plant offers to the card in front of it and to the wiring that reads it.
+"""What every plant offers to the card in front of it and to the ticker that reads it.
 
 Rule: everything follows from the output images; the inputs follow from where the carriages are.
 """
@@ -18,8 +18,8 @@ CURRENT_LANES = ("_i1_mA", "_i2_mA")
 class Plant:
     """A machine beyond the ports.
 
-    lanes      what a recording has of each axis: some of those above
-    described  the plant in a word or some, for a trace; ``seed`` is what its scatter comes from
+    lanes      the signals that a trace has of each axis: some of those above
+    described  the plant in a word or some, for a trace's header; ``seed`` is that of its random numbers
     inputs     the input image, 1 where a sensor's wire is high
     touches    how often the first head's bit has met the board, coming down
     """
@@ -41,29 +41,30 @@ class Plant:
         self.touches = 0  # a bit that is in the board from the beginning did not come down to it
 
     def drive(self, image: int) -> None:
-        """An output image stands at the card, for a tick. Called once a tick, changed or not."""
+        """Takes the output image of one tick. To be called once a tick, whether it changed or not."""
         raise AssertionError("a plant is ideal or dynamic")
 
     def set_rate(self, tick_hz: int) -> None:
-        """A tick lasts 1 / tick_hz seconds from now on: news for a plant that has time."""
+        """Takes a new tick rate: a tick lasts 1 / tick_hz seconds from now on. Only a plant that has time needs it."""
 
     def position_steps(self, axis: int) -> float:
-        """Where a carriage is, in steps from machine zero as the machine's file means it."""
+        """Returns where a carriage is, in steps from machine zero as the machine's file means it."""
         return self.carriages[axis].place(self.rotors[axis].columns)
 
     def lost_steps(self, axis: int, travelled: int) -> float:
-        """How far a rotor is from the place of a controller that put ``travelled`` columns out, in its steps: 0
-        within the right rest."""
+        """Returns how many steps a rotor is from the place of a controller that put out ``travelled`` columns: 0 within
+        the right rest.
+        """
         scale = self.carriages[axis].steps_per_column
         turned = -travelled if scale < 0 else travelled
         return self.rotors[axis].columns_lost(turned) * scale
 
     def behind_steps(self, axis: int, travelled: int) -> float:
-        """How far a carriage is from where the controller has it, as far as this plant can tell."""
+        """Returns how many steps a carriage is behind the controller's position, as far as this plant can tell."""
         return self.lost_steps(axis, travelled)
 
     def lane_values(self, axis: int, travelled: int) -> tuple[int, ...]:
-        """Of each of ``lanes``, now."""
+        """Returns the present value of each of ``lanes``."""
         behind_columns = self.behind_steps(axis, travelled) / abs(self.carriages[axis].steps_per_column)
         return round(self.position_steps(axis)), round(behind_columns)
 

@@ -1,4 +1,4 @@
-"""What a rotor moves, and the sensors that it passes. Made by the plants; perfect here, worn in plant/dynamic.
+"""What a rotor moves, and the sensors that it passes. Without faults here; with wear and play in plant/dynamic.
 
 Places are steps from machine zero as the machine's file means it.
 """
@@ -10,7 +10,7 @@ from drillctl.machine import AxisTable, Sensor
 
 
 class Switch:
-    """A sensor with hysteresis: whether it is reached, its wire's level now, and whether a move has changed that."""
+    """A sensor with hysteresis: whether it is reached, and its wire's level."""
 
     def __init__(self, sensor: Sensor):
         self.bit = 1 << sensor.bit
@@ -22,25 +22,25 @@ class Switch:
         self._hysteresis = sensor.hysteresis_steps
 
     def moved_to(self, steps: float) -> bool:
-        """True when the wire's level has changed."""
+        """Takes the carriage's new place; returns whether the wire's level has changed."""
         level = self._active_level if self._answers(steps * self._outward) else 1 - self._active_level
         changed = level != self.level
         self.level = level
         return changed
 
     def changes_at(self) -> tuple[float, float]:
-        """Between these places (neither included) it stays as it is."""
+        """Returns the places between which (neither included) the sensor stays as it is."""
         beyond = (self._edge - self._hysteresis if self.reached else self._edge) * self._outward
         return (beyond, inf) if self.reached == (self._outward > 0) else (-inf, beyond)
 
     def recall(self, reached: bool) -> bool:
-        """As it was; True when that changes the wire's level."""
+        """Sets the sensor to an earlier state; returns whether that changes the wire's level."""
         before, self.reached = self.level, reached
         self.level = self._active_level if reached else 1 - self._active_level
         return self.level != before
 
     def _answers(self, outward: float) -> bool:
-        """On from the edge outwards, off again a hysteresis inwards."""
+        """Returns whether the sensor is reached: on from the edge outwards, off again a hysteresis inwards."""
         if outward >= self._edge:
             self.reached = True
         elif outward <= self._edge - self._hysteresis:
@@ -49,7 +49,7 @@ class Switch:
 
 
 class Carriage:
-    """Fixed to its rotor: as many steps from its start as the rotor has turned."""
+    """A carriage fixed to its rotor: it moves as far from its start as the rotor has turned."""
 
     def __init__(self, table: AxisTable, sensors: Sequence[Switch]):
         self.start = table.start_steps
@@ -57,5 +57,5 @@ class Carriage:
         self.sensors = sensors
 
     def place(self, columns: float) -> float:
-        """Where it is once the rotor has turned by so many columns."""
+        """Returns where it is once the rotor has turned by so many columns."""
         return self.start + columns * self.steps_per_column

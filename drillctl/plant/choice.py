@@ -1,6 +1,7 @@
-"""Which plant stands behind a simulated card, as it is asked for and as a trace's header tells it.
+"""Which plant stands behind a simulated card: ``ideal``, or ``dynamic`` with its faults, ``dynamic blunt=20
+loose.x=0.4``.
 
-Called by the wiring. ``ideal``, or ``dynamic`` with its faults: ``dynamic blunt=20 loose.x=0.4``.
+A trace's header has the same words.
 """
 
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ IDEAL, DYNAMIC, NONE = "ideal", "dynamic", "none"
 
 @dataclass(frozen=True, slots=True)
 class PlantChoice:
-    """A kind of plant, the faults told to it, and the seed of its scatter."""
+    """A kind of plant, its faults as text, and the seed of its random numbers."""
 
     kind: str = IDEAL
     faults: tuple[str, ...] = ()
@@ -23,7 +24,7 @@ class PlantChoice:
 
     @classmethod
     def of_header(cls, described: str, seed: str) -> "PlantChoice":
-        """As a trace's header has it; ideal for a trace of a real machine. Raises PlantRefused."""
+        """Reads the choice from a trace's header; ideal for a trace of a real machine. Raises PlantRefused."""
         kind, *faults = described.split() or [""]
         if kind == NONE:
             return IDEAL_PLANT
@@ -32,7 +33,7 @@ class PlantChoice:
         return cls(kind, tuple(faults), int(seed[:20]) if seed.isdecimal() else 0)
 
     def build(self, machine: Machine) -> Plant:
-        """The plant. Raises PlantRefused where the machine can't have it."""
+        """Returns the plant. Raises PlantRefused where the machine can't have it."""
         if self.kind == DYNAMIC:
             from drillctl.plant.dynamic.plant import DynamicPlant
 

@@ -1,6 +1,6 @@
-"""What can be wrong with a simulated machine, as an operator tells it: ``NAME=VALUE`` or ``NAME.PART=VALUE``.
+"""What can be wrong with a simulated machine, written as ``NAME=VALUE`` or ``NAME.PART=VALUE``.
 
-Rule: a fault is one number, of a sensor, an axis or the drill; the dynamic plant alone has them. Read by choice.py.
+Rule: a fault is one number, of a sensor, an axis or the drill; only the dynamic plant has faults.
 """
 
 import re
@@ -17,7 +17,7 @@ class PlantRefused(Exception):
 
 @dataclass(frozen=True, slots=True)
 class FaultKind:
-    """What a fault's value means, within which bounds; ``part`` is what it belongs to: sensor, axis, or nothing."""
+    """What a fault's value means, and its bounds; ``part`` is what it belongs to: sensor, axis, or nothing."""
 
     part: str
     least: float
@@ -39,7 +39,7 @@ _FORM = re.compile(r"([a-z]+)(?:\.([A-Za-z0-9_-]+))?=(-?\d+(?:\.\d+)?)")
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """One that is told: ``part`` is the name of a sensor or an axis, or empty."""
+    """One fault: ``part`` is the name of a sensor or an axis, or empty."""
 
     name: str
     part: str
@@ -50,7 +50,7 @@ class Fault:
 
 
 class Faults:
-    """All that is wrong with a machine; ``of`` asks for one. Raises PlantRefused for what can't be told of it."""
+    """All faults of a machine. Raises PlantRefused for a fault that this machine can't have."""
 
     def __init__(self, texts: Iterable[str], machine: Machine):
         parts = {"sensor": [sensor.name for sensor in machine.sensors], "axis": machine.axis_names, "": [""]}
@@ -58,19 +58,19 @@ class Faults:
         for fault in [parse_fault(text) for text in texts]:
             kind = FAULT_KINDS[fault.name].part
             if fault.part not in parts[kind]:
-                known = ", ".join(parts[kind])
-                raise PlantRefused(f"fault {fault.name}: {machine.name} has no {kind} {fault.part!r}; it has {known}")
+                has = ", ".join(parts[kind])
+                raise PlantRefused(f"fault {fault.name}: {machine.name} has no {kind} {fault.part!r}; it has {has}")
             if (fault.name, fault.part) in self._values:
                 raise PlantRefused(f"fault {fault}: told twice")
             self._values[fault.name, fault.part] = fault.value
 
     def of(self, name: str, part: str = "") -> float | None:
-        """The value of a fault, or None where it was not told."""
+        """Returns the value of a fault, or None where the machine doesn't have it."""
         return self._values.get((name, part))
 
 
 def parse_fault(text: str) -> Fault:
-    """A fault from its text. Raises PlantRefused."""
+    """Reads a fault from its text. Raises PlantRefused."""
     found = _FORM.fullmatch(text)
     kind = FAULT_KINDS.get(found[1]) if found else None
     if found is None or kind is None:
@@ -86,7 +86,7 @@ def parse_fault(text: str) -> Fault:
 
 
 def fault_lines() -> list[str]:
-    """How each is told and what it means, a line each."""
+    """Returns a line for each kind of fault: how it is written and what it means."""
     return [f"{_usage(name):20} {kind.meaning}" for name, kind in FAULT_KINDS.items()]
 
 

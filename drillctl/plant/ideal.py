@@ -1,7 +1,6 @@
 """The ideal plant: motors without inertia, friction or lag; carriages, end sensors, the drill bit and the board.
 
-Rule: it moves when its image changes, at once. It is blind to speed, ramp and forcing. Called by portio/simulated;
-the wiring reads the rotors and ``touches``.
+Rule: it moves at once when its image changes. Speed, ramp and forcing make no difference to it.
 """
 
 from math import inf
@@ -13,7 +12,7 @@ from drillctl.plant.rotor import rotor_of
 
 
 class IdealPlant(Plant):
-    """A machine of rotors that go where they are pulled."""
+    """A machine whose rotors are at once where their windings pull them."""
 
     described = "ideal"
 
@@ -26,7 +25,7 @@ class IdealPlant(Plant):
         super().__init__(machine, rotors, carriages)
 
     def drive(self, image: int) -> None:
-        """A new output image stands at the card."""
+        """Takes a new output image: each rotor whose bits changed moves, and its carriage with it."""
         if image == self.image:
             return
         self.image = image
@@ -38,19 +37,21 @@ class IdealPlant(Plant):
                     self._carry(index)
 
     def quiet_steps(self, axis: int) -> tuple[float, float]:
-        """Between these places (neither included) no sensor of an axis changes and no bit comes to the board or off."""
+        """Returns the places between which (neither included) no sensor of an axis changes, and no bit meets or leaves
+        the board.
+        """
         bounds = [sensor.changes_at() for sensor in self.carriages[axis].sensors]
         if axis == self._head and self._surface is not None:
             bounds.append((self._surface, inf) if self._in_board else (-inf, self._surface))
         return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
     def memory(self, axis: int) -> tuple[bool, ...]:
-        """What an axis's sensors remember, and for the first head whether its bit is in the board."""
+        """Returns the state of an axis's sensors, and for the first head whether its bit is in the board."""
         in_board = axis == self._head and self._in_board
         return in_board, *(sensor.reached for sensor in self.carriages[axis].sensors)
 
     def recall(self, axis: int, memory: tuple[bool, ...]) -> None:
-        """As it was when ``memory`` was asked."""
+        """Restores the state that ``memory`` returned."""
         if axis == self._head:
             self._in_board = memory[0]
         for sensor, reached in zip(self.carriages[axis].sensors, memory[1:], strict=True):

@@ -1,9 +1,9 @@
-"""One rotor, found from the coil bits alone. Angles are whole electrical degrees, counted on past 360.
+"""One rotor, found from the output bits alone. Angles are whole electrical degrees, counted on past 360.
 
 Rule: a rotor goes to the nearest stable equilibrium of the windings that are on; half a cycle away it may go either
 way, so it stays, and that is a slip. A rotor rests in one of a few places of the cycle (four for two phases, three
-columns apart), and any column that belongs to a place is the same place: so a reading grants the controller its
-column within a rest, and not a column more. Driven by plant/ideal.
+columns apart), and all columns of a place look alike: so a rotor's place tells the controller's column to within a
+rest, and not to a column.
 """
 
 from itertools import product
@@ -32,20 +32,20 @@ class Rotor:
         self.seen = 0
 
     def pull(self, pattern: int) -> bool:
-        """The axis's bits of the port image have changed; True when the rotor has moved."""
+        """Takes the axis's bits of a new port image; returns whether the rotor has moved."""
         raise AssertionError("a rotor has windings or a drive")
 
     def see(self, pattern: int) -> None:
-        """These bits stand already; nothing moves."""
+        """Takes the bits as those that are on already; nothing moves."""
         self.seen = pattern
 
     @property
     def columns(self) -> float:
-        """Columns travelled since power-up, as the rotor stands."""
+        """Columns travelled since power-up, by the rotor's place."""
         return (self.degrees - self.zero) * self.columns_per_cycle / FULL_TURN
 
     def columns_lost(self, travelled: int) -> float:
-        """How far the rotor is behind a controller that put ``travelled`` columns out (forward - backward)."""
+        """Returns how far the rotor is behind a controller that put ``travelled`` columns out (forward - backward)."""
         commanded = travelled * FULL_TURN / self.columns_per_cycle + self.zero
         behind = commanded - self.degrees
         return behind * self.columns_per_cycle / FULL_TURN if abs(behind) > self.half_rest else 0.0
@@ -66,7 +66,7 @@ class WindingRotor(Rotor):
             self.equilibrium[pattern] = table.motor.equilibrium_degrees(on)
 
     def pull(self, pattern: int) -> bool:
-        """To the nearest equilibrium. Forcing wires raise a current; they move no equilibrium."""
+        """Moves to the nearest equilibrium. Forcing wires raise a current; they move no equilibrium."""
         angle = self.equilibrium[pattern & self.winding_mask]
         if angle is None:
             return False
@@ -93,7 +93,7 @@ class PulseRotor(Rotor):
         self.was_high = False
 
     def see(self, pattern: int) -> None:
-        """These bits stand already; nothing moves."""
+        """Takes the bits as those that are on already; nothing moves."""
         super().see(pattern)
         self.was_high = bool(pattern & self.pulse)
 
@@ -108,5 +108,5 @@ class PulseRotor(Rotor):
 
 
 def rotor_of(table: AxisTable) -> Rotor:
-    """The rotor for an axis's motor."""
+    """Returns the rotor for an axis's motor."""
     return PulseRotor(table) if table.motor.pulse else WindingRotor(table)

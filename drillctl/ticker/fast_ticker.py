@@ -15,7 +15,7 @@ from drillctl.execution.fastforward import Batch, Engine
 from drillctl.kmd import Condition, Queue
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
-from drillctl.plant.foreseen import ForeseenPlant
+from drillctl.plant.forecast import PlantForecast
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import CARD_BITS
 from drillctl.ticker.sampler import Sampler, signals
@@ -45,7 +45,7 @@ class FastTicker(Ticker):
     def __post_init__(self) -> None:
         super().__post_init__()
         assert isinstance(self.plant, IdealPlant) and isinstance(self.queue, Queue)
-        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant))
+        self.engine = Engine(self.controller, PlantForecast(self.machine, self.plant))
         if self.derived:
             self.sampler = Sampler(self.controller, None, True, self.keeper)
         if self.taped:
@@ -65,7 +65,7 @@ class FastTicker(Ticker):
 
     def _foresee_anew(self) -> None:
         assert isinstance(self.plant, IdealPlant)
-        self.engine = Engine(self.controller, ForeseenPlant(self.machine, self.plant), self.engine.pool)
+        self.engine = Engine(self.controller, PlantForecast(self.machine, self.plant), self.engine.pool)
 
     @classmethod
     def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,

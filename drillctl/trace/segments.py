@@ -62,10 +62,6 @@ class Segments:
         """The images of ticks first..end-1."""
         return images(self.pool, self.tapes, np.empty(end - first, self.pool.dtype), first)
 
-    def image_at(self, tick: int) -> int:
-        """The image in a tick."""
-        return int(self.images(tick, tick + 1)[0])
-
     @cached_property
     def checksum(self) -> int:
         """CRC-32 of the array of images, little-endian, one a tick."""

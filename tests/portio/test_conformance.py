@@ -11,11 +11,11 @@ from drillctl.portio.firmata_pins import MEGA
 from drillctl.portio.gpiod_lines import GpioLines, LineMap
 from drillctl.portio.mapped import MappedCard, read_map
 from drillctl.portio.pcl720 import Pcl720
-from drillctl.portio.recording import RecordingDriver
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import bits_of
 from tests.portio.conformance import WIRING, Bench, DriverConformance, SharedCardConformance, StandInPlant
 from tests.portio.firmata_stand_in import StandIn
+from tests.support.recording_driver import RecordingDriver
 
 
 class SimulatedBench(Bench):

@@ -2,10 +2,10 @@
 
 import pytest
 
-from drillctl.portio.recording import RecordingDriver
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import PortLost
 from tests.portio.conformance import StandInPlant
+from tests.support.recording_driver import RecordingDriver
 
 
 def test_rows_are_ticks_and_columns_cards() -> None:

@@ -1,6 +1,6 @@
 """What the engine must know of what lies beyond the port, and how it leaves that as if ticked.
 
-Rule: execution sees no plant; whoever builds the engine hands it one that answers to this. plant/foreseen.py does.
+Rule: execution sees no plant; whoever builds the engine hands it one that answers to this. plant/forecast.py does.
 """
 
 from typing import Any, Protocol

@@ -1,7 +1,8 @@
-"""One rotor with inertia: currents, speed and place, a tick at a time. The law that fleet.py must keep to the bit.
+"""One rotor with inertia: currents, speed and place, a tick at a time. The reference that fleet.py must equal to the
+bit.
 
-Rule: plain floats, + - * and comparisons (coefficients.py has the equations). A rotor that a whole tick left as it
-was, to the bit, is left out until its image or its load changes. Driven by rotor.py.
+Rule: plain floats, + - * and comparisons (coefficients.py has the equations). A rotor that a whole tick left as it was,
+to the bit, is not computed again until its image or its load changes.
 """
 
 from drillctl.plant.dynamic.coefficients import QUARTER, SINE, SINES, SLOPE, Coefficients, Supply
@@ -10,7 +11,7 @@ State = tuple[float, float, float, float, float, float]
 
 
 class DynamicAxis:
-    """A rotor at rest without currents at ``cycles``.
+    """A rotor, at first at rest without currents at ``cycles``.
 
     currents  of the four half windings, in A, in the order of WINDING_DEGREES
     speed     rad/s of the shaft
@@ -30,13 +31,13 @@ class DynamicAxis:
         self._supply: Supply | None = None
 
     def take(self, law: Coefficients) -> None:
-        """From now on by this law; what it carries besides the table's friction is told anew (``load``)."""
+        """Uses these coefficients from now on, for a new tick rate. A load must be set again (``load``)."""
         self.law = law
         self._forward = self._backward = law.stop
         self.resting = False
 
     def load(self, forward_nm: float, backward_nm: float) -> None:
-        """What must be overcome besides the table's friction, by direction, from now on."""
+        """Sets the torque that resists besides the table's friction, by direction, from now on."""
         forward = self.law.stop + forward_nm * self.law.gain
         backward = self.law.stop + backward_nm * self.law.gain
         if (forward, backward) != (self._forward, self._backward):
@@ -44,7 +45,9 @@ class DynamicAxis:
             self.resting = False
 
     def tick(self, supply: Supply) -> bool:
-        """One tick on a supply (Wires.supply); False where the rotor rests and nothing is to be done."""
+        """Computes one tick on a supply (Wires.supply); returns False where the rotor rests and
+        nothing was to be done.
+        """
         if self.resting and supply == self._supply:
             return False
         before = (self.currents, self.speed, self.cycles)

@@ -30,7 +30,7 @@ WAYS = tuple((round(math.cos(math.radians(a))), round(math.sin(math.radians(a)))
 
 
 def rounded(value: float) -> float:
-    """To 13 digits: the same on every computer."""
+    """Rounds to 13 digits: the same value on every computer."""
     return float(f"{value:.12e}")
 
 
@@ -43,9 +43,9 @@ SLOPE = tuple(after - before for before, after in pairwise(SINE))
 class Coefficients:
     """What a substep multiplies with.
 
-    decay     of a current's distance from where it tends to
+    decay     a current's distance from its final value, after a substep
     emf       back-EMF as a current: A per rad/s
-    keep      what viscous friction leaves of the speed
+    keep      the part of the speed that viscous friction leaves
     push      rad/s gained by an ampere at its best angle
     detent    rad/s by 4 sin(phi) cos(phi) (1 - 2 sin2(phi)), which is sin 4 phi
     stop      rad/s that Coulomb friction takes off
@@ -65,7 +65,7 @@ class Coefficients:
 
 
 def coefficients(d: Dynamics, tick_hz: int) -> Coefficients:
-    """For ticks of 1 / tick_hz seconds."""
+    """Returns the coefficients for ticks of 1 / tick_hz seconds."""
     substeps = max(SUBSTEPS, math.ceil(1 / (tick_hz * LONGEST_SUBSTEP_S)))
     h_s = 1 / (tick_hz * substeps)
     gain = h_s / d.inertia_kgm2
@@ -87,7 +87,7 @@ Supply = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Wires:
-    """Where a motor hangs at the port: which bit switches a half winding, which bits force it.
+    """Which output bit switches each half winding, and which bits force it.
 
     on       by winding, in the order of WINDING_DEGREES: the bit of its 5 V wire
     forcing  by winding: the bits of the 24 V wires that feed it while it is on
@@ -97,7 +97,7 @@ class Wires:
     forcing: tuple[int, int, int, int]
 
     def supply(self, image: int, d: Dynamics) -> Supply:
-        """The currents in A that a port image drives towards, were there no back-EMF."""
+        """Returns the final currents, in A, that a port image drives towards without back-EMF."""
         volts = (self._volts(image, winding, d) for winding in range(len(WINDING_DEGREES)))
         first, second, third, fourth = (rounded(volt / d.resistance_ohm) for volt in volts)
         return first, second, third, fourth

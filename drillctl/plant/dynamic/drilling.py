@@ -1,7 +1,7 @@
-"""The drill in the board: what it takes to go on down, and how it grows blunt.
+"""The drill in the board: how it resists the head and wears. And sensors and belts with faults.
 
-Rule: thrust = F0 (1 + k wear), whatever the feed, while the bit is at the bottom of its hole; none in a hole that is
-made already, and none on the way up. Called by plant.py once a tick.
+Rule: thrust = F0 (1 + k wear), whatever the feed, while the bit is at the bottom of its hole; none in a hole that was
+drilled already, and none on the way up.
 """
 
 import math
@@ -34,7 +34,9 @@ class Bit:
         self._thrust_n, self._growth = surroundings.thrust_n, surroundings.thrust_growth
 
     def torque_nm(self, depth_steps: float, over_mm: Sequence[float]) -> float:
-        """The bit is in the board, so deep, at this place: what resists its motor on the way further down."""
+        """Returns the torque that resists the head's motor on the way down. ``over_mm`` is the
+        place of the other axes.
+        """
         if self._hole is None or math.dist(self._hole, over_mm) > SAME_HOLE_MM:
             self._hole, self._bottom = tuple(over_mm), self._surface
         if depth_steps < self._bottom:
@@ -44,8 +46,8 @@ class Bit:
         return self._thrust_n * (1 + self._growth * self.wear_m) * self._nm_per_n
 
 
-class WornSwitch(Switch):
-    """A sensor whose edge scatters, and with which something may be wrong; ``flutters`` while its wire does."""
+class FaultySwitch(Switch):
+    """A sensor whose edge scatters, and which may be stuck, dirty or bouncing."""
 
     def __init__(self, sensor: Sensor, steps_per_mm: float, scatter_mm: float, faults: Faults, seed: int):
         super().__init__(sensor)
@@ -59,7 +61,7 @@ class WornSwitch(Switch):
 
     @property
     def flutters(self) -> bool:
-        """Its wire may change although nothing moves."""
+        """Whether its wire may change although nothing moves."""
         return self._fluttering > 0
 
     def _answers(self, outward: float) -> bool:
@@ -76,14 +78,14 @@ class WornSwitch(Switch):
         return after ^ bool(self._fluttering % 2)
 
     def _draw_edge(self) -> None:
-        """Where it will answer the next time. Rounded, so that the last bits of a logarithm don't show."""
+        """Draws where the sensor will answer next. Rounded, so that all mathematical libraries give the same."""
         self._edge = self._middle + round(self._random.gauss(0.0, 1.0), 6) * self._scatter
 
 
 class LooseCarriage(Carriage):
     """A carriage on a belt with play: it follows once the play is used up, and stays where it was left."""
 
-    def __init__(self, table: AxisTable, sensors: Sequence[WornSwitch], play_mm: float):
+    def __init__(self, table: AxisTable, sensors: Sequence[FaultySwitch], play_mm: float):
         super().__init__(table, sensors)
         self.switches = sensors
         self._half_play = play_mm * table.steps_per_mm / 2
@@ -91,11 +93,11 @@ class LooseCarriage(Carriage):
 
     @property
     def flutters(self) -> bool:
-        """A wire of its sensors may change although nothing moves."""
+        """Whether a wire of its sensors may change although nothing moves."""
         return any(switch.flutters for switch in self.switches)
 
     def place(self, columns: float) -> float:
-        """Asked twice at the same place it is the same."""
+        """Returns where the carriage is once the rotor has turned by so many columns. Asked twice, it is the same."""
         rotor = super().place(columns)
         self._at = min(max(self._at, rotor - self._half_play), rotor + self._half_play)
         return self._at

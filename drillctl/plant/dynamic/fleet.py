@@ -1,7 +1,7 @@
-"""Many variants of one axis at once: the same substep as axis.py, a lane for each, to the bit.
+"""Many variants of one rotor at once: the same substep as axis.py, a lane for each, equal to the bit.
 
-Rule: numpy's + - * and comparisons element by element, in the order of axis.py; no reductions. It pays from some
-thirty lanes on. For sweeps, tuning, and the figures of docs/PLANT.md; the machine itself is run by axis.py.
+Rule: numpy's + - * and comparisons element by element, in the order of axis.py; no reductions. Quicker than axis.py
+from about thirty lanes on. For sweeps, tuning, and the figures of docs/PLANT.md; the machine itself is run by axis.py.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ _AHEAD = np.array([[0], [QUARTER]])  # the cosine is the sine a quarter cycle on
 class Lane:
     """One variant: a motor with its load, at a tick rate; ``cycles`` is where its rotor stands without current.
 
-    forward_nm, backward_nm   what must be overcome besides the table's friction, by direction
+    forward_nm, backward_nm   torque that resists besides the table's friction, by direction
     """
 
     dynamics: Dynamics
@@ -33,7 +33,7 @@ class Lane:
 
 
 class Fleet:
-    """n rotors on equal wires. All lanes must have the same number of substeps a tick: ValueError where not.
+    """n rotors on equal wires. Raises ValueError where the lanes have different numbers of substeps a tick.
 
     cycles    (n,) electrical cycles
     speed     (n,) rad/s
@@ -56,11 +56,12 @@ class Fleet:
         self._supplies: dict[int, Floats] = {}
 
     def run(self, images: NDArray[np.integer], keep: bool = False) -> Floats:
-        """A tick for each row of images, (ticks,) for all lanes alike or (ticks, n); goes on from where they are.
+        """Computes a tick for each row of images, (ticks,) for all lanes alike or (ticks, n); goes on from where the
+        lanes are.
 
         Returns the cycles at the end, (n,); with ``keep`` after every tick, (ticks, n).
         """
-        kept = np.empty((len(images) if keep else 0, len(self._lanes)))
+        history = np.empty((len(images) if keep else 0, len(self._lanes)))
         distinct, index = np.unique(images, return_inverse=True)
         supplies = np.stack([self._supply(image) for image in distinct.tolist()])
         everywhere = np.arange(len(self._lanes))
@@ -68,11 +69,11 @@ class Fleet:
             supply = supplies[row] if images.ndim == 1 else supplies[row, :, everywhere].T
             self._tick(supply)
             if keep:
-                kept[tick] = self.cycles
-        return kept if keep else self.cycles.copy()
+                history[tick] = self.cycles
+        return history if keep else self.cycles.copy()
 
     def _supply(self, image: int) -> Floats:
-        """(4, n): the currents that an image drives towards."""
+        """Returns the final currents that an image drives towards, (4, n)."""
         if image not in self._supplies:
             supplies = [self._wires.supply(image, lane.dynamics) for lane in self._lanes]
             self._supplies[image] = np.array(supplies).T
@@ -102,7 +103,7 @@ class Fleet:
             self.cycles += self._advance * speed
 
     def _angles(self) -> Floats:
-        """(2, n): sine and cosine of where the rotors are."""
+        """Returns sine and cosine of the rotors' places, (2, n)."""
         place = (self.cycles - np.floor(self.cycles)) * SINES
         entry = place.astype(np.intp)
         entries = entry + _AHEAD

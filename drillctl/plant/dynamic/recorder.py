@@ -1,6 +1,7 @@
-"""What a rotor did, tick by tick, as arrays: place, speed, currents. For plots and exercises, not for the machine.
+"""What a motor did, tick by tick, as arrays: place, speed, currents. For plots and exercises, not for running a
+machine.
 
-Rule: it only looks, after a tick. ``record`` runs a lone motor; a Recorder may also watch a motor of a plant at work.
+Rule: it only reads, after a tick. ``motion_of`` runs a motor alone; a MotionRecorder can also watch a motor of a plant.
 """
 
 from collections.abc import Iterable

@@ -1,7 +1,7 @@
-"""A rotor with inertia, as its axis of the machine sees it: driven by port images, read in columns.
+"""A rotor with inertia, driven by port images and read in columns.
 
 Rule: time goes on by one tick with each image. Steps are lost in whole cycles: a rotor that holds the field, or would
-find back to it, has lost none, however far it lags or friction keeps it from its rest. Driven by plant.py.
+return to it, has lost none, however far it lags or friction keeps it from its rest.
 """
 
 from dataclasses import replace
@@ -26,11 +26,11 @@ class DynamicRotor(Rotor):
         self.axis = DynamicAxis(coefficients(self._dynamics, tick_hz), self.zero / FULL_TURN)
 
     def set_rate(self, tick_hz: int) -> None:
-        """Ticks of 1 / tick_hz seconds from now on."""
+        """Uses ticks of 1 / tick_hz seconds from now on."""
         self.axis.take(coefficients(self._dynamics, tick_hz))
 
     def pull(self, pattern: int) -> bool:
-        """One tick of this image; False while the rotor rests, to the bit, in what it had before."""
+        """Computes one tick of this image; returns False while the rotor rests, unchanged to the bit."""
         supply = self._supplies.get(pattern)
         if supply is None:
             supply = self._supplies[pattern] = self._wires.supply(pattern, self._dynamics)
@@ -39,21 +39,21 @@ class DynamicRotor(Rotor):
         return moved
 
     def resist(self, torque_nm: float) -> None:
-        """What stands in the way of the axis's next steps up, from now on; nothing does on its way back."""
+        """Sets the torque that resists the axis's next steps up, from now on; nothing resists on the way back."""
         forward, backward = (0.0, torque_nm) if self._invert else (torque_nm, 0.0)
         self.axis.load(forward, backward)
 
     def columns_lost(self, travelled: int) -> float:
-        """In whole cycles."""
+        """Returns the columns by which the rotor is behind, rounded to whole electrical cycles."""
         return round(self.columns_behind(travelled) / self.columns_per_cycle) * self.columns_per_cycle
 
     def columns_behind(self, travelled: int) -> float:
-        """How far the rotor is from the middle of a column: lag, what friction holds, and what was lost."""
+        """Returns how far the rotor is from the middle of its column: lag, friction, and what was lost."""
         return travelled - self.columns
 
 
 def wires_of(table: AxisTable) -> Wires:
-    """Where the half windings of an axis with dynamics hang at the port."""
+    """Returns which output bits the half windings of an axis with dynamics hang at."""
     assert table.dynamics is not None
     bits = {name: 1 << bit for name, bit in zip(table.phase.wire_names(), table.wire_bits, strict=True)}
     at = {degrees % FULL_TURN: name for name, degrees in table.motor.windings}
@@ -65,7 +65,7 @@ def wires_of(table: AxisTable) -> Wires:
 
 
 def rest_cycles(table: AxisTable, columns: int) -> float:
-    """Where the field holds a rotor, in electrical cycles, once ``columns`` have been put out since power-up.
+    """Returns where the field holds a rotor, in electrical cycles, once ``columns`` have been put out since power-up.
 
     Raises ValueError where a column's windings cancel each other.
     """

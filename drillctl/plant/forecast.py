@@ -1,8 +1,7 @@
-"""The ideal plant foreseen: where its rotors will be after many columns, without driving it through each of them.
+"""Where the rotors of the ideal plant will be after many columns, without driving it through each of them.
 
-Rule: a rotor that follows its phase table rests where the column's equilibrium is nearest to what was commanded; a
-table that a rotor could not follow is not foreseen at all. Handed by the wiring to execution/fastforward, which knows
-it as its world.
+Rule: a rotor that follows its phase table rests where the column's equilibrium is nearest to what was commanded; of a
+table that a rotor could not follow nothing is forecast. execution/fastforward knows it as its PlantFacts.
 """
 
 from itertools import product
@@ -15,13 +14,13 @@ from drillctl.plant.rotor import FULL_TURN, HALF_TURN, PulseRotor, Rotor, Windin
 Memory = tuple[Any, ...]
 
 
-class ForeseenPlant:
+class PlantForecast:
     """An ideal plant with a machine's tables beside it. Travel is in columns since power-up, as the wires have it."""
 
     def __init__(self, machine: Machine, plant: IdealPlant):
         self._plant = plant
         pairs = zip(plant.rotors, machine.axes, strict=True)
-        self._follows = [_foreseen(rotor, table) for rotor, table in pairs]
+        self._follows = [_rotor_forecast(rotor, table) for rotor, table in pairs]
 
     @property
     def inputs(self) -> int:
@@ -29,31 +28,31 @@ class ForeseenPlant:
         return self._plant.inputs
 
     def stands(self, axis: int, travel: int) -> bool:
-        """Whether the rotor is where so many columns have put it, and will follow any further."""
+        """Returns whether the rotor is where so many columns have put it, and will follow any further ones."""
         return self._follows[axis].stands(travel)
 
     def free(self, axis: int) -> tuple[float, float]:
-        """Between these travels (neither included) no sensor changes and no bit meets the board."""
+        """Returns the travels between which (neither included) no sensor changes and no bit meets the board."""
         low, high = self._plant.quiet_steps(axis)
         carriage, slack = self._plant.carriages[axis], self._follows[axis].slack_columns
         ends = sorted((steps - carriage.start) / carriage.steps_per_column for steps in (low, high))
         return ends[0] + slack, ends[1] - slack
 
     def follow(self, axis: int, travel: int) -> None:
-        """The rotor has moved, and is where so many columns put it."""
+        """Moves the rotor to where so many columns put it."""
         self._plant.rotors[axis].degrees = self._follows[axis].degrees_at(travel)
 
     def memory(self, axis: int) -> Memory:
-        """All that an axis's rotor and sensors remember."""
+        """Returns all state of an axis's rotor and sensors."""
         return self._plant.rotors[axis].degrees, *self._plant.memory(axis)
 
     def recall(self, axis: int, memory: Memory) -> None:
-        """As it was when ``memory`` was asked."""
+        """Restores the state that ``memory`` returned."""
         self._plant.rotors[axis].degrees = memory[0]
         self._plant.recall(axis, memory[1:])
 
     def settle(self, image: int, touches: int) -> None:
-        """The whole output image as it stands at last; the bit has met the board so many times more."""
+        """Sets the output image at the end; meanwhile the bit has met the board so many times more."""
         self._plant.image = image
         self._plant.touches += touches
         for rotor in self._plant.rotors:
@@ -74,11 +73,11 @@ class _Winding:
         self.slack_columns = self._slack / self._degrees
 
     def stands(self, travel: int) -> bool:
-        """Within the slack of what is commanded, so that the next column draws it there."""
+        """Returns whether the rotor is within the slack of what is commanded, so that the next column draws it on."""
         return self._followable and abs(self._commanded(travel) - self._rotor.degrees) <= self._slack
 
     def degrees_at(self, travel: int) -> int:
-        """The equilibrium of the column that is reached (the first one forward is column 0)."""
+        """Returns the equilibrium of the column that is reached (the first one forward is column 0)."""
         return _nearest(self._angles[(travel - 1) % self._length], self._commanded(travel))
 
     def _commanded(self, travel: int) -> float:
@@ -97,15 +96,15 @@ class _Pulsed:
         self._followable = once and table.phase.columns == rotor.columns_per_cycle == table.columns_per_step
 
     def stands(self, travel: int) -> bool:
-        """Just where it was sent."""
+        """Returns whether the count is just where it was sent."""
         return self._followable and self._rotor.degrees == self.degrees_at(travel)
 
     def degrees_at(self, travel: int) -> int:
-        """One turn of the count for each step."""
+        """Returns the count after so many columns: one turn for each step."""
         return self._rotor.zero + travel // self._rotor.columns_per_cycle * FULL_TURN
 
 
-def _foreseen(rotor: Rotor, table: AxisTable) -> _Winding | _Pulsed:
+def _rotor_forecast(rotor: Rotor, table: AxisTable) -> _Winding | _Pulsed:
     if isinstance(rotor, PulseRotor):
         return _Pulsed(rotor, table)
     assert isinstance(rotor, WindingRotor)
@@ -113,7 +112,7 @@ def _foreseen(rotor: Rotor, table: AxisTable) -> _Winding | _Pulsed:
 
 
 def _equilibria(rotor: WindingRotor, table: AxisTable) -> list[int]:
-    """By column, where it pulls the rotor; none at all where a column pulls nowhere, or otherwise when reversing."""
+    """Returns where each column pulls the rotor; nothing where a column pulls nowhere, or elsewhere when reversing."""
     found = []
     for column in range(table.phase.columns):
         angles = {rotor.equilibrium[on & rotor.winding_mask] for on in _patterns(table, column)}
@@ -125,7 +124,7 @@ def _equilibria(rotor: WindingRotor, table: AxisTable) -> list[int]:
 
 
 def _patterns(table: AxisTable, column: int) -> list[int]:
-    """What may be on in a column: forward and backward, with and without forcing."""
+    """Returns the patterns that may be on in a column: forward and backward, with and without forcing."""
     found = []
     for way, cold in product(("forward", "backward"), (False, True)):
         pairs = zip(table.phase.wires, table.wire_bits, strict=True)
@@ -135,5 +134,5 @@ def _patterns(table: AxisTable, column: int) -> list[int]:
 
 
 def _nearest(angle: int, commanded: float) -> int:
-    """The angle, whole turns added, that is nearest to what is commanded."""
+    """Returns the angle, whole turns added, that is nearest to what is commanded."""
     return angle + FULL_TURN * round((commanded - angle) / FULL_TURN)
