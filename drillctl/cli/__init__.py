@@ -1,18 +1,20 @@
-"""Verbs and options. Rule: nothing heavy is imported before a verb is called; whatever the operator got wrong is
-one line (a line a problem) on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
+"""The command line: verbs and options.
 
-    run.py      drill a file or a queue          resume.py    go on with what was cut off
-    ports.py    what can be driven from here     estimate.py  what a job will take
-    inspect.py  what a drill file says           convert.py   a clean file, or a queue, from it
-    replay.py   traces again                     tables.py    machines, and checking tables
-    latency.py  how punctual this computer is    options.py   machine and tables
-    jobs.py     the options of a job         operating.py the operator at the terminal while a job runs
-    screen.py   work at the machine; what no verb means      scope.py    a trace on the screen
-    benches.py  the screens that edit and look             streams.py  standard streams that may be gone
-    parsing.py  argparse, and the word that was meant        refusals.py  what was refused, told
-    examples.py  two command lines for every verb's help
-    sweep.py    thousands of variants of a machine         tune.py  the fastest ramp that loses nothing
-    plot.py     what the motors did in a run     drawing.py   a picture in the terminal or in a file
+Rule: nothing heavy is imported before a verb is called. Whatever the operator got wrong is one line (a line a problem)
+on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
+
+    run.py        drill a file or a queue              resume.py    go on with an interrupted job
+    estimate.py   how long a job will take             inspect.py   what a drill file holds
+    convert.py    a drill file as Excellon or queue    replay.py    traces run again and compared
+    tables.py     machines, and checking tables        ports.py     the ports, and which can be used
+    latency.py    how punctual ticks are               screen.py    the screen; drillctl without a verb
+    scope.py      a trace on the screen                plot.py      pictures of a run
+    sweep.py      thousands of variants of a machine   tune.py      the fastest ramp that loses no steps
+
+and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
+tool changes while a job runs), number_lists.py (440:640:20), drawing.py (a picture to a file or the terminal),
+parsing.py (argparse with hints), refusals.py (errors as lines and JSON), streams.py (stdout and stderr), examples.py
+(for --help).
 """
 
 import sys
@@ -51,7 +53,7 @@ EPILOG = (
 
 
 def parser() -> Parser:
-    """The whole command line."""
+    """Returns the parser of the whole command line."""
     top = Parser("drillctl", description=DESCRIPTION, epilog=EPILOG)
     top.examples = EXAMPLES["drillctl"]
     top.add_argument("--version", action="version", version=f"drillctl {__version__}")
@@ -65,7 +67,7 @@ def parser() -> Parser:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs one verb; returns the exit code. Interrupted, the outputs are off: 130, or 143 on SIGTERM."""
+    """Runs one verb; returns the exit code. Interrupted, it leaves the outputs off: 130, or 143 on SIGTERM."""
     if sys.platform not in ("linux", "darwin"):
         print("drillctl: runs on Linux; on macOS and WSL for simulation. Not here.", file=sys.stderr)
         return REFUSED
@@ -85,7 +87,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _with_verb(argv: Sequence[str]) -> Sequence[str]:
-    """Without a verb the screen is meant; options alone are the screen's, but for those that only tell something."""
+    """Adds the verb ``screen`` where there is none; options alone belong to it, except --help and --version."""
     alone = not argv or (argv[0].startswith("-") and argv[0] not in ("-h", "--help", "--version"))
     return ["screen", *argv] if alone else argv
 

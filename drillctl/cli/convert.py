@@ -1,5 +1,5 @@
-"""``drillctl convert FILE --to OUT``: a clean Excellon file, or a ``.kmd`` queue, from whatever was read; or a trace in
-its other form.
+"""``drillctl convert FILE --to OUT``: writes a drill file as clean Excellon or as a ``.kmd`` queue; a trace as text or
+in segments.
 """
 
 import argparse
@@ -20,8 +20,10 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program; a trace")
     to = f"OUT.kmd: a queue; OUT.trace, OUT.seg: a trace as text, in segments; {' '.join(EXCELLON)}: an Excellon file"
     verb.add_argument("--to", type=Path, required=True, metavar="OUT", help=to)
-    verb.add_argument("--style", default="mm,decimal", metavar="F", help="of the Excellon file; default: %(default)s")
-    part = "of a trace in segments: its first N ticks alone"
+    verb.add_argument(
+        "--style", default="mm,decimal", metavar="F", help="format of the Excellon file; default: %(default)s"
+    )
+    part = "write only the first N ticks of a trace in segments"
     verb.add_argument("--to-tick", type=options.up_to(10**12), metavar="N", help=part)
     options.add_machine(verb)
     jobs.add_job(verb)
@@ -29,7 +31,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """The whole text is made first; then the file is written, or nothing is."""
+    """Makes the whole content first, then writes the file; on an error nothing is written."""
     from drillctl.files.outputs import reserved
 
     ending = _ending(arguments.to)
@@ -45,20 +47,20 @@ def call(arguments: argparse.Namespace) -> int:
 
 
 def _ending(out: Path) -> str:
-    """What says which form is written. A name without an ending is an Excellon file: a pipe or a device has none.
+    """Returns the ending, which decides the form. A name without one is an Excellon file: a pipe or a device has none.
 
     Raises OutputError for the ending of something else.
     """
     from drillctl.files.outputs import OutputError
 
-    ending, known = out.suffix.lower(), (QUEUE, *TRACES, *EXCELLON)
-    if ending and ending not in known:
-        raise OutputError(f"{out}: {ending[:20]!r} is no ending that convert writes; {known_words(ending, known)}")
+    ending, endings = out.suffix.lower(), (QUEUE, *TRACES, *EXCELLON)
+    if ending and ending not in endings:
+        raise OutputError(f"{out}: {ending[:20]!r} is no ending that convert writes; {known_words(ending, endings)}")
     return ending
 
 
 def _trace(arguments: argparse.Namespace) -> int:
-    """Segments as small as the tables at hand let them be."""
+    """Writes a trace in its other form; segments as small as the tables at hand allow."""
     from drillctl.files.outputs import reserved
     from drillctl.replay.replay import in_form_of
     from drillctl.replay.stimuli import machine_of
@@ -80,7 +82,7 @@ def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
 
 
 def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
-    """The file's own coordinates, whatever was asked about placing: that is a machine's matter."""
+    """Returns the drill file as text in its own coordinates, with its warnings; placing options don't apply."""
     from drillctl.generation.drillfile import DrillFileError, read
     from drillctl.generation.drillfile.errors import Refusal
     from drillctl.generation.drillfile.write import write

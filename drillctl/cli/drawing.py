@@ -1,4 +1,4 @@
-"""A picture to where the operator wants it: a PNG or SVG file, else the terminal. For plot and sweep."""
+"""Draws a picture where the operator wants it: in a PNG or SVG file, else in the terminal."""
 
 import shutil
 import sys
@@ -17,9 +17,9 @@ ROWS = 14  # of a chart in characters
 
 @contextmanager
 def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[Picture], None]]":
-    """What draws a picture; its file is reserved first.
+    """Reserves the picture's file and gives the function that draws.
 
-    Raises OutputError and PictureRefused before anything is reckoned.
+    Raises OutputError and PictureRefused before anything is computed.
     """
     from drillctl.files.outputs import reserved
     from drillctl.ui.terminal.image_file import check_format, picture_bytes

@@ -19,11 +19,11 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """Everything that ``run`` would refuse is refused here too; a job that would end in a fault is told so (exit 1)."""
+    """Refuses whatever ``run`` would refuse; reports a job that would end in a fault (exit 1)."""
     from drillctl.jobs.estimate import estimate
     from drillctl.ui.terminal.reports import estimate_lines
 
     machine = options.machine(arguments)
-    told = estimate(jobs.load(arguments.job, jobs.recipe(arguments), machine), arguments.engine)
-    print(json_text(told.as_dict(), 2) if arguments.json else "\n".join(estimate_lines(told)))
-    return 1 if told.fault else 0
+    estimated = estimate(jobs.load(arguments.job, jobs.recipe(arguments), machine), arguments.engine)
+    print(json_text(estimated.as_dict(), 2) if arguments.json else "\n".join(estimate_lines(estimated)))
+    return 1 if estimated.fault else 0

@@ -1,6 +1,6 @@
-"""Two command lines for each verb, as its help shows them. ``tests/cli/test_cli_examples.py`` runs them.
+"""Two command lines for each verb's help. ``tests/cli/test_cli_examples.py`` runs them.
 
-Rule: a line may name files of ``examples/`` in a checkout, and files that a line before it in this table has written.
+Rule: a line may name files of ``examples/`` in a checkout, and files that an earlier line of this table has written.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""``drillctl inspect FILE``: what a drill file says, and which format it was taken for."""
+"""``drillctl inspect FILE``: what a drill file holds, and which format it was read as."""
 
 import argparse
 import shutil
@@ -32,17 +32,19 @@ def call(arguments: argparse.Namespace) -> int:
         drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
-    told = summary(drill_file)
+    contents = summary(drill_file)
     if arguments.json:
-        print(json_text(told, 2))
+        print(json_text(contents, 2))
     else:
-        print("\n".join(inspect_lines(arguments.file.name, told)))
+        print("\n".join(inspect_lines(arguments.file.name, contents)))
         print("\n".join(_drawing(drill_file)))
     return 0
 
 
 def _drawing(drill_file: "DrillFile") -> list[str]:
-    """The board as wide as the terminal, and at most half as high; nothing where braille can't be shown."""
+    """Returns the board drawn as wide as the terminal, and at most half as high; nothing where
+    braille can't be shown.
+    """
     import numpy as np
 
     from drillctl.ui.widgets.dots import dot_rows

@@ -1,4 +1,6 @@
-"""Options of the verbs that take a drill file to a job: placing, order, drills; and what they stand for."""
+"""The options of a job - reading, placing, order, drills - for the verbs that take a drill file; and the job made from
+them.
+"""
 
 import argparse
 import sys
@@ -16,29 +18,31 @@ if TYPE_CHECKING:
 
 
 def add_job(verb: argparse.ArgumentParser) -> None:
-    """The options of a job, in two groups."""
+    """Adds all options of a job to a verb, in two groups."""
     placing = verb.add_argument_group("placing the board")
     placing.add_argument(
         "--origin", choices=ORIGINS,
         help="base (default): lowest X and Y of the board at the working base; file: coordinates as they are",
     )  # fmt: skip
-    placing.add_argument("--mirror", choices=MIRRORED, help="for the bottom side: this axis changes sign")
-    placing.add_argument("--rotate", type=float, default=0.0, metavar="DEG", help="counter-clockwise")
-    placing.add_argument("--offset", type=_pair, default=(0.0, 0.0), metavar="X,Y", help="mm, added last")
+    placing.add_argument("--mirror", choices=MIRRORED, help="mirror for the bottom side: this axis changes sign")
+    placing.add_argument("--rotate", type=float, default=0.0, metavar="DEG", help="turn the board counter-clockwise")
+    placing.add_argument(
+        "--offset", type=_pair, default=(0.0, 0.0), metavar="X,Y", help="shift the board in mm, after all else"
+    )
     placing.add_argument("--align", type=Path, metavar="FILE", help="measured holes: file_x file_y machine_x machine_y")
     placing.add_argument("--panel", type=_panel, metavar="CxR:PX,PY", help="step and repeat, e.g. 3x2:40,30 (mm)")
     drilling = verb.add_argument_group("drilling")
-    drilling.add_argument("--order", choices=ORDERS, default="file", help="of the holes of a tool")
+    drilling.add_argument("--order", choices=ORDERS, default="file", help="order of each tool's holes")
     drilling.add_argument("--skip-tools", type=_numbers, default=frozenset(), metavar="N,N", help="tools not to drill")
-    drilling.add_argument("--drills", type=Path, metavar="FILE", help="the drills at hand, with tolerances and lives")
-    drilling.add_argument("--peck", type=float, metavar="MM", help="in steps of so much, drawn out between them")
-    drilling.add_argument("--spot", type=float, metavar="MM", help="first mark every hole of a tool so deep")
+    drilling.add_argument("--drills", type=Path, metavar="FILE", help="file of the drills at hand")
+    drilling.add_argument("--peck", type=float, metavar="MM", help="drill in pecks of MM, retracting between them")
+    drilling.add_argument("--spot", type=float, metavar="MM", help="first spot every hole of a tool, MM deep")
     add_reading(drilling)
 
 
 def add_reading(verb: "argparse._ActionsContainer") -> None:
-    """The options that say how a drill file is read."""
-    verb.add_argument("--format", metavar="F", help="settle the drill file's format, e.g. inch,2:4,leading")
+    """Adds the options that say how a drill file is read."""
+    verb.add_argument("--format", metavar="F", help="read the drill file in this format, e.g. inch,2:4,leading")
     verb.add_argument(
         "--after-end", choices=AFTER_END, default="refuse",
         help="holes behind the end of the program (M30): refuse the file (default), leave them out, or drill them too",
@@ -46,7 +50,7 @@ def add_reading(verb: "argparse._ActionsContainer") -> None:
 
 
 def recipe(arguments: argparse.Namespace) -> "Recipe":
-    """What was asked for, paths made absolute."""
+    """Returns the job's options as a Recipe, with absolute paths."""
     from drillctl.generation.recipe import Recipe
 
     machine = arguments.machine
@@ -75,7 +79,9 @@ def _absolute(path: Path | None) -> str | None:
 
 
 def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
-    """The job of a recipe; what measured holes say is shown. Raises JobError, PlacingError or AlignmentError."""
+    """Returns the job of a recipe, and prints what its measured holes say. Raises JobError, PlacingError or
+    AlignmentError.
+    """
     from drillctl.generation.readers import load_job
 
     wishes = made.wishes(machine)
@@ -85,7 +91,7 @@ def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
 
 
 def _show_alignment(alignment: "Alignment") -> None:
-    """What the measured holes say, and how well they agree, before anything is drilled by them."""
+    """Prints what the measured holes say, and how well they agree, before anything is drilled."""
     from drillctl.generation.alignment import decompose
 
     parts = decompose(alignment.affine)

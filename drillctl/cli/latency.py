@@ -16,8 +16,10 @@ FASTEST_HZ = 20_000
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("latency", help="measure how punctual ticks are here", description=__doc__)
-    verb.add_argument("--hz", type=options.up_to(FASTEST_HZ), metavar="N", help="default: the machine's own rate")
-    verb.add_argument("--seconds", type=options.up_to(LONGEST_S), default=10, metavar="S", help="default: %(default)s")
+    verb.add_argument("--hz", type=options.up_to(FASTEST_HZ), metavar="N", help="tick rate; default: the machine's own")
+    verb.add_argument(
+        "--seconds", type=options.up_to(LONGEST_S), default=10, metavar="S", help="duration; default: %(default)s"
+    )
     verb.add_argument("--json", action="store_true", help="print one JSON object")
     verb.set_defaults(call=call)
 

@@ -1,4 +1,6 @@
-"""Values as an operator lists them: ``440,500,580`` and ``440:640:20``, both ends included, exact in decimals."""
+"""Lists of values as an operator writes them: ``440,500,580`` and ``440:640:20``, both ends included, exact in
+decimals.
+"""
 
 from collections.abc import Iterator
 from decimal import Decimal, InvalidOperation
@@ -9,7 +11,7 @@ MOST_VALUES = 10_000
 
 
 def numbers(text: str, what: str, least: float, most: float) -> tuple[float, ...]:
-    """All of them, in their order. Raises LabError, which names ``what``."""
+    """Returns all values of a list, in their order. Raises LabError, which names ``what``."""
     try:
         found = [value for part in text.split(",") for value in _spelled(part)]
     except (InvalidOperation, ValueError) as error:
@@ -23,7 +25,7 @@ def numbers(text: str, what: str, least: float, most: float) -> tuple[float, ...
 
 
 def whole_numbers(text: str, what: str, least: int, most: int) -> tuple[int, ...]:
-    """The same where each must be whole."""
+    """As ``numbers``, where each must be a whole number."""
     found = numbers(text, what, least, most)
     if bad := [value for value in found if value != int(value)]:
         raise LabError(f"{what} {bad[0]:g} is no whole number")
@@ -31,7 +33,7 @@ def whole_numbers(text: str, what: str, least: int, most: int) -> tuple[int, ...
 
 
 def _spelled(part: str) -> Iterator[Decimal]:
-    """One number, or the range that is meant. Raises ValueError, InvalidOperation."""
+    """Yields one number, or those of a range. Raises ValueError, InvalidOperation."""
     ends = [Decimal(word) for word in part.split(":")]
     if not all(end.is_finite() for end in ends) or len(ends) not in (1, 3):
         raise ValueError(part)

@@ -1,4 +1,4 @@
-"""The operator at the terminal while a job runs: sees how far it is, changes tools, has keys. For run and resume."""
+"""The operator at the terminal while a job runs: shows progress, asks for tools, hears keys. For run and resume."""
 
 import argparse
 import sys
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
-    """Runs it, with the progress on standard error, and with keys where somebody sits at a terminal.
+    """Runs the job, with progress on standard error, and with keys where somebody sits at a terminal.
 
-    Raises JobError where tools are to be asked for and nobody does; what ``Session.run`` raises.
+    Raises JobError where tools are to be asked for and there is no terminal; what ``Session.run`` raises.
     """
     from drillctl.jobs.keys import HELP, TerminalKeys
     from drillctl.ticker.launch import REAL, pace_of
@@ -23,7 +23,7 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
 
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
     with ProgressView(streams.bar(sys.stderr), by_clock=paced) as view:
-        if not asks and not (paced and _watched(arguments)):
+        if not asks and not (paced and _has_watcher(arguments)):
             return session.run(view.show)
         if paced:
             print(f"drillctl: {HELP}", file=sys.stderr)
@@ -33,7 +33,7 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
 
 
 def _asks(arguments: argparse.Namespace, spec: str) -> bool:
-    """Whether a tool change waits for the operator."""
+    """Returns whether a tool change waits for the operator."""
     from drillctl.generation.errors import JobError
     from drillctl.jobs.keys import has_keys
     from drillctl.portio.registry import select
@@ -45,8 +45,8 @@ def _asks(arguments: argparse.Namespace, spec: str) -> bool:
     return asks
 
 
-def _watched(arguments: argparse.Namespace) -> bool:
-    """Whether a person started it, and not a program that reads its JSON."""
+def _has_watcher(arguments: argparse.Namespace) -> bool:
+    """Returns whether a person started the job, and not a program that reads its JSON."""
     from drillctl.jobs.keys import has_keys
 
     return not arguments.json and sys.stderr.isatty() and has_keys(sys.stdin)

@@ -1,4 +1,4 @@
-"""Options that several verbs share, and what they stand for."""
+"""Options that several verbs share, and the values made from them."""
 
 import argparse
 import math
@@ -23,19 +23,19 @@ DEFAULT_MACHINE = "pcb-drill"
 
 
 def add_machine(verb: argparse.ArgumentParser) -> None:
-    """``--machine``, ``--tables`` and ``--tick-hz``."""
-    verb.add_argument("--machine", default=DEFAULT_MACHINE, metavar="NAME|FILE", help="default: %(default)s")
+    """Adds ``--machine``, ``--tables`` and ``--tick-hz`` to a verb."""
+    verb.add_argument("--machine", default=DEFAULT_MACHINE, metavar="NAME|FILE", help="machine; default: %(default)s")
     add_tables(verb)
     verb.add_argument("--tick-hz", type=_rate, metavar="N", help="interrupt frequency; default: the machine's own")
 
 
 def add_tables(verb: argparse.ArgumentParser) -> None:
-    """``--tables``."""
-    verb.add_argument("--tables", type=Path, metavar="DIR", help="look for tables here first")
+    """Adds ``--tables`` to a verb."""
+    verb.add_argument("--tables", type=Path, metavar="DIR", help="search this folder for tables first")
 
 
 def library(arguments: argparse.Namespace) -> "Library":
-    """The tables to be searched. Raises TableError for a folder that is not there."""
+    """Returns the library of tables to be searched. Raises TableError for a folder that is not there."""
     from drillctl.machine import Library, TableError
 
     if arguments.tables is not None and not arguments.tables.is_dir():
@@ -44,21 +44,21 @@ def library(arguments: argparse.Namespace) -> "Library":
 
 
 class LocalTables:
-    """Says on standard error which local tables are in use, each once, before anything else is said of the run."""
+    """Prints on standard error which local tables are in use, each once, before anything else is printed of the run."""
 
     def __init__(self) -> None:
-        self._told: set[Path] = set()
+        self._named: set[Path] = set()
 
     def __call__(self, files: tuple[Path, ...]) -> None:
-        """One line for those that are new."""
-        new = [str(file) for file in dict.fromkeys(files) if file not in self._told]
-        self._told.update(files)
+        """Prints one line for the files that were not named before."""
+        new = [str(file) for file in dict.fromkeys(files) if file not in self._named]
+        self._named.update(files)
         if new:
             print(f"drillctl: {local_tables(new)}", file=sys.stderr)
 
 
 def machine(arguments: argparse.Namespace) -> "Machine":
-    """The machine asked for, at the rate asked for. Raises TableError."""
+    """Returns the machine of ``--machine``, at the rate of ``--tick-hz``. Raises TableError."""
     found = library(arguments).machine(arguments.machine)
     return found if arguments.tick_hz is None else found.at_rate(arguments.tick_hz)
 
@@ -70,14 +70,14 @@ def _rate(text: str) -> int:
 
 
 def whole_number(text: str, least: int, most: int) -> int:
-    """An option's value. Raises ArgumentTypeError for anything but a whole number within the bounds."""
+    """Reads an option's value. Raises ArgumentTypeError for anything but a whole number within the bounds."""
     if not text.isdecimal() or not least <= int(text[:20]) <= most:
         raise argparse.ArgumentTypeError(f"{text[:20]!r} is not a whole number from {least} to {most}")
     return int(text)
 
 
 def number(text: str, least: float, most: float) -> float:
-    """An option's value. Raises ArgumentTypeError for anything but a number within the bounds."""
+    """Reads an option's value. Raises ArgumentTypeError for anything but a number within the bounds."""
     try:
         found = float(text)
     except ValueError:
@@ -88,7 +88,7 @@ def number(text: str, least: float, most: float) -> float:
 
 
 def up_to(most: int) -> Callable[[str], int]:
-    """An option's type: a whole number from 1."""
+    """Returns an option's type: a whole number from 1 to ``most``."""
 
     def read(text: str) -> int:
         return whole_number(text, 1, most)
@@ -99,7 +99,7 @@ def up_to(most: int) -> Callable[[str], int]:
 # What holds where an option of a running machine is left out.
 DEFAULTS = {
     "port": "simulated, or with mode REAL in the machine's file the port of its card",
-    "pace": "as the port wants",
+    "pace": "real on a real port, else free",
     "plant": "ideal",
     "seed": "0",
 }
@@ -107,27 +107,27 @@ AS_IT_RAN = dict.fromkeys(DEFAULTS, "as the job ran")
 
 
 def add_running(verb: argparse.ArgumentParser, defaults: Mapping[str, str] = DEFAULTS) -> None:
-    """``--port`` and ``--pace``; and of a simulated machine ``--plant``, ``--fault`` and ``--seed``."""
-    where = f"see drillctl ports; default: {defaults['port']}"
+    """Adds ``--port`` and ``--pace``, and for a simulated machine ``--plant``, ``--fault`` and ``--seed``."""
+    where = f"port, as drillctl ports lists them; default: {defaults['port']}"
     verb.add_argument("--port", metavar="NAME[:ADDRESS]", help=where)
-    pace = f"real: by the clock, in a process of its own; default: {defaults['pace']}"
+    pace = f"free: as fast as possible; real: by the clock, in a process of its own; default: {defaults['pace']}"
     verb.add_argument("--pace", choices=("free", "real"), help=pace)
-    plant = "of a simulated machine: motors that go where they are pulled, or with inertia and friction; default: "
+    plant = "plant of a simulated machine: ideal motors, or motors with inertia and friction; default: "
     verb.add_argument("--plant", choices=("ideal", "dynamic"), help=plant + defaults["plant"])
-    wrong = "of the dynamic plant: what is wrong with the machine, e.g. blunt=20; --fault list names all"
+    wrong = "a fault of the machine on the dynamic plant, e.g. blunt=20; repeatable; --fault list prints all"
     verb.add_argument("--fault", action=_FaultAction, default=[], metavar="NAME=N", help=wrong)
-    scatter = f"of the dynamic plant: where the scatter of its sensors comes from; default: {defaults['seed']}"
+    scatter = f"seed of the random numbers of the dynamic plant; default: {defaults['seed']}"
     verb.add_argument("--seed", type=_seed, metavar="N", help=scatter)
 
 
 def add_engine(verb: argparse.ArgumentParser) -> None:
-    """``--engine``."""
-    engine = "tick: every tick by itself; fast: whole moves at once, the same to the byte; default: fast where it can"
+    """Adds ``--engine`` to a verb."""
+    engine = "tick: compute every tick; fast: whole moves at once, with the same output; default: fast where possible"
     verb.add_argument("--engine", choices=("tick", "fast"), help=engine)
 
 
 def add_from_tick(verb: argparse.ArgumentParser, what: str) -> None:
-    """``--from-tick``; ``what`` is done from there on."""
+    """Adds ``--from-tick`` to a verb; ``what`` says what is done from there on."""
     verb.add_argument("--from-tick", type=_tick, default=0, metavar="N", help=f"{what} from this tick on; default: 0")
 
 
@@ -136,7 +136,7 @@ def _tick(text: str) -> int:
 
 
 class _FaultAction(argparse.Action):
-    """One fault more; ``list`` prints those that there are."""
+    """Adds one fault to the list; ``--fault list`` prints those that exist."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: object, option: str | None = None
@@ -154,14 +154,16 @@ def _seed(text: str) -> int:
 
 
 def port(arguments: argparse.Namespace, machine: "Machine") -> str:
-    """As asked for, else as the machine's mode has it. Raises PortRefused for a mode that can't be had."""
+    """Returns the port of ``--port``, else that of the machine's mode. Raises PortRefused for a mode that no port
+    serves.
+    """
     from drillctl.ticker.launch import port_of_mode
 
     return arguments.port or port_of_mode(machine)
 
 
 def running(arguments: argparse.Namespace, port: str, traced: bool = False, derived: bool = False) -> "RunSettings":
-    """On this port, at which pace, before which plant."""
+    """Returns the settings of a run: port, pace and plant from the options, and what of it is recorded."""
     from drillctl.plant import IDEAL_PLANT
     from drillctl.ticker.launch import RunSettings
 
@@ -169,7 +171,7 @@ def running(arguments: argparse.Namespace, port: str, traced: bool = False, deri
 
 
 def plant(arguments: argparse.Namespace) -> "PlantChoice | None":
-    """As asked for; None where nothing was asked for."""
+    """Returns the plant of the options; None where none of them was given."""
     from drillctl.plant import PlantChoice
     from drillctl.plant.choice import IDEAL
 
@@ -179,21 +181,23 @@ def plant(arguments: argparse.Namespace) -> "PlantChoice | None":
 
 
 def add_tools(verb: argparse.ArgumentParser, otherwise: str = "ask on a real port") -> None:
-    """``--tools``; ``otherwise`` says what holds without it."""
+    """Adds ``--tools`` to a verb; ``otherwise`` is the default in words."""
     verb.add_argument(
         "--tools", choices=("ask", "assume"),
-        help=f"at a tool change: ask the operator, or take it as made; default: {otherwise}",
+        help=f"at a tool change: ask the operator, or assume that it is done; default: {otherwise}",
     )  # fmt: skip
 
 
 def add_results(verb: argparse.ArgumentParser) -> None:
-    """``--holes`` and ``--json``."""
-    verb.add_argument("--holes", type=Path, metavar="F", help="write the holes as the plant made them (CSV)")
+    """Adds ``--holes`` and ``--json`` to a verb."""
+    verb.add_argument(
+        "--holes", type=Path, metavar="F", help="write the holes that the simulated machine drilled (CSV)"
+    )
     verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
 
 
 def write_holes(done: "JobResult", output: "Output | None") -> None:
-    """The holes CSV (docs/SPEC.md, section 3), where one was asked for."""
+    """Writes the holes CSV (docs/SPEC.md, section 3), where ``--holes`` was given."""
     if output is not None:
         output.write(lambda file: file.writelines(_holes_csv(done)))
 
@@ -205,7 +209,7 @@ def _holes_csv(done: "JobResult") -> "Iterator[str]":
         yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}\n"
 
 
-def told(done: "JobResult", as_json: bool, problems: Sequence[str] = ()) -> int:
+def report_outcome(done: "JobResult", as_json: bool, problems: Sequence[str] = ()) -> int:
     """Prints how a run ended, and what of it could not be kept; returns its exit code."""
     from drillctl.jobs.interrupts import exit_code
     from drillctl.ui.terminal.reports import summary_lines

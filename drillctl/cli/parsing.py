@@ -1,6 +1,6 @@
-"""The command line's parser: argparse, complaining as the rest of the program does, with the word that was meant.
+"""The command line's parser: argparse, whose errors name the word that was probably meant.
 
-Rule: what can't be understood is raised as UsageRefused; ``main`` tells it like any other refusal. Used by __init__.py.
+Rule: what can't be understood is raised as UsageRefused; ``main`` prints it like any other refusal.
 """
 
 import argparse
@@ -12,9 +12,9 @@ from drillctl.language import known_words, nearest, one_line
 
 
 class Parser(argparse.ArgumentParser):
-    """Takes a module's docstring for its description.
+    """An ArgumentParser with examples below its help.
 
-    examples  command lines that stand below the help, a line each
+    examples  command lines that are shown below the help, a line each
     """
 
     examples: Sequence[str] = ()
@@ -24,16 +24,16 @@ class Parser(argparse.ArgumentParser):
         self.color = False  # Python 3.14 would put escape sequences into the help
 
     def format_help(self) -> str:
-        """The help text, without the docstring's marks, and the examples."""
+        """Returns the help text, without the marks of docstrings, and the examples."""
         text = super().format_help().replace("``", "")
         return text + "".join(["\nexamples:\n", *(f"  {line}\n" for line in self.examples)] if self.examples else [])
 
     def error(self, message: str) -> NoReturn:
-        """Raises UsageRefused, in one line."""
+        """Raises UsageRefused with the message in one line."""
         raise UsageRefused(f"{one_line(message)} (see {self.prog} --help)")
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As argparse does it; an option that is not known is answered with the one most like it."""
+        """Parses as argparse does; for an unknown option it suggests the one most like it."""
         found, unknown = self.parse_known_args(args, namespace)
         if unknown:
             verb = self.verbs().get(getattr(found, "verb", ""), self)
@@ -43,11 +43,11 @@ class Parser(argparse.ArgumentParser):
         return found
 
     def options(self) -> list[str]:
-        """The long options of this parser."""
+        """Returns the long options of this parser."""
         return [name for action in self._actions for name in action.option_strings if name.startswith("--")]
 
     def verbs(self) -> "dict[str, Parser]":
-        """The parsers of its verbs, by name."""
+        """Returns the parsers of its verbs, by name."""
         return {
             name: verb
             for action in self._actions if isinstance(action, argparse._SubParsersAction)
@@ -55,7 +55,7 @@ class Parser(argparse.ArgumentParser):
         }  # fmt: skip
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """In place of argparse's own: names the choices, and the one most like the word."""
+        """Replaces argparse's own check: names the choices, and the one most like the word."""
         if action.choices is not None and value not in action.choices:
             reason = f"invalid choice: {value!r}; {known_words(str(value), action.choices)}"
             raise argparse.ArgumentError(action, reason)

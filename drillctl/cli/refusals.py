@@ -1,7 +1,7 @@
-"""What the operator got wrong, told: lines on standard error, and with --json an object on standard output.
+"""Prints what the operator got wrong: lines on standard error, and with --json an object on standard output.
 
-Rule: the object has the same keys whatever was refused: ``{"error": {"code", "line", "text", "reason"}}``. Whatever is
-no refusal goes on up, as a fault of this program. Called by the command line's ``main``.
+Rule: the object has the same keys whatever was refused: ``{"error": {"code", "line", "text", "reason"}}``. An exception
+that is no refusal is raised on, as a fault of this program.
 """
 
 import re
@@ -25,22 +25,22 @@ class UsageRefused(Exception):
 
 
 def refuse(error: Exception, as_json: bool) -> int:
-    """Tells it; returns the exit code. Raises ``error`` where it is no refusal."""
+    """Prints a refusal; returns the exit code. Raises ``error`` where it is no refusal."""
     code = _code(error)
     if code is None and isinstance(error, OSError) and error.filename is None:
-        return streams.untold(error)
+        return streams.undelivered(error)
     if code is None:
         raise error
-    told = _object(error, code)
+    record = _object(error, code)
     if as_json:
-        print(json_text(told))
+        print(json_text(record))
     for line in _text(error).split("\n"):
         print(f"drillctl: {line}", file=sys.stderr)
     return streams.delivered(REFUSED)
 
 
 def _code(error: Exception) -> str | None:
-    """What kind of thing was refused; None for what is no refusal."""
+    """Returns the code of what was refused; None for an exception that is no refusal."""
     if isinstance(error, OSError) and error.filename is not None:
         return "unreadable"
     return next((code for kind, code in _codes() if isinstance(error, kind)), None)
@@ -71,14 +71,16 @@ def _codes() -> list[tuple[type[Exception], str]]:
 
 
 def _text(error: Exception) -> str:
-    """A line a problem."""
+    """Returns the message, a line for each problem."""
     if isinstance(error, OSError) and error.filename is not None:
         return f"{_name(error.filename)}: {error.strerror}"
     return next((words for kind, words in _WORDS if isinstance(error, kind)), str(error))
 
 
 def _object(error: Exception, code: str) -> dict[str, Any]:
-    """As a drill file's first problem has it; of anything else the line is the one that its reason begins with."""
+    """Returns the JSON object. A drill file's error has its own; otherwise the line is the one that the message begins
+    with.
+    """
     from drillctl.generation.drillfile import DrillFileError
 
     inner = error if isinstance(error, DrillFileError) else error.__cause__
@@ -92,5 +94,5 @@ def _object(error: Exception, code: str) -> dict[str, Any]:
 
 
 def _name(file: object) -> str:
-    """A file's name as the system has it: text, or bytes."""
+    """Returns a file's name as text, from text or bytes."""
     return file.decode("utf-8", "surrogateescape") if isinstance(file, bytes) else str(file)

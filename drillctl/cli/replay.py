@@ -12,8 +12,8 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("traces", nargs="+", type=Path, metavar="TRACE", help="what run --trace wrote")
     options.add_tables(verb)
     options.add_engine(verb)
-    options.add_from_tick(verb, "judge")
-    verb.add_argument("--same-tables", action="store_true", help="other tables than the recorded ones are a failure")
+    options.add_from_tick(verb, "compare")
+    verb.add_argument("--same-tables", action="store_true", help="fail where the tables differ from the recorded ones")
     verb.set_defaults(call=call)
 
 

@@ -1,5 +1,5 @@
-"""``drillctl resume [JOURNAL]``: goes on with a job that was cut off, on the port, at the pace and before the plant it
-ran: initialises anew and drills what is left.
+"""``drillctl resume [JOURNAL]``: goes on with an interrupted job on the port, at the pace and on the plant where it
+ran: initialises and drills the holes that are left.
 """
 
 import argparse
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
-    verb = verbs.add_parser("resume", help="go on with a job that was cut off", description=__doc__)
+    verb = verbs.add_parser("resume", help="go on with an interrupted job", description=__doc__)
     newest = "default: the newest unfinished one in the user's state folder"
     verb.add_argument("journal", nargs="?", type=Path, metavar="JOURNAL", help=newest)
     options.add_running(verb, options.AS_IT_RAN)
-    there = "go on although port, pace or plant are not those that the job ran on; without it that is refused"
+    there = "go on even where port, pace or plant differ from those that the job ran on"
     verb.add_argument("--elsewhere", action="store_true", help=there)
     options.add_engine(verb)
     options.add_tools(verb)
@@ -31,7 +31,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """The job is made again and must be the same; holes cut off in the middle are drilled again, and named."""
+    """Makes the job again, checks that it is the same, and drills what is left; a hole that was interrupted is named
+    and drilled again.
+    """
     from drillctl.files.outputs import reserved, unwritten
     from drillctl.jobs.journal import read_journal
 
@@ -42,7 +44,7 @@ def call(arguments: argparse.Namespace) -> int:
         _tell(account, session)
         done = operating.operated(session, arguments)
         problems = unwritten(lambda: options.write_holes(done, holes))
-    return options.told(done, arguments.json, problems)
+    return options.report_outcome(done, arguments.json, problems)
 
 
 def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
@@ -57,12 +59,14 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
 
 
 def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "RunSettings":
-    """As the job ran, or as asked for. Raises JobError where that is elsewhere, and nobody said that it may be."""
+    """Returns the settings of the first run, changed by the options. Raises JobError where they differ and --elsewhere
+    was not given.
+    """
     from drillctl.generation.errors import JobError
     from drillctl.jobs.site import Asked, moved, running_at, site_of
 
-    asked = Asked(arguments.port, arguments.pace, options.plant(arguments))
-    running = running_at(account.site, asked)
+    given = Asked(arguments.port, arguments.pace, options.plant(arguments))
+    running = running_at(account.site, given)
     if not arguments.elsewhere and (reason := moved(account.site, site_of(running))):
         there = "leave --port, --pace, --plant, --fault and --seed out to go on there"
         raise JobError([f"{file}: {reason}; {there}, or say --elsewhere as well"])
@@ -81,7 +85,7 @@ def _newest() -> Path:
 
 
 def _tell(account: "Account", session: "Session") -> None:
-    """Where it goes on, and what the journal says, before anything moves."""
+    """Prints where the job goes on, and what the journal says, before anything moves."""
     from drillctl.jobs.site import site_of
 
     file, left, here = session.journal, session.job, site_of(session.running)

@@ -23,9 +23,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     options.add_running(verb)
     options.add_engine(verb)
     options.add_tools(verb)
-    where = "keep the job's journal here; default for paced runs: the user's state folder"
+    where = "write the job's journal here; default for paced runs: the user's state folder"
     verb.add_argument("--journal", type=Path, metavar="F", help=where)
-    verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay; F.seg: small")
+    verb.add_argument("--trace", type=Path, metavar="F", help="write the run as a trace, for replay; F.seg: segments")
     verb.add_argument("--vcd", type=Path, metavar="F", help="write the run as VCD, for GTKWave or PulseView")
     options.add_results(verb)
     jobs.add_job(verb)
@@ -33,7 +33,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """Everything is checked and every output reserved before the first tick."""
+    """Checks everything and reserves every output before the first tick; then runs the job and writes the results."""
     from drillctl.files.outputs import reserved, unwritten
     from drillctl.jobs.session import Session
     from drillctl.machine import machine_hazards
@@ -66,32 +66,32 @@ def call(arguments: argparse.Namespace) -> int:
             lambda: _write_vcd(job, done, vcd),
             lambda: options.write_holes(done, holes),
         )
-    return options.told(done, arguments.json, problems)
+    return options.report_outcome(done, arguments.json, problems)
 
 
 def _tell(session: "Session") -> None:
-    """Where it runs, and where its journal is kept: the first line of what it says."""
+    """Prints where the job runs and where its journal is: the first line on standard error."""
     from drillctl.jobs.site import site_of
 
-    kept = f"; journal {session.journal}" if session.journal else ""
-    print(f"drillctl: {site_of(session.running)}{kept}", file=sys.stderr)
+    journal = f"; journal {session.journal}" if session.journal else ""
+    print(f"drillctl: {site_of(session.running)}{journal}", file=sys.stderr)
 
 
 def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:
     from drillctl.replay.trace_files import machine_named, write_record
 
-    kept = done.trace
-    if trace is not None and kept is not None:
+    record = done.trace
+    if trace is not None and record is not None:
         named = machine_named(job.machine, trace.path)
-        write_record(kept.with_header([("machine", named), *kept.header[1:]]), trace)
+        write_record(record.with_header([("machine", named), *record.header[1:]]), trace)
 
 
 def _write_vcd(job: "Job", done: "JobResult", vcd: "Output | None") -> None:
     from drillctl.ticker.sampler import vcd_layout
     from drillctl.trace import Segments, write_vcd
 
-    kept = done.trace
-    if vcd is not None and kept is not None:
-        assert not isinstance(kept, Segments), "derived signals are kept as changes"
-        layout = [var for var in vcd_layout(job.machine) if kept.has(var.source)]
-        vcd.write(lambda file: write_vcd(kept, file, layout))
+    record = done.trace
+    if vcd is not None and record is not None:
+        assert not isinstance(record, Segments), "derived signals are kept as changes"
+        layout = [var for var in vcd_layout(job.machine) if record.has(var.source)]
+        vcd.write(lambda file: write_vcd(record, file, layout))

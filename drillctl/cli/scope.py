@@ -10,7 +10,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("scope", help="look at a trace on the screen", description=__doc__)
     verb.add_argument("trace", type=Path, metavar="TRACE", help="what run --trace wrote")
-    options.add_from_tick(verb, "look at it")
+    options.add_from_tick(verb, "show the run")
     screen.add_options(verb)
     verb.set_defaults(call=call)
 

@@ -17,7 +17,7 @@ class ScreenError(Exception):
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
-    verb = verbs.add_parser("screen", help="work on the screen; no verb means this", description=__doc__)
+    verb = verbs.add_parser("screen", help="open the screen; the same as drillctl without a verb", description=__doc__)
     add_options(verb)
     verb.set_defaults(call=call)
 
@@ -27,8 +27,10 @@ def add_options(verb: argparse.ArgumentParser) -> None:
     options.add_machine(verb)
     options.add_running(verb)
     options.add_tools(verb, "ask on a real port, and where the machine's file says MANUAL")
-    verb.add_argument("--lang", choices=("en", "pl"), help="default: as LANG says")
-    verb.add_argument("--theme", choices=("colour", "light", "mono"), default="colour", help="default: %(default)s")
+    verb.add_argument("--lang", choices=("en", "pl"), help="language; default: that of LANG")
+    verb.add_argument(
+        "--theme", choices=("colour", "light", "mono"), default="colour", help="colours; default: %(default)s"
+    )
 
 
 def call(arguments: argparse.Namespace) -> int:

@@ -1,8 +1,8 @@
-"""The standard streams, whatever the caller made of them: closed, full, a pipe that nobody reads, a terminal gone.
+"""The standard streams, in whatever state they are: closed, full, a pipe that nobody reads, a terminal that is gone.
 
-Rule: what can't be told on standard error stops nothing, since a machine may be moving; what can't be told on standard
-output is no success. Whatever is written, the reader's terminal only prints it: every character that it would obey is
-escaped here, once, for all verbs (``drillctl.language``). Used by the command line and by the verbs that run a machine.
+Rule: a failure to write to standard error stops nothing, since a machine may be moving; a failure to write to standard
+output is a failure of the verb. Every character that a terminal would obey is escaped here, once, for all verbs
+(``drillctl.language``).
 """
 
 import io
@@ -15,16 +15,16 @@ from drillctl.language import LINES, visible
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
-UNTOLD = 1
+UNDELIVERED = 1
 STANDARD_ERROR = 2
 RETURN = "\r"  # a bar of tqdm begins its line anew with it
 
 
 class _Heedless(io.FileIO):
-    """A stream that takes everything; what it can't hand on is lost."""
+    """A stream that accepts everything and drops what it can't write."""
 
     def write(self, data: "ReadableBuffer", /) -> int:
-        """Never raises."""
+        """Writes the data; drops it where that fails. Never raises."""
         try:
             return super().write(data)
         except OSError:
@@ -32,20 +32,22 @@ class _Heedless(io.FileIO):
 
 
 class Printed(io.TextIOWrapper):
-    """A text stream that escapes what is no printed character, a line end or a tab; and what its encoding has not."""
+    """A text stream that escapes everything but printed characters, line ends and tabs, and what its encoding doesn't
+    have.
+    """
 
     def write(self, text: str, /) -> int:
-        """Escaped; returns how many characters were handed in."""
+        """Writes the text escaped; returns how many characters it was given."""
         super().write(visible(text, LINES))
         return len(text)
 
     def write_as_it_is(self, text: str) -> None:
-        """Not escaped: for what this program made of control characters itself, and of escaped words."""
+        """Writes text unescaped: for control characters that this program makes itself."""
         super().write(text)
 
 
 class _Bar:
-    """What tqdm needs of a stream; it may begin its line anew."""
+    """The part of a stream that tqdm needs; it may return to the start of its line."""
 
     def __init__(self, stream: TextIO):
         self._stream = stream
@@ -57,7 +59,9 @@ class _Bar:
 
 
 def prepare() -> None:
-    """A stream that was closed is nowhere: else the next file opened got its number. Standard error grows heedless."""
+    """Replaces closed streams by the null device, so that no file gets their numbers, and standard error by one that
+    never raises.
+    """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115 - open as long as we are
@@ -72,7 +76,7 @@ def prepare() -> None:
 
 
 def bar(stream: TextIO) -> TextIO:
-    """The stream as a progress bar may have it: it may return to the start of its line.
+    """Returns the stream for a progress bar, which may return to the start of its line.
 
     A bar has no foreign words in it.
     """
@@ -80,7 +84,7 @@ def bar(stream: TextIO) -> TextIO:
 
 
 def as_it_is(stream: TextIO, text: str) -> None:
-    """Writes what holds control characters of this program's own: colours of a chart, a bar."""
+    """Writes text that has control characters of this program's own: colours of a chart, a bar."""
     if isinstance(stream, Printed):
         stream.write_as_it_is(text)
     else:
@@ -88,14 +92,14 @@ def as_it_is(stream: TextIO, text: str) -> None:
 
 
 def silence(*streams: TextIO) -> None:
-    """What is still to be written, at exit too, goes nowhere."""
+    """Redirects what is still to be written to these streams, at exit too, to the null device."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in streams:
         os.dup2(nowhere, stream.fileno())
 
 
 def delivered(code: int, text: str = "") -> int:
-    """The exit code, once this and all before it is out: whether it can be shows now, not at exit.
+    """Writes the text and everything before it, and returns the exit code: a failure shows now, not at exit.
 
     Raises BrokenPipeError.
     """
@@ -104,12 +108,12 @@ def delivered(code: int, text: str = "") -> int:
     except BrokenPipeError:
         raise
     except OSError as error:
-        return untold(error, code)
+        return undelivered(error, code)
     return code
 
 
-def untold(error: OSError, code: int = 0) -> int:
-    """The exit code of what was done and can't be told."""
+def undelivered(error: OSError, code: int = 0) -> int:
+    """Returns the exit code of a verb whose output could not be written."""
     silence(sys.stdout)
     print(f"drillctl: standard output: {error.strerror}", file=sys.stderr)
-    return code or UNTOLD
+    return code or UNDELIVERED

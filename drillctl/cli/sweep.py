@@ -23,22 +23,28 @@ GREATEST_SPREAD = 0.5
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("sweep", help="try thousands of variants of a machine", description=__doc__)
-    verb.add_argument("--machine", default=options.DEFAULT_MACHINE, metavar="NAME|FILE", help="default: %(default)s")
+    verb.add_argument(
+        "--machine", default=options.DEFAULT_MACHINE, metavar="NAME|FILE", help="machine; default: %(default)s"
+    )
     options.add_tables(verb)
-    verb.add_argument("--axis", metavar="NAME", help="default: the first")
-    verb.add_argument("--hz", metavar="VALUES", help=f"tick rates, {VALUES}; default: the machine's")
-    verb.add_argument("--ramp", metavar="NAME,...", help="ramps; direct-start: none; default: the axis's")
+    verb.add_argument("--axis", metavar="NAME", help="axis to try; default: the first")
+    verb.add_argument("--hz", metavar="VALUES", help=f"rates, {VALUES}; default: the machine's")
+    verb.add_argument("--ramp", metavar="NAME,...", help="names; direct-start: no ramp; default: the axis's")
     phases = "phase tables, by name, or broken on purpose ('forcing removed'; 'broken': all such); default: the axis's"
     verb.add_argument("--phase", metavar="NAME,...", help=phases)
-    vary = "a parameter of the axis's dynamics, so many times its value: coulomb_nm=0.5:2:0.25; as often as you like"
+    vary = "factors for a parameter of the axis's dynamics: coulomb_nm=0.5:2:0.25; repeatable"
     verb.add_argument("--vary", action="append", default=[], metavar="NAME=VALUES", help=vary)
-    verb.add_argument("--load-nm", default="0", metavar="VALUES", help="torque that resists, in N m; default: 0")
-    verb.add_argument("--steps", default="1,10,100", metavar="VALUES", help="moves, both ways; default: %(default)s")
+    verb.add_argument("--load-nm", default="0", metavar="VALUES", help="resisting torque in N m; default: 0")
+    verb.add_argument(
+        "--steps", default="1,10,100", metavar="VALUES", help="lengths of the moves; default: %(default)s"
+    )
     _add_luck(verb)
-    verb.add_argument("--out", type=Path, required=True, metavar="F.csv", help="results; one begun is gone on with")
-    verb.add_argument("--picture", type=Path, metavar="F.png|.svg", help="draw it here, not in the terminal")
+    verb.add_argument(
+        "--out", type=Path, required=True, metavar="F.csv", help="file of results; one that was begun is continued"
+    )
+    verb.add_argument("--picture", type=Path, metavar="F.png|.svg", help="draw into this file, not in the terminal")
     verb.add_argument("--workers", type=options.up_to(MOST_WORKERS), metavar="N", help="processes; default: all cores")
-    verb.add_argument("--cluster", metavar="ADDRESS", help="of a dask scheduler, tcp://HOST:PORT, to work for it")
+    verb.add_argument("--cluster", metavar="ADDRESS", help="send the work to a dask scheduler, tcp://HOST:PORT")
     verb.set_defaults(call=call)
 
 
@@ -59,10 +65,10 @@ def call(arguments: argparse.Namespace) -> int:
 
 
 def _add_luck(verb: argparse.ArgumentParser) -> None:
-    draws = "machines at each point, their parameters drawn within --spread; default: %(default)s"
+    draws = "machines at each point, with parameters drawn at random within --spread; default: %(default)s"
     verb.add_argument("--draws", type=options.up_to(MOST_DRAWS), default=1, metavar="N", help=draws)
     verb.add_argument("--spread", type=_share, default=0.0, metavar="F", help="0.03: within 3 %%; default: %(default)s")
-    verb.add_argument("--seed", type=int, default=0, metavar="N", help="of the draws; default: %(default)s")
+    verb.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the draws; default: %(default)s")
 
 
 def _question(arguments: argparse.Namespace, machine: "Machine", library: "Library") -> "Question":

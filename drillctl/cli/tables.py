@@ -1,4 +1,6 @@
-"""``drillctl machines`` and ``drillctl tables check FILE...``: what can be driven, and whether a table is sound."""
+"""``drillctl machines`` and ``drillctl tables check FILE...``: which machines there are, and
+whether a table is valid.
+"""
 
 import argparse
 import sys
@@ -30,7 +32,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def list_machines(arguments: argparse.Namespace) -> int:
-    """One line a machine; those that can't be loaded are named, and make the exit code 2."""
+    """Prints one line for each machine; those that can't be loaded are named, and make the exit code 2."""
     from drillctl.machine import TableError
 
     library = options.library(arguments)
@@ -42,14 +44,14 @@ def list_machines(arguments: argparse.Namespace) -> int:
             refused = 2
             print(f"drillctl: {error}", file=sys.stderr)
     if arguments.json:
-        print(json_text([_told(machine) for machine in machines], 2))
+        print(json_text([_as_dict(machine) for machine in machines], 2))
     else:
         for m in machines:
             print(f"{m.name:<20} {m.tick_hz:>5} Hz  {' '.join(m.axis_names):<26} {m.description}")
     return refused
 
 
-def _told(machine: "Machine") -> dict[str, object]:
+def _as_dict(machine: "Machine") -> dict[str, object]:
     return {
         "name": machine.name,
         "axes": list(machine.axis_names),
@@ -60,7 +62,7 @@ def _told(machine: "Machine") -> dict[str, object]:
 
 
 def check_tables(arguments: argparse.Namespace) -> int:
-    """All files are looked at; 2 where one can't be used."""
+    """Checks all files; returns 2 where one can't be used."""
     from drillctl.machine import TableError
 
     library = options.library(arguments)

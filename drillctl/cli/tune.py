@@ -24,12 +24,12 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb = verbs.add_parser("tune", help="find the fastest ramp that loses no steps", description=__doc__)
     verb.add_argument("machine", metavar="MACHINE", help="its name, or its file")
     options.add_tables(verb)
-    verb.add_argument("--axis", metavar="NAME", help="default: the first")
-    margin = "the load may be so many times as heavy; default: %(default)s"
+    verb.add_argument("--axis", metavar="NAME", help="axis to tune; default: the first")
+    margin = "the ramp must hold with a load F times as heavy; default: %(default)s"
     verb.add_argument("--margin", type=_margin, default=1.3, metavar="F", help=margin)
     verb.add_argument("--tick-hz", type=options.up_to(FASTEST_HZ), metavar="N", help="default: the machine's own")
-    verb.add_argument("--name", metavar="NAME", help="of the ramp; default: tuned-MACHINE-AXIS")
-    where = "default: NAME.toml among the user's own ramps; a file that is there is never overwritten"
+    verb.add_argument("--name", metavar="NAME", help="name of the ramp; default: tuned-MACHINE-AXIS")
+    where = "default: NAME.toml among the user's own ramps; an existing file is never overwritten"
     verb.add_argument("--out", type=Path, metavar="F.toml", help=where)
     verb.set_defaults(call=call)
 

@@ -1,8 +1,8 @@
-"""Door: every file that the program reads is opened here, and what is TOML or JSON in it is parsed here.
+"""Opens every file that the program reads, and parses TOML and JSON.
 
-Rule: opening never waits, only regular files are opened (and standard input, whatever it is), and a read stops at its
-limit by counting what it gets: the size that a file system tells is not asked. What is refused is an OSError, as any
-other file that can't be read; its ``strerror`` says why. Called by every reader; imports no other room.
+Rule: opening never waits; only regular files are opened (and standard input, whatever it is); a read counts its bytes
+and stops at its limit, whatever size the file system gives. A refusal is an OSError, as for any file that can't be
+read; its ``strerror`` gives the reason.
 """
 
 import errno
@@ -27,10 +27,11 @@ _LONG_NUMBER = re.compile(r"0[xob][0-9A-Fa-f_]{1000}")  # Python reads these, bu
 
 
 def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
-    """The file, open for reading; whoever asks closes it. With a ``limit`` in bytes, reading beyond it is an error.
+    """Returns the file, open for reading; the caller closes it. With a ``limit`` in bytes, reading beyond it is an
+    error.
 
-    Raises OSError: EINVAL for a pipe, a device, a socket or a name that can't be; EFBIG when the limit is passed;
-    EISDIR for a folder; any other as ``open`` does.
+    Raises OSError: EINVAL for a pipe, a device, a socket or an impossible name; EFBIG when the limit is passed; EISDIR
+    for a folder; any other as ``open`` does.
     """
     try:
         check_kind(os.stat(file), file)  # a device may not even be touched; what is opened is looked at again
@@ -48,8 +49,8 @@ def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
 
 
 def read_bytes(file: Named, limit: int, what: str) -> bytes:
-    """All of a file. Raises OSError as ``opened``; a file of more than ``limit`` bytes is refused as not being ``what``
-    ("a table"), and no more than that is read.
+    """Returns all of a file. Raises OSError as ``opened``; a file of more than ``limit`` bytes is refused as not being
+    ``what`` ("a table"), and no more than that is read.
     """
     data = bytearray()
     with opened(file) as stream:
@@ -61,13 +62,13 @@ def read_bytes(file: Named, limit: int, what: str) -> bytes:
 
 
 def read_start(file: Named, count: int) -> bytes:
-    """The first ``count`` bytes of a file, or what there is of them. Raises OSError as ``opened``."""
+    """Returns the first ``count`` bytes of a file, or fewer where it is shorter. Raises OSError as ``opened``."""
     with opened(file) as stream:
         return stream.read(count)
 
 
 def toml_of(text: str) -> dict[str, Any]:
-    """A TOML text as plain tables, lists and values. Raises ValueError, which for a fault of syntax is
+    """Returns a TOML text as plain tables, lists and values. Raises ValueError; for a fault of syntax
     ``tomllib.TOMLDecodeError``.
     """
     if found := _LONG_KEY.search(text):
@@ -86,7 +87,7 @@ def toml_of(text: str) -> dict[str, Any]:
 
 
 def json_of(text: str | bytes) -> Any:
-    """A JSON text as plain values. Raises ValueError, too for one that is nested too deeply."""
+    """Returns a JSON text as plain values. Raises ValueError, also for a text that is nested too deeply."""
     try:
         return json.loads(text)
     except RecursionError as error:
@@ -94,7 +95,7 @@ def json_of(text: str | bytes) -> Any:
 
 
 def check_kind(found: os.stat_result, file: Named) -> None:
-    """Raises OSError for what is neither a regular file nor standard input."""
+    """Raises OSError for anything but a regular file or standard input."""
     if stat.S_ISDIR(found.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), os.fspath(file))
     if not stat.S_ISREG(found.st_mode) and not _is_standard_input(found):
@@ -102,28 +103,30 @@ def check_kind(found: os.stat_result, file: Named) -> None:
 
 
 def real_path(path: Named) -> Path:
-    """Without links and dots. A loop of links stays as it is, so that whoever opens it is told of it."""
+    """Returns the path without links and dots. A loop of links is returned as it is, so that opening it gives the
+    error.
+    """
     return Path(os.path.realpath(path))
 
 
 def size_words(size_bytes: int) -> str:
-    """As a person says it: 64 KiB, 256 MiB."""
+    """Returns a size as people write it: 64 KiB, 256 MiB."""
     large = size_bytes >= KIB * KIB
     return f"{size_bytes // (KIB * KIB)} MiB" if large else f"{max(size_bytes // KIB, 1)} KiB"
 
 
 class _Limited(io.RawIOBase):
-    """A stream that ends with an error where more than ``limit`` bytes come."""
+    """A stream that raises an error where more than ``limit`` bytes come."""
 
     def __init__(self, plain: io.RawIOBase | io.FileIO, limit: int, name: str):
         self._plain, self._left, self._limit, self.name = plain, limit, limit, name
 
     def readable(self) -> bool:
-        """It is."""
+        """Returns True, as io.RawIOBase wants of a stream that can be read."""
         return True
 
     def readinto(self, buffer: Any, /) -> int:
-        """As any raw stream; raises OSError when the limit is passed."""
+        """Reads as any raw stream; raises OSError when the limit is passed."""
         count = self._plain.readinto(buffer) or 0
         self._left -= count
         if self._left < 0:
@@ -131,13 +134,13 @@ class _Limited(io.RawIOBase):
         return count
 
     def close(self) -> None:
-        """The file beneath it too."""
+        """Closes the file beneath it too."""
         self._plain.close()
         super().close()
 
 
 def _is_standard_input(found: os.stat_result) -> bool:
-    """Whether it is what standard input stands for, by whatever name it was opened."""
+    """Returns whether the file is standard input, by whatever name it was opened."""
     try:
         mine = os.fstat(STANDARD_INPUT)
     except OSError:  # closed

@@ -1,7 +1,7 @@
 """Files that a run will write. Reserved before anything moves, complete or absent afterwards.
 
-Rule: a result goes to a temporary file beside its place and is renamed when whole; a path that can't be written
-refuses the run. What killed runs have left in that folder goes. Called by the verbs.
+Rule: a result is written to a temporary file beside its place and renamed when it is whole; a path that can't be
+written refuses the run. Temporary files that killed runs have left in that folder are removed.
 """
 
 import os
@@ -54,7 +54,7 @@ class Output:
         self.write(lambda file: file.buffer.write(data))
 
     def drop(self) -> None:
-        """Takes the reservation back; nothing stays behind."""
+        """Takes the reservation back and leaves nothing behind."""
         if self._temporary:
             self._temporary.unlink(missing_ok=True)
             self._temporary = None
@@ -65,7 +65,7 @@ class Output:
 
 @contextmanager
 def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Iterator[list[Output | None]]:
-    """Outputs for the paths given (None stays None). Raises OutputError, also where a path would hit an input."""
+    """Reserves the paths given (None stays None). Raises OutputError, also where a path would overwrite an input."""
     taken = {os.path.realpath(path) for path in inputs if path is not None}
     for wanted in filter(None, paths):
         place = os.path.realpath(wanted)
@@ -84,7 +84,9 @@ def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Ite
 
 
 def unwritten(*writes: Callable[[], None]) -> list[str]:
-    """Writes each result of a run; why some could not be. The machine has moved: nothing is refused any more."""
+    """Writes each result of a run; returns the reasons of those that failed. The machine has moved, so nothing is
+    refused.
+    """
     problems = []
     for write in writes:
         try:
@@ -95,7 +97,9 @@ def unwritten(*writes: Callable[[], None]) -> list[str]:
 
 
 def write_text(path: Path, text: str) -> tuple[str, ...]:
-    """A text at a path, whole or not at all, its folder made where need be; the reason where it can't be written."""
+    """Writes a text to a path, whole or not at all, and makes its folder where it is missing; returns the reason where
+    that fails.
+    """
     output = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

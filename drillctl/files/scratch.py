@@ -1,8 +1,8 @@
-"""Files and folders that live as long as the run that made them, and what a killed run has left of its own.
+"""Files and folders that live as long as the run that made them, and the removal of those that a killed run left.
 
-Rule: a new file is made by O_EXCL and O_NOFOLLOW, so it never is somebody else's, nor what a link leads to; it stays
+Rule: a new file is made with O_EXCL and O_NOFOLLOW, so it is never somebody else's, nor the target of a link. It stays
 locked (flock) while any process of its run lives. ``sweep`` and ``sweep_folders`` remove only what carries our mark,
-belongs to this user, and has nobody's lock. Called by outputs, the channel, sessions and the station.
+belongs to this user, and is not locked.
 """
 
 import fcntl
@@ -23,7 +23,9 @@ _LOOK = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 
 
 def make_file(place: Path) -> tuple[int, Path]:
-    """A new empty file beside ``place``, for its owner alone: a locked descriptor and its path. Raises OSError."""
+    """Makes an empty file beside ``place``, for its owner alone; returns a locked descriptor and its path. Raises
+    OSError.
+    """
     for _ in range(MOST_TRIES):
         path = place.with_name(f".{place.name[:LONGEST_STEM]}.{secrets.token_hex(4)}{MARK}")
         with suppress(FileExistsError):
@@ -36,20 +38,22 @@ def make_file(place: Path) -> tuple[int, Path]:
 
 
 def lock(handle: int) -> None:
-    """Holds a file for as long as this description is open in any process. A file system without locks has none."""
+    """Locks a file for as long as this description is open in any process. Does nothing on a file
+    system without locks.
+    """
     with suppress(OSError):
         fcntl.flock(handle, fcntl.LOCK_EX)
 
 
 def sweep(folder: Path, pattern: str = f".*{MARK}") -> None:
-    """Removes the files of a folder that killed runs have left. What can't be looked at or removed stays."""
+    """Removes the files of a folder that killed runs have left. Files that can't be opened or removed stay."""
     with suppress(OSError):
         for file in folder.glob(pattern):
             _remove_left(file)
 
 
 class Folder:
-    """A folder for one run, for its owner alone. Raises OSError. To be closed: it goes then, with what is in it."""
+    """A folder for one run, for its owner alone. ``close`` removes it with its files. Raises OSError."""
 
     def __init__(self) -> None:
         sweep_folders()
@@ -64,7 +68,7 @@ class Folder:
         raise FileExistsError(f"{self.path}: no folder of that kind stays")
 
     def close(self) -> None:
-        """More than once is allowed."""
+        """Removes the folder. More than one call is allowed."""
         if self._handle >= 0:
             _remove_folder(self.path, self._handle)
             os.close(self._handle)
@@ -100,7 +104,9 @@ def _remove_left(file: Path) -> None:
 
 
 def _is_left(handle: int) -> bool:
-    """Whether it is this user's, and no process holds it; it is held from here on, until the handle is closed."""
+    """Returns whether the file is this user's and no process holds its lock; it is locked from here on, until the
+    handle is closed.
+    """
     if os.fstat(handle).st_uid != os.geteuid():
         return False
     try:
@@ -110,13 +116,13 @@ def _is_left(handle: int) -> bool:
     return True
 
 
-def _is_at(path: Path, told: os.stat_result) -> bool:
-    """Whether the path still leads to this file or folder."""
-    return os.path.samestat(path.lstat(), told)
+def _is_at(path: Path, found: os.stat_result) -> bool:
+    """Returns whether the path still leads to the file or folder with this ``stat``."""
+    return os.path.samestat(path.lstat(), found)
 
 
 def _remove_folder(folder: Path, handle: int) -> None:
-    """With what a run keeps in it; anything else in it keeps it where it is."""
+    """Removes the files that a run keeps in its folder, and the folder unless anything else is in it."""
     with suppress(OSError):
         for name in os.listdir(handle):
             if name == KEPT_IN_FOLDERS or name.endswith(MARK):

@@ -1,7 +1,6 @@
-"""The word that was probably meant, for a refusal of one that is not known.
+"""The word that was probably meant, for the refusal of an unknown one.
 
-Rule: a suggestion is one of the words there are, and none is made for what is like none of them. Used wherever an
-operator types a name: verbs and choices, machines and tables, commands, axes, outputs, faults, ports.
+Rule: a suggestion is one of the words that exist, and there is none where none is alike.
 """
 
 from collections.abc import Iterable
@@ -12,14 +11,16 @@ LONGEST_WORD = 60  # compared and shown; what is longer was no slip of a finger
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known word most like this one, whatever its capitals; None where none is like it."""
+    """Returns the word most like this one, whatever its capitals; None where none is like it."""
     lowered = {name.casefold(): name for name in known}
     found = get_close_matches(word[:LONGEST_WORD].casefold(), lowered, n=1, cutoff=CLOSE_ENOUGH)
     return lowered[found[0]] if found else None
 
 
 def known_words(word: str, known: Iterable[str]) -> str:
-    """What follows the refusal of a word: ``there are a, b; did you mean b?``, the question where one is like it."""
+    """Returns what follows the refusal of a word: ``there are a, b; did you mean b?``, the question where one is like
+    it.
+    """
     names = list(known)
     listed, meant = ", ".join(names), nearest(word, names)
     if meant:

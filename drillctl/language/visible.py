@@ -1,8 +1,7 @@
-"""Text as a terminal may have it: whatever it would obey, or not show, is written as an escape: ``\\x1b``, ``\\u202e``.
+"""Text as a terminal may have it: characters that it would obey, or not show, become escapes: ``\x1b``, ``\u202e``.
 
 Rule: applied once, at the last place before a stream or a canvas, so that no caller has to know where a text came from.
-A name that is no UTF-8 has its odd bytes as ``\\xff``. Used by cli/streams.py (stdout and stderr), by the widgets of
-ui/widgets/texts.py, by lines, charts and pictures, and by the pytest plugin.
+A name that is no UTF-8 has its odd bytes as ``\xff``.
 """
 
 import json
@@ -20,7 +19,8 @@ _ODD_BYTES = range(0xDC80, 0xDD00)  # how os.fsdecode writes a byte of a name th
 
 
 def visible(text: str, keep: str = "") -> str:
-    """The text with every character escaped that is not printed by itself; those in ``keep`` are left as they are.
+    """Returns the text with every character escaped that doesn't print by itself; those in ``keep`` are left as they
+    are.
 
     Escaped are all controls (ESC, BEL, C1, DEL, line ends), the marks that turn the direction of writing, whatever has
     no width, blanks other than the space, and lone surrogates. A backslash of the text itself stays.
@@ -32,12 +32,13 @@ def visible(text: str, keep: str = "") -> str:
 
 
 def one_line(text: str) -> str:
-    """As ``visible``, line ends and tabs escaped too: a name in a sentence can't begin a line of its own."""
+    """As ``visible``, with line ends and tabs escaped too: a name in a sentence can't begin a line of its own."""
     return visible(text)
 
 
 def masked(text: str) -> str:
-    """The text with one character for each that ``visible`` escapes, line ends apart: for a field with a cursor in it.
+    """Returns the text with one character for each that ``visible`` escapes, except line ends: for a field with a
+    cursor in it.
 
     A tab is a space, any other control its picture, as U+241B for ESC; the rest are U+FFFD.
     """
@@ -45,7 +46,7 @@ def masked(text: str) -> str:
 
 
 def json_text(value: object, indent: int | None = None) -> str:
-    """JSON in plain ASCII without a control character; DEL, which JSON lets stand, is escaped as well."""
+    """Returns JSON in plain ASCII without a control character; DEL, which JSON allows, is escaped as well."""
     return json.dumps(value, indent=indent).replace(DELETE, "\\u007f")
 
 

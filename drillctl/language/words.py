@@ -1,7 +1,7 @@
 """Words in the operator's language. Source strings are English; other languages are catalogues in ``drillctl/locale``.
 
 Rule: a catalogue is the ``.po`` file itself, as translators' tools write it; nothing is compiled, so nothing can be
-stale. The standard library reads only compiled catalogues, hence ``catalogue`` below. Used by everything on the screen.
+stale. The standard library reads only compiled catalogues, hence ``catalogue`` below.
 """
 
 import ast
@@ -22,14 +22,14 @@ QUOTED = re.compile(r'".*"')
 
 
 class Catalogue(gettext.NullTranslations):
-    """A language's words by English source; what is missing stays English."""
+    """The translations of one language by English source; what is missing stays English."""
 
     def __init__(self, words: Mapping[str, str]):
         super().__init__()
         self.words = words
 
     def gettext(self, message: str) -> str:
-        """The word, or the English one."""
+        """Returns the translation, or the English text where there is none."""
         return self.words.get(message) or message
 
 
@@ -37,13 +37,13 @@ _spoken = Catalogue({})
 
 
 def catalogue(text: str) -> dict[str, str]:
-    """A ``.po`` file's entries by source string, without its header. Plural forms are not used here."""
+    """Returns a ``.po`` file's entries by source string, without its header. Plural forms are not read."""
     found = {_joined(source): _joined(word) for source, word in ENTRY.findall(text)}
     return {source: word for source, word in found.items() if source}
 
 
 def use(language: str, plain: bool = False) -> None:
-    """From now on ``_`` speaks this language, one of LANGUAGES; ``plain``: without accents, for a poor terminal."""
+    """Sets the language of ``_`` to one of LANGUAGES; ``plain``: without accents, for a terminal that has none."""
     words = {} if language == "en" else catalogue(_text(language))
     if plain:
         words = {source: _without_accents(word) for source, word in words.items()}
@@ -51,7 +51,7 @@ def use(language: str, plain: bool = False) -> None:
 
 
 def spoken_words() -> Mapping[str, str]:
-    """The catalogue in use: words by English source; none for English itself."""
+    """Returns the catalogue in use, translations by English source; empty for English."""
     return _spoken.words
 
 
@@ -64,26 +64,28 @@ def _file(language: str) -> Path:
 
 
 def _without_accents(text: str) -> str:
-    """The letters that are left when accents fall off; the Polish l has none that could."""
+    """Returns the text with its accents removed. The Polish l with a stroke has no accent that could be removed."""
     letters = unicodedata.normalize("NFKD", text.replace("ł", "l").replace("Ł", "L"))
     return letters.encode("ascii", "ignore").decode("ascii")
 
 
 def language_of(environment: Mapping[str, str] = os.environ) -> str:
-    """As LANGUAGE, LC_ALL, LC_MESSAGES and LANG have it, in the order of gettext; English where they name no other."""
+    """Returns the language of LANGUAGE, LC_ALL, LC_MESSAGES and LANG, in the order of gettext; English where they name
+    no other.
+    """
     for name in ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"):
-        if wish := environment.get(name, "")[:2]:
-            return wish if wish in LANGUAGES else "en"
+        if code := environment.get(name, "")[:2]:
+            return code if code in LANGUAGES else "en"
     return "en"
 
 
 def _(message: str) -> str:
-    """The message in the operator's language."""
+    """Returns the message in the operator's language."""
     return _spoken.gettext(message) if message else ""
 
 
 def N_(message: str) -> str:
-    """Marks a message of a table, which is translated where it is shown."""
+    """Marks a message of a table for translation; it is translated where it is shown."""
     return message
 
 
