@@ -1,20 +1,19 @@
-"""The trace room: one columnar record of a run, and the forms it is kept and looked at in.
+"""Traces: one columnar record of a run, and the forms it is stored and shown in.
 
-Rule: imports nothing of ours and knows no machine. What a run puts in comes out the same to the byte: no
-clock, path or host is ever written. Wiring records; replay, the lab, the screen's scope and the pytest plugin
-read.
+Rule: knows no machine and no other room but files. What a run puts in comes out the same to the byte: no clock, path or
+host is ever written.
 
     values     four kinds of value (word, count, name, command): how each is shown, read and checked
-    record     Signal, Recorder -> Trace: columns tick, signal, value, changes only
+    record     Signal, Recorder -> Trace: columns tick, signal, value; changes only
     text       Trace -> text file, the form of golden files
     reader     text file -> Trace, or a TraceError that names file and line
-    diff       the first tick at which two traces answer differently, and the command it happened in
-    tapes      strips of port images, and what was put out as slices of them
+    diff       the first tick at which two traces differ, and the command it happened in
+    tapes      pool of port images, and the output of an axis as slices of it
     segments   a trace in the segment form; segment_file: as a file
-    vcd        Trace -> VCD for GTKWave, PulseView and friends
+    vcd        Trace -> VCD for GTKWave, PulseView and others
     shape      a signal as a dense array, one value a tick
     ring       a recorder in memory that two processes share
-    lanes      the changes of a run that goes on, a lane a signal or a bit of one: what the scope looks into
+    lanes      the changes of a run that goes on, one lane for each signal or bit: what the scope draws
     target     a path or an open file, for all that write
 """
 

@@ -1,8 +1,7 @@
-"""Where two runs part: the first tick at which a response differs, and the command it happened in.
+"""Where two runs differ: the first tick at which a response differs, and the command it happened in.
 
-Rule: values are compared, tick by tick, not lines; stimuli are what both runs were given and don't count.
-Since traces are canonical, the first unequal change of a signal is its first unequal tick. Called by replay
-and the pytest plugin.
+Rule: values are compared, tick by tick, not lines; stimuli are what both runs were given and don't count. Since traces
+are canonical, the first unequal change of a signal is its first unequal tick.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -22,7 +21,7 @@ END = "end"  # stands for a signal where one run is longer than the other
 
 @dataclass(frozen=True)
 class Nearby:
-    """One change near the difference. `side`: "-" in the expected trace alone, "+" the actual, " " both."""
+    """One change near the difference. `side`: "-" in the expected trace alone, "+" in the actual one, " " in both."""
 
     tick: int
     signal: str
@@ -32,11 +31,11 @@ class Nearby:
 
 @dataclass(frozen=True)
 class Difference:
-    """The first tick at which a response differs, with both values as shown text.
+    """The first tick at which a response differs, with both values as text.
 
-    `signal` is `end` where the runs agree until one of them is over. `command` is what was current in the
-    expected run (`-`: none). `bits`: numbers of the bits that differ, for port words. `around`: changes
-    before and after.
+    `signal` is `end` where the runs agree until one of them is over. `command` is the one that was current in the
+    expected run (`-`: none). `bits`: numbers of the bits that differ, for port words. `around`: changes before and
+    after.
     """
 
     tick: int
@@ -51,10 +50,11 @@ class Difference:
 def first_difference(
     expected: Trace, actual: Trace, signals: Sequence[str] | None = None, from_tick: int = 0
 ) -> Difference | None:
-    """The first difference of the named signals from a tick on, or None where both runs answer alike to the end.
+    """Returns the first difference of the named signals from a tick on, or None where both runs are the same to the
+    end.
 
-    Without `signals`: all responses of either trace that are not derived. Of several signals that differ in
-    the same tick, the first named (declared) counts. Raises KeyError for a signal that neither trace has.
+    Without `signals`: all responses of either trace that are not derived. Of several signals that differ in the same
+    tick, the first named (declared) counts. Raises KeyError for a signal that neither trace has.
     """
     names = list(signals) if signals is not None else _responses(expected, actual)
     found = [(tick, name) for name in names if (tick := _first_tick(expected, actual, name, from_tick)) is not None]
@@ -67,7 +67,7 @@ def first_difference(
 
 
 def render(difference: Difference, bit_names: Mapping[str, Sequence[str]] | None = None) -> str:
-    """The difference as a dozen lines of plain ASCII. `bit_names`: a signal's bits by name, from bit 0."""
+    """Returns the difference as a dozen lines of plain ASCII. `bit_names`: a signal's bits by name, from bit 0."""
     lines = [
         f"first difference at tick {difference.tick}: {difference.signal}",
         f"  expected  {difference.expected}",
@@ -86,7 +86,7 @@ def _responses(*traces: Trace) -> list[str]:
 
 
 def _first_tick(expected: Trace, actual: Trace, name: str, from_tick: int) -> int | None:
-    """The first tick from there on in which the signal differs and both runs were on."""
+    """Returns the first tick from there on in which the signal differs while both runs went on, or None."""
     if expected.has(name) != actual.has(name):
         return from_tick if from_tick < min(expected.end, actual.end) else None
     both_runs = _comparable(expected, actual, name)
@@ -99,7 +99,7 @@ def _first_tick(expected: Trace, actual: Trace, name: str, from_tick: int) -> in
 
 
 def _comparable(expected: Trace, actual: Trace, name: str) -> Iterator[tuple[Values, NDArray[Any]]]:
-    """Ticks and values of both, made to be equal where the words are: traces may number words differently."""
+    """Yields ticks and values of both traces, made equal where the words are: traces may number words differently."""
     signals = [trace.signals[trace.index_of(name)] for trace in (expected, actual)]
     alike = signals[0].kind == signals[1].kind and signals[0].names == signals[1].names
     for trace, signal in zip((expected, actual), signals, strict=True):
@@ -108,7 +108,7 @@ def _comparable(expected: Trace, actual: Trace, name: str) -> Iterator[tuple[Val
 
 
 def _from(tick: int, ticks: Values, values: NDArray[Any]) -> tuple[Values, NDArray[Any]]:
-    """Changes from a tick on, after the value that stands there."""
+    """Returns the changes from a tick on, after the value that holds there."""
     first = max(int(np.searchsorted(ticks, tick, side="right")) - 1, 0)
     return np.maximum(ticks[first:], tick), values[first:]
 
@@ -152,7 +152,7 @@ def _differing_bits(expected: Trace, actual: Trace, tick: int, name: str) -> tup
 
 
 def _bit_lines(difference: Difference, names: Sequence[str]) -> list[str]:
-    """One line: which bits differ, by name, or by number where there is none, and what each should be."""
+    """Returns a line with the bits that differ, by name or number, and what each should be."""
     if not difference.bits:
         return []
     expected = int(difference.expected, 16)
@@ -163,7 +163,7 @@ def _bit_lines(difference: Difference, names: Sequence[str]) -> list[str]:
 
 
 def _around(expected: Trace, actual: Trace, names: Sequence[str], tick: int) -> tuple[Nearby, ...]:
-    """The changes of both traces near `tick`, as far as the one that changes more often was looked at."""
+    """Returns the changes of both traces near `tick`, as far as the one that changes more often was looked at."""
     (mine, mine_until), (theirs, theirs_until) = (_near(trace, names, tick) for trace in (expected, actual))
     until = min(mine_until, theirs_until)
     sides = {(True, True): " ", (True, False): "-", (False, True): "+"}
@@ -172,7 +172,7 @@ def _around(expected: Trace, actual: Trace, names: Sequence[str], tick: int) -> 
 
 
 def _near(trace: Trace, names: Sequence[str], tick: int) -> tuple[set[tuple[int, str, str]], int]:
-    """Changes (tick, signal, shown) around `tick`, and the tick of the first one after them."""
+    """Returns changes (tick, signal, shown) around `tick`, and the tick of the first one after them."""
     wanted = [index for index, signal in enumerate(trace.signals) if signal.name in names]
     rows = np.flatnonzero(np.isin(trace.signal, wanted))
     here = int(np.searchsorted(trace.ticks[rows], tick))

@@ -1,8 +1,7 @@
-"""A run lane by lane, while it goes on: for each lane the ticks at which it changed, and to what.
+"""A run lane by lane, while it goes on: for each lane the ticks at which it changed, and its new values.
 
-Rule: a lane is a signal or one bit of it. Rows come in at the end, the oldest are cut off all lanes at the same tick,
-and every look is a binary search: it costs the same in a minute's run as in a day's. Filled and asked by the station's
-scope.
+Rule: a lane is a signal or one bit of it. Rows are added at the end, the oldest are removed from all lanes at the same
+tick, and every look-up is a binary search: it costs the same in a run of a minute as in one of a day.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,7 +24,7 @@ class Lane:
     invert: bool = False
 
     def of(self, values: Values) -> Values:
-        """What the lane shows of the signal's values (n,)."""
+        """Returns the lane's values from the signal's values (n,)."""
         return values if self.bit is None else (values >> self.bit & 1) ^ int(self.invert)
 
 
@@ -37,21 +36,21 @@ class Column:
         self._count = 0
 
     def __len__(self) -> int:
-        """How many rows are kept."""
+        """How many rows there are."""
         return self._count
 
     @property
     def ticks(self) -> Values:
-        """Int64 (n,), rising."""
+        """The ticks of the rows, int64 (n,), rising."""
         return self._rows[0, : self._count]
 
     @property
     def values(self) -> Values:
-        """Int64 (n,), none like the one before."""
+        """The values of the rows, int64 (n,), each different from the one before."""
         return self._rows[1, : self._count]
 
     def append(self, ticks: Values, values: Values) -> None:
-        """Later rows (n,), n > 0, of which the news are kept."""
+        """Adds later rows (n,), n > 0, without those that repeat the value before."""
         before = self.values[-1] if self._count else values[0] - 1
         news = np.diff(values, prepend=before) != 0
         count = self._count + int(np.count_nonzero(news))
@@ -63,7 +62,7 @@ class Column:
         self._count = count
 
     def cut(self, tick: int) -> None:
-        """Forgets what was before `tick`; the value that stood there becomes the first row."""
+        """Removes the rows before `tick`; the value that held there becomes the first row."""
         first = self._row_at(tick)
         if first > 0:
             self._rows = self._rows[:, first : self._count].copy()
@@ -72,19 +71,22 @@ class Column:
             self._rows[0, 0] = max(tick, self._rows[0, 0])
 
     def at(self, tick: int) -> int | None:
-        """The value in a tick; None before the first row."""
+        """Returns the value in a tick; None before the first row."""
         row = self._row_at(tick)
         return int(self.values[row]) if row >= 0 else None
 
     def window(self, from_tick: int, to_tick: int) -> tuple[Values, Values]:
-        """Ticks and values of the rows in from_tick..to_tick-1, after the value that stands at from_tick, (n,) each."""
+        """Returns ticks and values of the rows in from_tick..to_tick-1, after the value that holds at from_tick, (n,)
+        each.
+        """
         low, high = max(self._row_at(from_tick), 0), self._row_at(to_tick - 1) + 1
         return np.maximum(self.ticks[low:high], from_tick), self.values[low:high]
 
     def strip(self, edges: Values) -> tuple[Values, Values]:
-        """For rising `edges` (n+1,): the value at the end of each stretch between two of them, and its changes, (n,).
+        """Returns, for rising `edges` (n+1,), the value at the end of each stretch between two of them, and its number
+        of changes, (n,).
 
-        However long a stretch is, no change in it goes uncounted. The first row is no change.
+        However long a stretch is, every change in it is counted. The first row is no change.
         """
         if not self._count:
             return np.zeros(len(edges) - 1, np.int64), np.zeros(len(edges) - 1, np.int64)
@@ -92,9 +94,9 @@ class Column:
         return self.values[rows[1:] - 1], np.diff(rows)
 
     def find(self, tick: int, direction: int, onset: bool) -> int | None:
-        """The next change after `tick`, or the last one before it; None where there is none.
+        """Returns the next change after `tick`, or the last one before it; None where there is none.
 
-        onset  only a change to something else than 0 counts, but then the first row too
+        onset  only a change to a value other than 0 counts, but then the first row too
         """
         low, high = (self._row_after(tick), self._count) if direction > 0 else (0, self._row_at(tick - 1) + 1)
         counts = self.values[low:high] != 0 if onset else np.arange(low, high) > 0
@@ -109,7 +111,9 @@ class Column:
 
 
 class Lanes:
-    """All lanes of a run. `most` rows are kept in all; when they are more, the older half of the run is forgotten."""
+    """All lanes of a run. At most `most` rows are kept in all; when there are more, the older half of the run is
+    removed.
+    """
 
     def __init__(self, lanes: Sequence[Lane], most: int):
         self.columns = tuple(Column() for _ in lanes)
@@ -120,11 +124,11 @@ class Lanes:
             self._of_signal.setdefault(lane.signal, []).append((lane, column))
 
     def __len__(self) -> int:
-        """How many rows are kept."""
+        """How many rows there are in all lanes."""
         return sum(map(len, self.columns))
 
     def append(self, ticks: Values, signal: NDArray[np.int32], values: Values) -> None:
-        """Later changes (n,), by rising tick; those of signals that no lane shows are left out."""
+        """Adds later changes (n,), by rising tick; those of signals that no lane shows are left out."""
         if not len(ticks):
             return
         for index, rows in _rows_by_signal(signal):
@@ -140,7 +144,7 @@ class Lanes:
 
 
 def _rows_by_signal(signal: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.int64]]]:
-    """Each signal that occurs, and its rows, in their order."""
+    """Yields each signal that occurs, and its rows in their order."""
     order = np.argsort(signal, kind="stable")
     present, starts = np.unique(signal[order], return_index=True)
     return zip(present.tolist(), np.split(order, starts[1:]), strict=True)

@@ -1,8 +1,8 @@
 """One run as three columns: tick, signal, value; changes only, stimuli and responses marked.
 
-Rule: a trace is complete and canonical. Every signal has a value at tick 0, rows rise by tick and then by
-declaration, no row repeats the value before it; so two runs that behave alike have the same columns. Wiring's
-sampler fills a Recorder after each tick; everything else only reads the Trace it becomes.
+Rule: a trace is complete and canonical. Every signal has a value at tick 0, rows rise by tick and then by declaration,
+no row repeats the value before it; so two runs that behave alike have the same columns. A sampler (ticker/sampler.py)
+fills a Recorder after each tick; everything else only reads the Trace made from it.
 """
 
 from array import array
@@ -46,11 +46,11 @@ class Signal:
             raise ValueError(f"signal {self.name!r}: names must be different printable words without blanks")
 
     def show(self, value: int) -> str:
-        """The value as people read it and text files hold it."""
+        """Returns the value as people read it and text files have it."""
         return KINDS[self.kind].show(value, self.names)
 
     def words(self, values: Values) -> NDArray[np.object_]:
-        """`show` of many values: shape (n,) to strings (n,). Each different value is shown once only."""
+        """Returns `show` of many values: shape (n,) to strings (n,). Each different value is formatted once only."""
         distinct, where = np.unique(values, return_inverse=True)
         shown = np.array([self.show(value) for value in distinct.tolist()], dtype=object)
         return shown[where]
@@ -84,15 +84,15 @@ class Trace:
         end: int,
         trailer: Iterable[str] = (),
     ) -> "Trace":
-        """A canonical trace from rows (n,) in any order.
+        """Returns a canonical trace from rows (n,) in any order.
 
-        Of several rows for one signal and tick the last counts; a signal without a row at tick 0 was 0 until
-        its first one. Raises ValueError for a tick outside 0..end-1, or a value that has no meaning for its
-        signal: mistakes of the program that recorded, not of a file.
+        Of several rows for one signal and tick the last counts; a signal without a row at tick 0 was 0 until its first
+        one. Raises ValueError for a tick outside 0..end-1, or a value that has no meaning for its signal: mistakes of
+        the program that recorded, not of a file.
         """
         rows = _canonical(_with_tick_zero(len(signals), end, ticks, signal, values))
-        told, (tick, index, value) = _without_silent(signals, rows)
-        trace = cls(tuple(header), told, tick, index.astype(np.int32), value, end, tuple(trailer))
+        recorded, (tick, index, value) = _without_silent(signals, rows)
+        trace = cls(tuple(header), recorded, tick, index.astype(np.int32), value, end, tuple(trailer))
         _check(trace)
         return trace
 
@@ -110,38 +110,38 @@ class Trace:
     __hash__ = None  # type: ignore[assignment]  # holds arrays, and equality looks through them
 
     def has(self, name: str) -> bool:
-        """Whether a signal of this name was recorded."""
+        """Returns whether a signal of this name was recorded."""
         return name in self._index
 
     def index_of(self, name: str) -> int:
-        """Where `name` stands in `signals`. Raises KeyError naming it."""
+        """Returns the index of the signal `name` in `signals`. Raises KeyError naming it."""
         return self._index[name]
 
     def changes_of(self, name: str) -> tuple[Values, Values]:
-        """Ticks and values, both int64 (k,), at which the signal took a new value; the first is tick 0."""
+        """Returns ticks and values, both int64 (k,), at which the signal took a new value; the first is tick 0."""
         return self._by_signal[self.index_of(name)]
 
     def value_at(self, name: str, tick: int) -> int:
-        """The signal's value in `tick`, after its flush. Raises IndexError outside 0..end-1."""
+        """Returns the signal's value in `tick`, after its flush. Raises IndexError outside 0..end-1."""
         if not 0 <= tick < self.end:
             raise IndexError(f"tick {tick} is outside this trace's 0..{self.end - 1}")
         ticks, values = self.changes_of(name)
         return int(values[np.searchsorted(ticks, tick, side="right") - 1])
 
     def shown_at(self, name: str, tick: int) -> str:
-        """The signal's value in `tick` as text. Raises as `value_at`."""
+        """Returns the signal's value in `tick` as text. Raises as `value_at`."""
         return self.signals[self.index_of(name)].show(self.value_at(name, tick))
 
     def with_header(self, header: Header) -> "Trace":
-        """The same run, of which other things are said."""
+        """Returns the same run with another header."""
         return replace(self, header=tuple(header))
 
     def header_values(self, key: str) -> tuple[str, ...]:
-        """All values of a header key, in order; none if it is absent."""
+        """Returns all values of a header key, in order; none if it is absent."""
         return tuple(value for name, value in self.header if name == key)
 
     def header_value(self, key: str) -> str:
-        """The first value of a header key. Raises KeyError when it is absent."""
+        """Returns the first value of a header key. Raises KeyError when it is absent."""
         values = self.header_values(key)
         if not values:
             raise KeyError(f"the trace's header has no {key!r}")
@@ -164,7 +164,7 @@ class Trace:
 
 
 class Recorder:
-    """Collects a run, change by change, 20 bytes each; who records sets a limit and watches `len()`."""
+    """Collects a run, change by change, 20 bytes each; its user sets a limit and checks `len()`."""
 
     def __init__(self, signals: Sequence[Signal]) -> None:
         self.signals = tuple(signals)
@@ -176,7 +176,7 @@ class Recorder:
         return len(self._ticks)
 
     def set(self, index: int, tick: int, value: int) -> None:
-        """Signal `index` has `value` in `tick`: kept if that is news. Ticks must not fall."""
+        """Signal `index` has `value` in `tick`: kept if that is a change. Ticks must not fall."""
         if self._last[index] != value:
             self._last[index] = value
             self._ticks.append(tick)
@@ -192,26 +192,28 @@ class Recorder:
             self._values.frombytes(values.astype(np.int64).tobytes())
 
     def add(self, ticks: Values, signal: NDArray[np.int32], values: Values) -> None:
-        """Rows (n,) as ``drain`` gives them. Only ``finish`` may follow: what is ``set`` is not held against them."""
+        """Adds rows (n,) as ``drain`` returns them. Only ``finish`` may follow: a later ``set`` is not compared with
+        them.
+        """
         self._ticks.frombytes(ticks.tobytes())
         self._signal.frombytes(signal.tobytes())
         self._values.frombytes(values.tobytes())
 
     def drain(self) -> tuple[Values, NDArray[np.int32], Values]:
-        """Ticks, signals and values (n,) kept since the last call, and forgets them."""
-        kept = np.array(self._ticks), np.array(self._signal, np.int32), np.array(self._values)
+        """Returns ticks, signals and values (n,) kept since the last call, and removes them."""
+        columns = np.array(self._ticks), np.array(self._signal, np.int32), np.array(self._values)
         for column in (self._ticks, self._signal, self._values):
             del column[:]
-        return kept
+        return columns
 
     def finish(self, end_tick: int, header: Header = (), trailer: Iterable[str] = ()) -> Trace:
-        """The trace of the ticks 0..end_tick-1. Raises as `Trace.of_changes`."""
+        """Returns the trace of the ticks 0..end_tick-1. Raises as `Trace.of_changes`."""
         rows = (self._ticks, self._signal, self._values)
         return Trace.of_changes(header, self.signals, *rows, end_tick, trailer)
 
 
 def _with_tick_zero(count: int, end: int, *columns: ArrayLike) -> Values:
-    """Rows as int64 (3, n): tick, signal, value; a 0 at tick 0 for each of `count` signals comes first."""
+    """Returns rows as int64 (3, n): tick, signal, value; a 0 at tick 0 for each of `count` signals comes first."""
     given = np.array([np.asarray(column, dtype=np.int64) for column in columns])
     zeros = np.zeros((3, count if end else 0), dtype=np.int64)
     zeros[1] = np.arange(zeros.shape[1])
@@ -219,7 +221,7 @@ def _with_tick_zero(count: int, end: int, *columns: ArrayLike) -> Values:
 
 
 def _canonical(rows: Values) -> Values:
-    """Rows (3, n) by tick, then signal: the last of each signal and tick, if it changes the value."""
+    """Returns rows (3, n) by tick, then signal: the last of each signal and tick, if it changes the value."""
     tick_signal, signal_tick, signal_value = slice(0, 2), slice(1, None, -1), slice(1, 3)
     rows = rows[:, np.lexsort(rows[tick_signal])]  # by signal, then tick; stable, so later rows stay later
     rows = rows[:, np.append(_differs(rows[tick_signal]), True)[: rows.shape[1]]]
@@ -228,16 +230,18 @@ def _canonical(rows: Values) -> Values:
 
 
 def _without_silent(signals: Sequence[Signal], rows: Values) -> tuple[tuple[Signal, ...], Values]:
-    """The signals that a trace has, and rows (3, n) by their numbers: no optional signal that is 0 throughout."""
+    """Returns the signals that the trace has, and rows (3, n) by their numbers: no optional signal that is 0
+    throughout.
+    """
     silent = [n for n, signal in enumerate(signals) if signal.optional and not rows[2, rows[1] == n].any()]
-    told = tuple(signal for n, signal in enumerate(signals) if n not in silent)
+    recorded = tuple(signal for n, signal in enumerate(signals) if n not in silent)
     rows = rows[:, ~np.isin(rows[1], silent)]
     rows[1] -= np.searchsorted(silent, rows[1])
-    return told, rows
+    return recorded, rows
 
 
 def _differs(rows: Values) -> NDArray[np.bool_]:
-    """Whether each column (2, n) differs from the next: (n-1,)."""
+    """Returns whether each column (2, n) differs from the next: (n-1,)."""
     differs: NDArray[np.bool_] = np.any(rows[:, 1:] != rows[:, :-1], axis=0)
     return differs
 

@@ -1,7 +1,7 @@
-"""A recorder in shared memory: one process writes changes as they happen, another takes them out to keep.
+"""A recorder in shared memory: one process writes changes as they happen, another reads them out.
 
-Rule: of fixed size, it never waits and never grows; when its reader falls behind it says so, since a trace with a
-hole must not be taken for a whole one. Used by the wiring of a paced run, in place of Recorder.
+Rule: of fixed size; it never waits and never grows. When its reader falls behind it is marked as overrun, since a trace
+with a hole must not be taken for a whole one.
 """
 
 import mmap
@@ -15,7 +15,7 @@ STATE = np.dtype([("written", "<u8"), ("taken", "<u8"), ("overrun", "<u4")])
 
 
 class RingRecorder:
-    """``set`` as a Recorder's, for the writing process; ``drain`` for the reading one. Inherited over a fork."""
+    """``set`` as a Recorder's, for the writing process; ``drain`` for the reading one. Made before the fork."""
 
     def __init__(self, signals: int):
         self._memory = mmap.mmap(-1, STATE.itemsize + CAPACITY * CHANGE.itemsize)
@@ -25,7 +25,7 @@ class RingRecorder:
         self._written = 0
 
     def set(self, index: int, tick: int, value: int) -> None:
-        """Signal ``index`` has ``value`` in ``tick``: kept if that is news and there is room."""
+        """Signal ``index`` has ``value`` in ``tick``: kept if that is a change and there is room."""
         if self._last[index] == value:
             return
         self._last[index] = value
@@ -37,7 +37,7 @@ class RingRecorder:
         self._state["written"] = self._written
 
     def drain(self) -> NDArray[np.void]:
-        """All changes written since the last call, dtype CHANGE, oldest first."""
+        """Returns all changes written since the last call, dtype CHANGE, oldest first."""
         taken, written = int(self._state["taken"][0]), int(self._state["written"][0])
         changes: NDArray[np.void] = self._ring[np.arange(taken, written) % CAPACITY].copy()
         self._state["taken"] = written
@@ -45,5 +45,5 @@ class RingRecorder:
 
     @property
     def overrun(self) -> bool:
-        """A change was lost: the trace is not whole."""
+        """Whether a change was lost, so that the trace is not whole."""
         return bool(self._state["overrun"][0])

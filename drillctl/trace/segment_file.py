@@ -1,7 +1,7 @@
-"""Segments as a file, and back; or a refusal by file and reason. The form is told in segments.py and docs/TRACES.md.
+"""Segments as a file, and the reader of such files. The format is in docs/TRACES.md.
 
-Rule: the same segments give the same bytes. Columns are kept as indexes into the few different values that they have,
-low bytes apart from high ones: a job repeats itself, and zlib sees it then. Called by the wiring.
+Rule: the same segments give the same bytes. Columns are stored as indexes into the few different values that they have,
+low bytes apart from high ones: a job repeats itself, and zlib finds that more easily then.
 """
 
 import os
@@ -35,12 +35,12 @@ Pairs = tuple[tuple[str, str], ...]
 
 
 def is_segments(path: str | os.PathLike[str]) -> bool:
-    """Whether the file begins as segments. Raises OSError as `open`."""
+    """Returns whether the file begins as segments. Raises OSError as `open`."""
     return read_start(path, len(MAGIC)) == MAGIC
 
 
 def segment_bytes(segments: Segments) -> bytes:
-    """The whole file. Raises ValueError for a run that ``read_segments`` would find too large."""
+    """Returns the whole file. Raises ValueError for a run that ``read_segments`` would find too large."""
     bits = segments.pool.dtype.itemsize * 8
     bare = _bare(segments.header)
     sums = SUMS.pack(segments.end, segments.checksum, bits, len(segments.tapes), bare is not None)
@@ -58,7 +58,7 @@ def segment_bytes(segments: Segments) -> bytes:
 
 
 def read_segments(path: str | os.PathLike[str]) -> Segments:
-    """The segments in a file. Raises TraceError for a file that is not whole, OSError as `open`."""
+    """Returns the segments in a file. Raises TraceError for a file that is not whole, OSError as `open`."""
     data = read_bytes(path, LARGEST_FILE_BYTES, "a trace")
     if not data.startswith(MAGIC):
         raise TraceError(str(path), None, f"not segments: the first line must be {MAGIC.decode().strip()!r}")
@@ -83,7 +83,7 @@ class _Blocks:
         return self._data[begin : self._at]
 
     def column(self) -> Values:
-        """The next block, as a column."""
+        """Reads the next block as a column."""
         block = next(self)
         self._rows_left -= COUNT.unpack_from(block)[0]
         if self._rows_left < 0:
@@ -92,7 +92,7 @@ class _Blocks:
 
 
 def _inflated(data: bytes) -> bytes:
-    """What follows the first line. Raises ValueError where it is more than ``room_bytes``."""
+    """Returns what follows the first line, unpacked. Raises ValueError where it is more than ``room_bytes``."""
     unpacker = zlib.decompressobj()
     found = unpacker.decompress(data[len(MAGIC) :], room_bytes(len(data)))
     if not unpacker.eof:
@@ -101,7 +101,7 @@ def _inflated(data: bytes) -> bytes:
 
 
 def room_bytes(file_bytes: int) -> int:
-    """How much a file of this size may unpack to."""
+    """Returns to how many bytes a file of this size may unpack."""
     return ROOM_BYTES + ROOM_TIMES * file_bytes
 
 
@@ -114,11 +114,11 @@ def _unpacked(blocks: _Blocks) -> Segments:
     head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
     pool = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
     tapes = [Tape(blocks.column(), blocks.column()) for _ in range(tape_count)]
-    kept = [signal for signal in head.signals if not OUTPUT.fullmatch(signal.name)]
-    changes = [(blocks.column().cumsum(), blocks.column().cumsum()) for _ in kept]
+    others = [signal for signal in head.signals if not OUTPUT.fullmatch(signal.name)]
+    changes = [(blocks.column().cumsum(), blocks.column().cumsum()) for _ in others]
     rows = [np.full(len(ticks), number) for number, (ticks, _) in enumerate(changes)]
     columns = [np.concatenate(column) for column in ([t for t, _ in changes], rows, [v for _, v in changes])]
-    rest = Trace.of_changes(head.header, kept, columns[0], columns[1], columns[2], end, head.trailer)
+    rest = Trace.of_changes(head.header, others, columns[0], columns[1], columns[2], end, head.trailer)
     for tape in tapes:
         _check(tape, end, len(pool))
     segments = Segments(rest, head.signals, pool, tuple(tapes))
@@ -135,7 +135,7 @@ def _check(tape: Tape, end: int, words: int) -> None:
 
 
 def _bare(header: Pairs) -> Pairs | None:
-    """The header with commands that don't say their numbers, where these count from 1; else None."""
+    """Returns the header with commands without their numbers, where these count from 1; else None."""
     found, number = [], 0
     for key, value in header:
         number += key == COMMAND
@@ -147,7 +147,7 @@ def _bare(header: Pairs) -> Pairs | None:
 
 
 def _numbered(header: Pairs) -> Pairs:
-    """``_bare`` undone."""
+    """The inverse of ``_bare``: adds the commands' numbers."""
     found, number = [], 0
     for key, value in header:
         number += key == COMMAND
@@ -156,7 +156,7 @@ def _numbered(header: Pairs) -> Pairs:
 
 
 def _head_text(segments: Segments, header: Pairs) -> str:
-    """Header, signals and trailer as a text trace of no ticks has them."""
+    """Returns header, signals and trailer as a text trace of no ticks has them."""
     file, empty = StringIO(), np.zeros(0, np.int64)
     plain = Trace(header, segments.signals, empty, empty.astype(np.int32), empty, 0, segments.rest.trailer)
     write_text(plain, file, derived=True)
@@ -164,7 +164,7 @@ def _head_text(segments: Segments, header: Pairs) -> str:
 
 
 def _head(text: str, words: str, bare: bool) -> Trace:
-    """What ``_head_text`` told, the signals with their words."""
+    """The inverse of ``_head_text``, with the signals' words."""
     plain = read_text(StringIO(text))
     named = zip(plain.signals, words.split("\n"), strict=True)
     signals = tuple(replace(signal, names=tuple(names.split())) for signal, names in named)
@@ -172,7 +172,7 @@ def _head(text: str, words: str, bare: bool) -> Trace:
 
 
 def _column(values: Values) -> bytes:
-    """How many values, how many different ones, these, and the index of each as narrow as may be."""
+    """Packs a column: how many values, how many different ones, these, and each value's index as narrow as it fits."""
     different, index = np.unique(values, return_inverse=True)
     width = next(dtype for dtype in INDEXES if len(different) <= 1 << 8 * dtype.itemsize)
     head = COUNT.pack(len(values)) + COUNT.pack(len(different))
@@ -191,7 +191,7 @@ def _uncolumn(block: bytes) -> Values:
 
 
 def _planes(values: NDArray[np.generic]) -> bytes:
-    """All lowest bytes first, then the next ones."""
+    """Returns all lowest bytes first, then the next ones."""
     little = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"), copy=False))
     return np.ascontiguousarray(little.view(np.uint8).reshape(len(little), -1).T).tobytes()
 

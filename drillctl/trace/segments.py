@@ -1,7 +1,7 @@
-"""The segment form of a trace: slices of strips for the outputs, changes for everything else. Exact, and small.
+"""The segment form of a trace: slices of an image pool for the outputs, changes for everything else. Exact, and small.
 
-Rule: nothing is lost: ``trace`` gives every change back, and the checksum of the array of images, one a tick, says so.
-An image at any tick is found by a search, not by running up to it. Files: segment_file.py. Called by the wiring.
+Rule: nothing is lost: ``trace`` returns every change, and a checksum over the images of all ticks proves it. The image
+of any tick is found by a search, not by running up to it. segment_file.py has the file form.
 """
 
 import re
@@ -39,7 +39,7 @@ class Segments:
 
     @classmethod
     def of_trace(cls, trace: Trace) -> "Segments":
-        """Any trace, its outputs as one long strip: exact, and as large as they are long."""
+        """Returns any trace in this form, its outputs as one long strip: exact, and as large as the run is long."""
         pool = np.zeros(trace.end, np.uint64)
         for signal in trace.signals:
             if match := OUTPUT.fullmatch(signal.name):
@@ -47,7 +47,7 @@ class Segments:
         return cls(without_outputs(trace), trace.signals, pool, (Tape.whole(0, trace.end),))
 
     def like(self, other: "Segments") -> bool:
-        """Whether both tell of the same run, whatever their slices and headers are."""
+        """Returns whether both are the same run, whatever their slices and headers are."""
         same_rest = replace(self.rest, header=other.rest.header, trailer=other.rest.trailer) == other.rest
         alike = self.pool.dtype == other.pool.dtype and len(self.tapes) == len(other.tapes)
         same_slices = alike and np.array_equal(self.pool, other.pool) and all(map(Tape.same, self.tapes, other.tapes))
@@ -59,7 +59,7 @@ class Segments:
         return self.rest.end
 
     def images(self, first: int, end: int) -> Images:
-        """The images of ticks first..end-1."""
+        """Returns the images of ticks first..end-1."""
         return images(self.pool, self.tapes, np.empty(end - first, self.pool.dtype), first)
 
     @cached_property
@@ -76,7 +76,7 @@ class Segments:
         return len(self.rest.ticks) + sum(len(ticks) for _, ticks, _ in self._output_changes())
 
     def trace(self) -> Trace:
-        """Every change of every signal, ``change_count`` of them: see that there is room for them first."""
+        """Returns every change of every signal, ``change_count`` of them: check first that there is room for them."""
         numbers = {signal.name: number for number, signal in enumerate(self.signals)}
         rows = [(ticks, np.full(len(ticks), numbers[name], np.int32), values)
                 for name, ticks, values in self._output_changes()]  # fmt: skip
@@ -84,11 +84,11 @@ class Segments:
         rows.append((self.rest.ticks, own[self.rest.signal], self.rest.values))
         when, which, values = (np.concatenate(column) for column in zip(*rows, strict=True))
         order = np.lexsort((which, when))
-        kept = when[order], which[order], values[order]
-        return Trace(self.rest.header, self.signals, *kept, self.end, self.rest.trailer)
+        columns = when[order], which[order], values[order]
+        return Trace(self.rest.header, self.signals, *columns, self.end, self.rest.trailer)
 
     def up_to(self, end: int) -> "Segments":
-        """The first ``end`` ticks of the run."""
+        """Returns the first ``end`` ticks of the run."""
         if end >= self.end:
             return self
         rows = self.rest.ticks < end
@@ -98,11 +98,11 @@ class Segments:
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
-        """As the trace's."""
+        """The trace's header."""
         return self.rest.header
 
     def with_header(self, header: Header) -> "Segments":
-        """The same run, of which other things are said."""
+        """Returns the same run with another header."""
         return replace(self, rest=self.rest.with_header(header))
 
     def _parts(self) -> Iterator[Images]:
@@ -110,7 +110,9 @@ class Segments:
             yield self.images(first, min(first + CHUNK_TICKS, self.end))
 
     def _output_changes(self) -> Iterator[tuple[str, Values, Values]]:
-        """Outputs by name, each with the ticks at which it changes and its words from there on, a chunk at a time."""
+        """Yields outputs by name, each with the ticks at which it changes and its words from there on, a chunk at a
+        time.
+        """
         cards = {signal.name: int(match[1]) for signal in self.signals if (match := OUTPUT.fullmatch(signal.name))}
         first, before = 0, dict.fromkeys(cards, -1)
         for part in self._parts():
@@ -125,9 +127,9 @@ class Segments:
 
 
 def without_outputs(trace: Trace) -> Trace:
-    """The trace's other signals alone."""
-    kept = [number for number, signal in enumerate(trace.signals) if not OUTPUT.fullmatch(signal.name)]
-    rows = np.isin(trace.signal, kept)
-    renumbered = np.searchsorted(kept, trace.signal[rows]).astype(np.int32)
-    signals = tuple(trace.signals[number] for number in kept)
+    """Returns the trace without its output signals."""
+    others = [number for number, signal in enumerate(trace.signals) if not OUTPUT.fullmatch(signal.name)]
+    rows = np.isin(trace.signal, others)
+    renumbered = np.searchsorted(others, trace.signal[rows]).astype(np.int32)
+    signals = tuple(trace.signals[number] for number in others)
     return Trace(trace.header, signals, trace.ticks[rows], renumbered, trace.values[rows], trace.end, trace.trailer)

@@ -1,7 +1,6 @@
-"""A signal as a dense array, one value a tick: what decoders and plots work on.
+"""A signal as a dense array, one value a tick.
 
-Rule: memory grows with the ticks run, not with the changes; for one signal at a time. Called by decoders in
-tests, by the lab's plots and by the screen's scope.
+Rule: memory grows with the ticks run, not with the changes; for one signal at a time.
 """
 
 import numpy as np
@@ -11,6 +10,6 @@ from drillctl.trace.values import Values
 
 
 def dense(trace: Trace, name: str) -> Values:
-    """The signal's value in every tick: int64 (end,). Raises KeyError for a signal that was not recorded."""
+    """Returns the signal's value in every tick: int64 (end,). Raises KeyError for a signal that was not recorded."""
     ticks, values = trace.changes_of(name)
     return np.repeat(values, np.diff(ticks, append=trace.end))

@@ -1,8 +1,8 @@
-"""Strips of port images, and tapes cut from them: what one axis puts out in a whole run, as slices of a small array.
+"""Pools of port images, and tapes: the output of one axis in a whole run, as slices of a pool.
 
 Rule: a tape is a list of slices, never an array of ticks; only ``images`` makes that, as the OR of all tapes. A machine
-puts out few different things: a rest, a head of the ramp, a cruise through the phase cycle, a tail. Each lies in the
-pool once, for every column that it may begin at. Made by execution/fastforward, kept in files by segments.
+puts out few different strips: a rest, the head of a ramp, a cruise through the phase cycle, a tail. Each is in the pool
+once for every column that it may begin at.
 """
 
 from collections.abc import Sequence
@@ -20,47 +20,47 @@ CHUNK = 1 << 16  # ticks put together at once, so that the OR of the tapes stays
 
 
 class ImagePool:
-    """Strips of images laid end to end, of one unsigned dtype. It grows; what lies in it stays where it is."""
+    """Strips of images, one after the other, of one unsigned dtype. It grows; a strip never moves within it."""
 
     def __init__(self, dtype: DTypeLike):
-        self._kept = np.zeros(1 << 16, dtype)
+        self._strips = np.zeros(1 << 16, dtype)
         self._length = 0
         self._steady: dict[int, int] = {}
         self.steady(DARK)
 
     @property
     def images(self) -> Images:
-        """All strips, shape (length,)."""
-        return self._kept[: self._length]
+        """All strips as one array, shape (length,)."""
+        return self._strips[: self._length]
 
     def add(self, strip: ArrayLike) -> int:
-        """Lays a strip (n,) at the end; returns where it begins."""
-        images = np.asarray(strip, self._kept.dtype)
+        """Adds a strip (n,) at the end; returns where it begins."""
+        images = np.asarray(strip, self._strips.dtype)
         start, end = self._length, self._length + len(images)
-        if end > len(self._kept):
-            self._kept = np.resize(self._kept, max(end, 2 * len(self._kept)))
-        self._kept[start:end] = images
+        if end > len(self._strips):
+            self._strips = np.resize(self._strips, max(end, 2 * len(self._strips)))
+        self._strips[start:end] = images
         self._length = end
         return start
 
     def steady(self, image: int) -> int:
-        """Where a strip of PERIOD times the same image begins; that of no output at all begins at 0."""
+        """Returns where a strip of PERIOD times the same image begins; that of no output at all begins at 0."""
         if image not in self._steady:
-            self._steady[image] = self.add(np.full(PERIOD, image, self._kept.dtype))
+            self._steady[image] = self.add(np.full(PERIOD, image, self._strips.dtype))
         return self._steady[image]
 
 
 @dataclass(frozen=True, eq=False)
 class Tape:
-    """Slices of a pool: ``start`` and ``ticks``, both int64 (k,). What follows what is the order in time."""
+    """Slices of a pool, in the order of time: ``start`` and ``ticks``, both int64 (k,)."""
 
     start: Count
     ticks: Count
 
     @classmethod
     def of(cls, start: Count, ticks: Count, period: Count) -> "Tape":
-        """From slices (k,) that may be empty, or longer than their strip: those repeat after ``period`` ticks. A period
-        of PERIOD is a steady image, which joins the same one before it.
+        """Returns a tape of slices (k,) that may be empty, or longer than their strip: those repeat after ``period``
+        ticks. A period of PERIOD is a steady image, which joins the same one before it.
         """
         some = np.flatnonzero(ticks > 0)
         start, ticks, period = start[some], ticks[some], period[some]
@@ -77,42 +77,44 @@ class Tape:
 
     @classmethod
     def whole(cls, start: int, ticks: int) -> "Tape":
-        """One slice."""
+        """Returns a tape of one slice."""
         return cls(np.array([start]), np.array([ticks]))
 
     @classmethod
     def steady(cls, start: int, ticks: int) -> "Tape":
-        """One image, whose strip begins there, for so long."""
+        """Returns a tape of one image, whose strip begins at ``start``, for ``ticks`` ticks."""
         return cls.of(np.array([start]), np.array([ticks]), np.array([PERIOD]))
 
     @classmethod
     def joined(cls, tapes: Sequence["Tape"]) -> "Tape":
-        """One after the other."""
+        """Returns one tape of several, one after the other."""
         return cls(np.concatenate([t.start for t in tapes]), np.concatenate([t.ticks for t in tapes]))
 
     def same(self, other: "Tape") -> bool:
-        """Whether both are the same slices."""
+        """Returns whether both have the same slices."""
         return np.array_equal(self.start, other.start) and np.array_equal(self.ticks, other.ticks)
 
     @property
     def dark(self) -> bool:
-        """Whether nothing is ever on."""
+        """Whether no output is ever on."""
         return not self.start.any()
 
     def up_to(self, end: int) -> "Tape":
-        """Its first ``end`` ticks."""
-        kept = int(np.searchsorted(self.ends(), end)) + 1
-        ticks = self.ticks[:kept].copy()
+        """Returns the tape's first ``end`` ticks."""
+        count = int(np.searchsorted(self.ends(), end)) + 1
+        ticks = self.ticks[:count].copy()
         ticks[-1] -= int(ticks.sum()) - end
-        return Tape(self.start[:kept], ticks)
+        return Tape(self.start[:count], ticks)
 
     def ends(self) -> Count:
-        """The tick behind each slice, (k,)."""
+        """Returns the tick behind each slice, (k,)."""
         return np.cumsum(self.ticks)
 
 
 def images(pool: Images, tapes: Sequence[Tape], out: Images, first: int = 0) -> Images:
-    """Fills ``out`` (n,) with the images from tick ``first`` on: the OR of all tapes, each of which reaches so far."""
+    """Fills ``out`` (n,) with the images from tick ``first`` on: the OR of all tapes, each of which
+    reaches that far.
+    """
     cuts = [(tape, tape.ends()) for tape in tapes if not tape.dark] or [(tapes[0], tapes[0].ends())]
     scratch = np.empty(CHUNK, out.dtype)
     for begin in range(0, len(out), CHUNK):
@@ -126,7 +128,7 @@ def images(pool: Images, tapes: Sequence[Tape], out: Images, first: int = 0) -> 
 
 
 def _slices(pool: Images, tape: Tape, ends: Count, first: int, end: int) -> list[Images]:
-    """The pieces of the pool that are on the tape from tick ``first`` up to ``end``."""
+    """Returns the slices of the pool that are on the tape from tick ``first`` up to ``end``."""
     low, high = np.searchsorted(ends, (first, end - 1), side="right")
     start, stop = tape.start[low : high + 1].copy(), tape.start[low : high + 1] + tape.ticks[low : high + 1]
     start[0] = stop[0] - (ends[low] - first)

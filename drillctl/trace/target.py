@@ -1,7 +1,7 @@
 """Where a trace goes to or comes from: a path, or a file that is open already.
 
-Rule: UTF-8 and LF whatever the platform. What is not valid UTF-8 is handed on as a character that no line
-allows, so the reader can name the line it stands in. Called by text, reader and vcd.
+Rule: UTF-8 and LF on every platform. What is not valid UTF-8 is passed on as a character that no line allows, so the
+reader can name the line it is in.
 """
 
 import os
@@ -17,7 +17,7 @@ Target = str | os.PathLike[str] | TextIO
 
 @contextmanager
 def opened(target: Target, mode: str) -> Iterator[TextIO]:
-    """The text file behind `target`, closed afterwards if it was opened here. Raises OSError as `open`."""
+    """Gives the text file behind `target`, closed afterwards if it was opened here. Raises OSError as `open`."""
     if isinstance(target, str | os.PathLike):
         plain = inputs.opened(target) if mode == "r" else open(target, mode + "b")  # noqa: SIM115 - by the next line
         with TextIOWrapper(plain, "utf-8", "surrogateescape", "\n") as file:

@@ -12,7 +12,7 @@
     end 8                       number of ticks run; without it the file was cut short
     # summary ...               remarks, ignored by replay
 
-Rule: the same trace gives the same bytes. Called by replay, the lab and the pytest plugin.
+Rule: the same trace gives the same bytes.
 """
 
 import os
@@ -36,7 +36,7 @@ ROWS_AT_ONCE = 100_000  # written in one piece: bounds the memory that a long tr
 
 
 def is_trace(path: str | os.PathLike[str]) -> bool:
-    """Whether the file begins as a trace, of any version: one too new is for `read_text` to refuse.
+    """Returns whether the file begins as a trace, of any version: `read_text` refuses one that is too new.
 
     Raises OSError as `open`. Reads the first bytes only.
     """
@@ -45,17 +45,17 @@ def is_trace(path: str | os.PathLike[str]) -> bool:
 
 
 def write_text(trace: Trace, target: Target, *, derived: bool = False) -> None:
-    """Writes the trace to a path or an open text file; derived signals only if asked for.
+    """Writes the trace to a path or an open text file; derived signals only on request.
 
-    Raises ValueError if reading it back would not give the same trace (a header of two lines, a signal whose
-    name stands for another kind), before anything is written; OSError as `open`.
+    Raises ValueError if reading it back would not give the same trace (a header of two lines, a signal whose name
+    stands for another kind), before anything is written; OSError as `open`.
     """
-    kept = [index for index, signal in enumerate(trace.signals) if derived or not signal.derived]
-    head = _head_lines(trace, [trace.signals[index] for index in kept])
+    chosen = [index for index, signal in enumerate(trace.signals) if derived or not signal.derived]
+    head = _head_lines(trace, [trace.signals[index] for index in chosen])
     trailer = [_line("#", remark) for remark in trace.trailer]
     with opened(target, "w") as file:
         file.writelines(head)
-        file.writelines(_change_lines(trace, kept))
+        file.writelines(_change_lines(trace, chosen))
         file.write(f"end {trace.end}\n")
         file.writelines(trailer)
 
@@ -86,11 +86,11 @@ def _declaration(signal: Signal) -> str:
     return f"{signal.name} {STIMULUS if signal.stimulus else RESPONSE}"
 
 
-def _change_lines(trace: Trace, kept: Sequence[int]) -> Iterator[str]:
-    """The lines of the kept signals, many at once. Each different `NAME VALUE` is composed only once."""
+def _change_lines(trace: Trace, chosen: Sequence[int]) -> Iterator[str]:
+    """Yields the lines of these signals, many at once. Each different `NAME VALUE` is formatted only once."""
     endings: list[str] = []
     ending = np.full(len(trace.ticks), -1)
-    for index in kept:
+    for index in chosen:
         signal, rows = trace.signals[index], np.flatnonzero(trace.signal == index)
         distinct, where = np.unique(trace.values[rows], return_inverse=True)
         ending[rows] = where + len(endings)

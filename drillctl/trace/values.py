@@ -1,7 +1,7 @@
 """What a signal's value means: four kinds of value in one table, each shown, read and checked.
 
 Rule: a value is one integer in the record and one word without blanks in text, and `show` and `read` undo
-each other. Called by record (checks, words), reader (read), diff and vcd (words).
+each other.
 
 | kind | in the record | in text |
 |---|---|---|
@@ -54,27 +54,29 @@ class Kind:
 
 
 def named_signal_kind(name: str) -> tuple[str, bool]:
-    """The kind a signal of this name has in a file, and whether replay derives it."""
+    """Returns the kind that a signal of this name has in a file, and whether replay derives it."""
     return next((kind, derived) for pattern, kind, derived in NAMED_SIGNALS if pattern.fullmatch(name))
 
 
 def pack_command(sequence: Whole, opcode: Whole) -> Whole:
-    """The value of a `command` signal while command `sequence` is current, of one or of many (n,); idle is 0."""
+    """Returns the value of a `command` signal while command `sequence` is current, of one or of
+    many (n,); idle is 0.
+    """
     return sequence * OPCODES + opcode
 
 
 def is_plain(text: str) -> bool:
-    """Whether `text` survives as (part of) a line: printable, no blanks at its ends."""
+    """Returns whether `text` survives as (part of) a line: printable, no blanks at its ends."""
     return text.isprintable() and text == text.strip()
 
 
 def is_word(text: str) -> bool:
-    """Whether `text` can stand as one word of a line."""
+    """Returns whether `text` can stand as one word of a line."""
     return text != "" and text.isprintable() and " " not in text
 
 
 def quoted(text: str) -> str:
-    """`text` as a message may show it: ASCII, in quotes, never longer than a line."""
+    """Returns `text` for a message: ASCII, in quotes, never longer than a line."""
     return ascii(text if len(text) <= 40 else text[:37] + "...")
 
 

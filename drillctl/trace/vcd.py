@@ -2,7 +2,7 @@
 
 Rule: the same trace and layout give the same bytes, without date or path; a value at a tick is that after its
 flush. This room knows no machine, so the caller hands in the layout: which variable, in which scope, shows
-what of which signal. pyvcd does the writing. Called by `drillctl trace` and replay.
+what of which signal. pyvcd does the writing.
 
 A value of the signal `pace` is the tick rate that holds from the tick after (docs/SPEC.md, 1.20).
 
@@ -62,10 +62,10 @@ VcdLayout = Sequence[VcdVar]
 def write_vcd(trace: Trace, target: Target, layout: VcdLayout) -> None:
     """Writes the trace to a path or an open text file.
 
-    All variables are dumped at time 0, and a last time stamp marks the end, so viewers show the full length.
-    The header must have `machine`, `tick_hz` and `digest`, and the sources must have been recorded
-    (KeyError). Raises ValueError for a tick rate that is no whole number in 1..10^6, a part of what is no
-    command, or a value without a label; OSError as `open`. A refused trace leaves the target alone.
+    All variables are dumped at time 0, and a last time stamp marks the end, so viewers show the full length. The header
+    must have `machine`, `tick_hz` and `digest`, and the sources must have been recorded (KeyError). Raises ValueError
+    for a tick rate that is no whole number in 1..10^6, a part of a signal that is no command, or a value without a
+    label; OSError as `open`. A refused trace leaves the target alone.
     """
     from vcd import VCDWriter
 
@@ -84,7 +84,7 @@ Rate = tuple[int, int]  # the first tick that follows at it, and ticks a second
 
 
 class _Clock:
-    """Ticks to times: in the largest unit that divides the length of every tick, else in us, rounded."""
+    """Converts ticks to times: in the largest unit that divides the length of every tick, else in us, rounded."""
 
     def __init__(self, rates: Sequence[Rate]) -> None:
         exact = (row for row in TIMESCALES if all(US_PER_SECOND % (hz * row[0]) == 0 for _, hz in rates))
@@ -97,14 +97,18 @@ class _Clock:
             self._stretches.append((tick, time, ticks_per_unit))
 
     def times(self, ticks: Values) -> Values:
-        """Nearest whole times of rising ticks (n,), halves to even as Python's round(); in integers, hence exact."""
+        """Returns the nearest whole times of rising ticks (n,), halves to even as Python's round(); in integers, hence
+        exact.
+        """
         firsts = np.array([first for first, _, _ in self._stretches])
         parts = zip(self._stretches, np.split(ticks, np.searchsorted(ticks, firsts[1:])), strict=True)
         return np.concatenate([_nearest(begun, per_unit, part - first) for (first, begun, per_unit), part in parts])
 
 
 def _nearest(begun: Fraction, per_unit: Fraction, ticks: Values) -> Values:
-    """The whole times nearest to ``begun`` and so many ticks. Python's integers where 64 bits would not hold them."""
+    """Returns the whole times nearest to ``begun`` and so many ticks. Python's integers where 64 bits would not hold
+    them.
+    """
     unit = begun.denominator * per_unit.numerator
     wide = object if begun else np.int64  # the first stretch, mostly the only one, begins at 0
     numerators = ticks.astype(wide) * (per_unit.denominator * begun.denominator) + begun.numerator * per_unit.numerator
@@ -115,10 +119,10 @@ def _nearest(begun: Fraction, per_unit: Fraction, ticks: Values) -> Values:
 
 
 def _rates(trace: Trace) -> list[Rate]:
-    """The rates of a run: that of its header, and each that was asked for, from the tick after."""
+    """Returns the rates of a run: that of its header, and each requested one, from the tick after."""
     found = [(0, _rate(trace.header_value("tick_hz"), "the trace's header has tick_hz"))]
-    ticks, asked = trace.changes_of("pace") if trace.has("pace") else ((), ())
-    for tick, hz in zip(ticks, asked, strict=True):
+    ticks, rates = trace.changes_of("pace") if trace.has("pace") else ((), ())
+    for tick, hz in zip(ticks, rates, strict=True):
         if hz:
             found.append((int(tick) + 1, _rate(str(hz), "the trace has a pace of")))
     return found
@@ -131,7 +135,7 @@ def _rate(word: str, whose: str) -> int:
 
 
 def _comment(trace: Trace) -> str:
-    """One line of words. Blanks and `$`, which could end the comment, become `_`."""
+    """Returns one line of words. Blanks and `$`, which could end the comment, become `_`."""
     pairs = [f"{key}={trace.header_value(key)}" for key in ("machine", "tick_hz", "digest")]
     pairs += [f"tick_hz={hz}@{tick}" for tick, hz in _rates(trace)[1:]]
     return " ".join(["drillctl", *(pair.translate({ord(" "): "_", ord("$"): "_"}) for pair in pairs)])
@@ -141,7 +145,7 @@ Column = tuple[Values, NDArray[Any]]  # ticks, and what the writer takes at each
 
 
 def _changes(trace: Trace, var: VcdVar) -> Column:
-    """Where the variable changes, and to what."""
+    """Returns where the variable changes, and its new values."""
     ticks, values = trace.changes_of(var.source)
     signal = trace.signals[trace.index_of(var.source)]
     if var.part and signal.kind != "command":
@@ -152,7 +156,7 @@ def _changes(trace: Trace, var: VcdVar) -> Column:
 
 
 def _merged(columns: Sequence[Column]) -> tuple[Values, Values, NDArray[Any]]:
-    """All changes by tick, then in the layout's order: ticks, indexes into the layout, values."""
+    """Returns all changes by tick, then in the layout's order: ticks, indexes into the layout, values."""
     none = np.empty(0, dtype=np.int64)
     ticks = np.concatenate([none, *(column[0] for column in columns)])
     variable = np.repeat(np.arange(len(columns)), [len(column[0]) for column in columns])
