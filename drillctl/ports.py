@@ -12,7 +12,7 @@ from typing import Protocol, runtime_checkable
 CARD_BITS = 32
 CARD_MASK = (1 << CARD_BITS) - 1
 SAFE_IMAGE = 0  # every output low: no phase, no forcing, no spindle
-LONGEST_WAIT_S = 0.05  # for the port, while an image is put out or the outputs are made safe
+LONGEST_WAIT_S = 0.05  # that a driver may take to put an image out, or to make the outputs safe
 
 
 def word(image: int, card: int) -> int:

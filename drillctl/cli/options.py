@@ -96,7 +96,7 @@ def up_to(most: int) -> Callable[[str], int]:
     return read
 
 
-# What holds where an option of a running machine is left out.
+# Defaults of the options of a run, as --help shows them.
 DEFAULTS = {
     "port": "simulated, or with mode REAL in the machine's file the port of its card",
     "pace": "real on a real port, else free",

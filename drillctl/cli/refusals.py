@@ -12,7 +12,7 @@ from drillctl.cli import streams
 from drillctl.language import json_text
 
 REFUSED = 2
-# What no reader has turned into an error of its own.
+# Errors that no reader turns into one of its own.
 _WORDS = (
     (MemoryError, "not enough memory for what was asked; give it a smaller file, or a part of it"),
     (RecursionError, "what was given is nested too deeply"),

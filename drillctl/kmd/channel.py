@@ -27,18 +27,18 @@ CHANNEL = np.dtype(
         ("magic", "<u8"),
         ("desk_beat_ns", "<i8"),  # monotonic; written by desk
         ("written", "<u8"),  # records put; desk
-        ("asked", "<u4", (len(Request),)),  # how often each request was asked; desk
+        ("asked", "<u4", (len(Request),)),  # how often each request was made; desk
         ("hands", "<i4", (MOST_HANDS,)),  # outputs and rates to be set by hand, a ring; desk
         ("hands_asked", "<u4"),  # how many were put there; desk
         ("hands_taken", "<u4"),  # how many were taken; ticker
         ("paused", "<u4"),  # 1: only ticks that are granted; desk
         ("granted", "<u8"),  # desk
         ("passed", "<u8"),  # ticks of those granted that were run; ticker
-        ("leave", "<u4"),  # 1: nothing more will come, the ticker may go; desk
+        ("leave", "<u4"),  # 1: the desk is done and the ticker may end; desk
         ("ticker_pid", "<i8"),  # desk
         ("ticker_beat_ns", "<i8"),  # ticker
         ("taken", "<u8"),  # records taken; ticker
-        ("tick_ns", "<i8"),  # how long a tick lasts, so long its beat may fail to come; ticker, before the forks desk
+        ("tick_ns", "<i8"),  # length of a tick: the beat may be silent for so long; ticker, before the fork desk
         ("ended", "<u4"),  # 1 when the ticker is leaving, its outputs safe; ticker
         ("guard_beat_ns", "<i8"),  # guard
         ("guarded", "<u4"),  # 1 when the guard has to make the outputs safe; guard
@@ -55,8 +55,8 @@ class Channel:
     """
 
     def __init__(self, file: Path, create: bool):
-        # A new one is made whole beside its place, then put there: whoever looks finds a whole one, and whoever
-        # still has an old one mapped keeps it.
+        # A new file is written whole under another name and then renamed: a reader finds a whole one, and a process
+        # that has an old one mapped keeps it.
         handle, place = make_file(file) if create else (os.open(file, EXISTING), file)
         try:
             if create:

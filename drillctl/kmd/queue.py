@@ -114,8 +114,8 @@ class Request(IntEnum):
     RESUME = 4
     ACK = 5
     OUTPUT = 6  # one output set by hand; which one and how: ``hand_of``
-    PAUSE = 7  # a real machine's clock stood still (kmd/gate.py) and goes on; asked by the ticker itself
-    LOAD = 8  # edited tables were taken before this tick; asked by the ticker itself
+    PAUSE = 7  # a real machine's clock stood still (kmd/gate.py) and goes on; requested by the ticker itself
+    LOAD = 8  # edited tables were taken before this tick; requested by the ticker itself
     PACE = 9  # another tick rate, at rest; which one: ``pace_of``
 
 

@@ -27,7 +27,7 @@ STATUS = np.dtype(
         ("tick_hz", "<u4"),  # the rate in force; 0 before the first record
         ("late", "<u4"),  # ticks that began more than a period late
         ("late_worst_ns", "<i8"),
-        ("underruns", "<u4"),  # wakes without a command while a job ran: they are not ticks
+        ("underruns", "<u4"),  # underruns: wakes without a command in mid-job, which are no ticks
         ("epoch", "<u4"),
         ("sequence", "<u4"),  # of the current command, 0 = none
         ("done", "<u4"),  # sequence of the last command completed
@@ -39,8 +39,8 @@ STATUS = np.dtype(
         ("fault", "u1"),
         ("fault_kept", "u1"),  # 1: the position was known and still is
         ("position_known", "u1"),
-        ("cut_off", "u1"),  # 1: what was switched on by hand and would burn a winding went off
-        ("hot_ticks", "<u4"),  # after which that will happen; 0: nothing is on that would
+        ("cut_off", "u1"),  # 1: what was switched on by hand and would burn a winding was switched off
+        ("hot_ticks", "<u4"),  # ticks until that happens; 0: nothing of that kind is on
         ("job", "u1"),  # 1 from a program's first command to KMD_KONIEC
         ("moving", "u1"),  # axes that count
         ("queued", "<u2"),

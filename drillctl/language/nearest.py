@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 CLOSE_ENOUGH = 0.6  # difflib's ratio: `pcb-dril` is 0.94 like `pcb-drill`, `dig` 0.57 like `run` at most
-LONGEST_WORD = 60  # compared and shown; what is longer was no slip of a finger
+LONGEST_WORD = 60  # characters compared and shown; a longer word is no typing error
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:

@@ -18,7 +18,7 @@ from drillctl.machine.positions import Place
 from drillctl.machine.shape import LAST_BIT, MachineFile
 from drillctl.machine.source import Source, Value
 
-# In the paper's order; those of an axis stand once for each.
+# In the paper's order; the settings of an axis are repeated for each axis.
 CARD_PLACES: tuple[Place, ...] = (
     ("configuration", "card"),
     ("configuration", "card_address"),
@@ -138,7 +138,7 @@ def _with_locks(raw: MachineFile, found: Iterable[Setting]) -> tuple[Setting, ..
 
 
 def _setting(raw: MachineFile, place: Place, axis: str) -> Setting:
-    value: Any = raw  # a place leads through lists and records alike
+    value: Any = raw  # a place has indexes of lists and names of fields
     shape = _shape_of_a_machine()
     for part in place:
         value = value[part] if isinstance(part, int) else getattr(value, part)

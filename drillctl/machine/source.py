@@ -23,7 +23,7 @@ RecordT = TypeVar("RecordT", bound=msgspec.Struct)
 _AT = re.compile(r"(.*?) - at `\$\.?(.*)`$", re.S)
 _TOML_LINE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)$", re.S)
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`", re.S)
-# What msgspec says, in an instructor's words; the rest of its messages are plain enough.
+# Messages of msgspec in an instructor's words; its other messages are plain enough.
 _PLAINLY = (
     (_UNKNOWN, r"unknown key \1"),
     (re.compile(r"Object missing required field `(.+)`"), r"\1 is missing"),

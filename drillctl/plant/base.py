@@ -9,8 +9,8 @@ from drillctl.machine import Machine
 from drillctl.plant.carriage import Carriage
 from drillctl.plant.rotor import Rotor
 
-# What a recording can have of an axis, by what follows the axis's name: the carriage's place in whole steps; by how
-# many columns it is behind the controller (its lag, and at rest what it lost); the currents that pull, in mA.
+# Signals of an axis in a trace, by the suffix of the axis's name: the carriage's place in whole steps; the columns by
+# which it is behind the controller (its lag, and at rest its lost steps); the currents that pull, in mA.
 PLACE_LANES = ("", "_behind")
 CURRENT_LANES = ("_i1_mA", "_i2_mA")
 
@@ -38,7 +38,7 @@ class Plant:
         self._in_board = False
         for index in range(len(self.rotors)):
             self._carry(index)
-        self.touches = 0  # a bit that is in the board from the beginning did not come down to it
+        self.touches = 0  # a bit that starts in the board has not come down to it
 
     def drive(self, image: int) -> None:
         """Takes the output image of one tick. To be called once a tick, whether it changed or not."""

@@ -27,10 +27,10 @@ class FaultKind:
 
 FAULT_KINDS = {
     "stuck": FaultKind("sensor", 0, 1, "answers never (0) or always (1)"),
-    "dirty": FaultKind("sensor", -20, 20, "answers so many mm too late"),
-    "bouncing": FaultKind("sensor", 1, 1000, "flutters for so many ticks after each change"),
+    "dirty": FaultKind("sensor", -20, 20, "answers N mm too late"),
+    "bouncing": FaultKind("sensor", 1, 1000, "flutters for N ticks after each change"),
     "loose": FaultKind("axis", 0, 20, "mm of play in the belt"),
-    "jammed": FaultKind("axis", 1, 1000, "the guide's friction, so many times the table's"),
+    "jammed": FaultKind("axis", 1, 1000, "friction of the guide, N times the table's"),
     "blunt": FaultKind("", 0, 1000, "metres of board that the drill has cut already"),
     "broken": FaultKind("", 1, 1, "the drill is off and meets no board"),
 }

@@ -17,7 +17,7 @@ from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport, Firmw
 from drillctl.portio.firmata_watch import Watch
 from drillctl.ports import SAFE_IMAGE, PortLayout, PortRefused
 
-BAUD = 57_600  # StandardFirmata's own; a sketch with another is told as DEVICE@BAUD
+BAUD = 57_600  # StandardFirmata's own; another rate is given as DEVICE@BAUD
 SLOWEST_BAUD, FASTEST_BAUD = 300, 4_000_000
 BITS_A_BYTE = 10  # on the wire: start, eight, stop
 USABLE_PERCENT = 95
@@ -32,7 +32,7 @@ class FirmataCard:
     def __init__(self, line: FirmataLine, pins: Pins, firmware: Firmware, watch: Watch):
         self._line, self._pins, self._firmware, self._watch = line, pins, firmware, watch
         self.put = 0
-        self._latched = False  # since the last image: whoever asks must listen too
+        self._latched = False  # since the last image: a question is sent only where its answer is read
         self._outputs = SAFE_IMAGE
         self._inputs = 0
         self._safe = b"".join(pins.messages(SAFE_IMAGE))

@@ -37,7 +37,7 @@ class FirmataLine:
         except (OSError, ValueError) as error:
             reason = f"can't be opened ({error}); see that it is there, that nobody else has it, and your rights"
             raise PortRefused(name, reason) from error
-        # A wish: only some USB converters hold bytes back, and only some of their drivers can be told not to.
+        # May fail: only some USB converters hold bytes back, and only some of their drivers can be set not to.
         with suppress(OSError, ValueError, NotImplementedError):
             self._serial.set_low_latency_mode(True)
 

@@ -116,7 +116,7 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
             if os.fstat(descriptor).st_size:
                 read_map(file)
             os.ftruncate(descriptor, words * WORD_BYTES)
-            # Room on the disk is taken now: a page that finds none when it is written first is a bus error.
+            # Takes the room on the disk now: a mapped page without room is a bus error when it is first written.
             os.pwrite(descriptor, bytes(words * WORD_BYTES), 0)
             return mmap.mmap(descriptor, words * WORD_BYTES)
         finally:

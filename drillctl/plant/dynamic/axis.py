@@ -57,7 +57,7 @@ class DynamicAxis:
         return True
 
     def _integrate(self, supply: Supply) -> None:
-        # Locals: this loop is what a simulated second costs.
+        # Locals for speed: most of a simulated second is spent in this loop.
         sine, slope, quarter, places = SINE, SLOPE, QUARTER, SINES
         law, forward, backward = self.law, self._forward, self._backward
         decay, emf, keep, push = law.decay, law.emf, law.keep, law.push

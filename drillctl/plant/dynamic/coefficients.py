@@ -22,8 +22,8 @@ from itertools import pairwise
 
 from drillctl.machine.dynamics import WINDING_DEGREES, Dynamics
 
-SUBSTEPS = 40  # 50 us at 500 Hz: a rotor's place is then within 0.02 full steps of what ever finer ones tend to
-LONGEST_SUBSTEP_S = 5e-4  # ten times that still loses steps from the same tick rate on
+SUBSTEPS = 40  # 50 us at 500 Hz: a rotor's place is then within 0.02 full steps of the limit of finer ones
+LONGEST_SUBSTEP_S = 5e-4  # even at ten times 50 us steps are lost from the same tick rate on
 SINES = 1024  # places of a cycle; between them a straight line, wrong by less than 5e-6
 QUARTER = SINES // 4
 WAYS = tuple((round(math.cos(math.radians(a))), round(math.sin(math.radians(a)))) for a in WINDING_DEGREES)

@@ -13,7 +13,7 @@ from drillctl.machine.model import MM_PER_INCH, Surroundings
 from drillctl.plant.carriage import Carriage, Switch
 from drillctl.plant.faults import Faults
 
-SAME_HOLE_MM = 0.1  # the bit finds back into a hole that it left no farther than this
+SAME_HOLE_MM = 0.1  # within this distance the bit is in the same hole again
 
 
 class Bit:
