@@ -1,9 +1,8 @@
 """Reads the text form of a trace (`text` shows it), or refuses it by file, line and reason.
 
-Rule: only the canonical form is read, so a file is written again byte for byte (remarks may be spaced
-differently); and everything is bounded, since a golden file may come from anyone. Kinds are known by the
-signals' names, the words of a name or command are taken as they come. Called by replay, the lab and the
-pytest plugin.
+Rule: only the canonical form is read, so writing gives the same file byte for byte (remarks may be spaced differently);
+and everything is bounded, since a golden file may come from anyone. Kinds follow from the signals' names; the words of
+a name or command are taken as they are.
 """
 
 from array import array
@@ -27,7 +26,7 @@ CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
 
 
 class TraceError(Exception):
-    """A trace file that can't be read or run: whose fault, where and why. `line` counts from 1, None for all of it."""
+    """A trace file that can't be read or run. `line` counts from 1, None where the whole file is meant."""
 
     def __init__(self, file: str, line: int | None, reason: str) -> None:
         super().__init__(file, line, reason)
@@ -39,7 +38,7 @@ class TraceError(Exception):
 
 
 def read_text(source: Target, name: str | None = None) -> Trace:
-    """The trace in a path or an open text file; `name` is what errors call it (by default the path).
+    """Returns the trace in a path or an open text file; errors call it `name` (by default the path).
 
     Raises TraceError for a file that is not a whole, canonical trace, OSError as `open`.
     """
@@ -76,7 +75,7 @@ def _bad_ending(line: str) -> str:
 
 
 def _read_head(lines: _Lines) -> tuple[tuple[tuple[str, str], ...], dict[str, bool]]:
-    """Header pairs, and the declared signals in order with whether they are a stimulus."""
+    """Returns header pairs, and the declared signals in order with whether they are a stimulus."""
     _check_magic(lines, next(iter(lines), ""))
     header: list[tuple[str, str]] = []
     signals: dict[str, bool] = {}
@@ -123,7 +122,7 @@ def _declare(lines: _Lines, signals: dict[str, bool], declaration: str) -> None:
 
 
 class _Changes:
-    """The lines `TICK NAME VALUE`, each judged against the one before."""
+    """The lines `TICK NAME VALUE`, each checked against the one before."""
 
     def __init__(self, lines: _Lines, signals: dict[str, bool]) -> None:
         self._lines, self._stimuli = lines, list(signals.values())
@@ -136,7 +135,7 @@ class _Changes:
         self._ticks, self._signal, self._values = array("q"), array("i"), array("q")
 
     def read(self) -> int:
-        """All changes up to `end TICK`: returns that tick."""
+        """Reads all changes up to `end TICK`; returns that tick."""
         meaning = lru_cache(CHANGES_REMEMBERED)(self._meaning)  # the same changes come again and again
         place = -1
         for line in self._lines:
@@ -152,7 +151,7 @@ class _Changes:
         self._lines.refuse("the file stops without 'end': it was cut short; record it again")
 
     def trace(self, header: tuple[tuple[str, str], ...], end: int, trailer: tuple[str, ...]) -> Trace:
-        """What was read. The columns are canonical already."""
+        """Returns the trace that was read. The columns are canonical already."""
         ticks, signal, values = map(np.asarray, (self._ticks, self._signal, self._values))  # the same memory
         return Trace(header, tuple(map(self._signal_at, range(len(self._names)))), ticks, signal, values, end, trailer)
 
@@ -187,14 +186,16 @@ class _Changes:
         return end
 
     def _number(self, word: str) -> int:
-        """A tick, in its one spelling. Bounded before it is converted: int() of a long word takes long."""
+        """Returns a tick, which has one spelling only. Bounded before it is converted: int() of a
+        long word takes long.
+        """
         tick = int(word) if len(word) <= len(str(TICK_LIMIT)) and word.isdecimal() else -1
         if str(tick) != word or tick > TICK_LIMIT:
             self._lines.refuse(f"{quoted(word)} is no tick: a whole number up to {TICK_LIMIT}")
         return tick
 
     def _meaning(self, change: str) -> tuple[int, int]:
-        """Index and value of `NAME VALUE`."""
+        """Returns index and value of `NAME VALUE`."""
         name, _, word = change.partition(" ")
         index = self._index.get(name)
         if index is None:
