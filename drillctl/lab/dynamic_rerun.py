@@ -15,7 +15,7 @@ from drillctl.lab.tables import axis_index
 from drillctl.machine import AxisTable, Library, Machine
 from drillctl.plant.choice import DYNAMIC
 from drillctl.plant.dynamic.plant import DynamicPlant
-from drillctl.plant.dynamic.recorder import Recorded, Recorder
+from drillctl.plant.dynamic.recorder import Motion, MotionRecorder
 from drillctl.plant.faults import PlantRefused
 from drillctl.ports import CARD_BITS
 from drillctl.replay.rerun import with_columns
@@ -42,7 +42,7 @@ class Watched:
     machine: Machine
     table: AxisTable
     commanded: Counts
-    rotor: Recorded
+    rotor: Motion
     sent_mm: Floats
     drilled_mm: Floats
     as_run: bool
@@ -97,9 +97,9 @@ def _plant(recorded: Trace, machine: Machine) -> tuple[DynamicPlant, bool]:
 
 def _driven(
     plant: DynamicPlant, recorded: Trace, machine: Machine, index: int, columns: list[Counts]
-) -> tuple[Recorded, Floats, Floats]:
+) -> tuple[Motion, Floats, Floats]:
     """All ticks of the run, with the eyes on one motor and on the bit."""
-    recorder, touches, places = Recorder(plant.motors[index]), 0, []
+    recorder, touches, places = MotionRecorder(plant.motors[index]), 0, []
     for tick, image in enumerate(_images(recorded, machine).tolist()):
         plant.drive(image)
         recorder.sample()

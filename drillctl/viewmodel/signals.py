@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from drillctl.ports import CARD_BITS
 from drillctl.viewmodel.console import Problems
 
 SignalKind = Literal["input", "output", "coil"]
@@ -35,6 +36,11 @@ class SignalView:
     def on(self) -> bool:
         """Whether it is active."""
         return self.level == self.active_level
+
+    @property
+    def card_and_bit(self) -> tuple[int, int]:
+        """The card that the wire is on, and the bit within it."""
+        return divmod(self.bit, CARD_BITS)
 
 
 class ManualControl(Protocol):

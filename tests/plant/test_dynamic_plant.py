@@ -9,7 +9,7 @@ from drillctl.lab.moves import move
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.plant import IdealPlant, PlantChoice, PlantRefused
 from drillctl.plant.dynamic.plant import DynamicPlant
-from drillctl.plant.dynamic.recorder import Recorder, record
+from drillctl.plant.dynamic.recorder import MotionRecorder, motion_of
 from drillctl.plant.faults import FAULT_KINDS, fault_lines, parse_fault
 
 LIBRARY = Library((shipped_tables(),))
@@ -195,10 +195,10 @@ def test_a_hole_that_is_made_resists_no_more_and_another_place_does(exact: Machi
 def test_the_recorder_sees_place_speed_and_currents(drill: Machine) -> None:
     table = drill.axes[0]
     images = move(table, 60, rest_ticks=20).images.tolist()
-    told = record(table, drill.tick_hz, images)
+    told = motion_of(table, drill.tick_hz, images)
     assert told.columns.shape == told.speed.shape == (len(images),) and told.currents.shape == (len(images), 4)
     plant = DynamicPlant(drill)
-    watching = Recorder(plant.motors[0])
+    watching = MotionRecorder(plant.motors[0])
     for image in images:
         plant.drive(image)
         watching.sample()

@@ -15,37 +15,38 @@ from drillctl.plant.dynamic.rotor import DynamicRotor
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Recorded:
-    """After each tick: columns (ticks,) from where the rotor's count is 0, speed (ticks,) in rad/s of the shaft,
-    currents (ticks, 4) in A, in the order of machine.dynamics.WINDING_DEGREES."""
+class Motion:
+    """The motion of one motor, after each tick: columns (ticks,) from where the rotor's count is 0, speed (ticks,) in
+    rad/s of the shaft, currents (ticks, 4) in A, in the order of machine.dynamics.WINDING_DEGREES.
+    """
 
     columns: NDArray[np.float64]
     speed: NDArray[np.float64]
     currents: NDArray[np.float64]
 
 
-class Recorder:
-    """Watches one motor."""
+class MotionRecorder:
+    """Samples one motor after each tick."""
 
     def __init__(self, motor: DynamicRotor):
         self._motor = motor
         self._rows: list[tuple[float, ...]] = []
 
     def sample(self) -> None:
-        """To be called after each tick."""
+        """Keeps the motor's present state; to be called after each tick."""
         axis = self._motor.axis
         self._rows.append((self._motor.columns, axis.speed, *axis.currents))
 
-    def finish(self) -> Recorded:
-        """All that was sampled."""
+    def finish(self) -> Motion:
+        """Returns everything that was sampled."""
         rows = np.array(self._rows, np.float64).reshape(-1, 6)
-        return Recorded(rows[:, 0], rows[:, 1], rows[:, 2:])
+        return Motion(rows[:, 0], rows[:, 1], rows[:, 2:])
 
 
-def record(table: AxisTable, tick_hz: int, images: Iterable[int]) -> Recorded:
-    """A lone motor of this axis, from power-up, driven by these port images, a tick each."""
+def motion_of(table: AxisTable, tick_hz: int, images: Iterable[int]) -> Motion:
+    """Runs a motor of this axis alone, from power-up, on these port images, a tick each; returns its motion."""
     motor = DynamicRotor(table, tick_hz)
-    recorder = Recorder(motor)
+    recorder = MotionRecorder(motor)
     for image in images:
         motor.pull(image & motor.mask)
         recorder.sample()

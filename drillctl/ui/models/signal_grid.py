@@ -13,7 +13,6 @@ from drillctl.viewmodel.signals import SignalKind, SignalView
 
 CELL_COLUMNS = 39
 NAME_COLUMNS = 15
-CARD_BITS = 32
 TITLES: dict[SignalKind, str] = {"input": N_("Inputs"), "output": N_("Outputs"), "coil": N_("Motor")}
 # Kind: the words for on and off.
 STATES: dict[SignalKind, tuple[str, str]] = {
@@ -65,7 +64,7 @@ def moved(signals: Sequence[SignalView], cursor: int, columns: int, by: int) -> 
 
 def about(signal: SignalView) -> str:
     """All about one signal, for the line below."""
-    card, bit = divmod(signal.bit, CARD_BITS)
+    card, bit = signal.card_and_bit
     place = _("{name}: bit {bit} of card {card}").format(name=signal.name, bit=bit, card=card)
     if signal.kind == "input":
         return f"{place}, " + _("reached when {level}").format(level=_(LEVELS[signal.active_level]))
