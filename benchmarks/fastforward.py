@@ -28,7 +28,7 @@ from drillctl.execution.fastforward import Batch
 from drillctl.generation.job import names_of
 from drillctl.kmd import RECORD, Op, to_text
 from drillctl.machine import Library, Machine, shipped_tables
-from drillctl.replay.replay import replay
+from drillctl.replay.compare import replay
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import segment_bytes

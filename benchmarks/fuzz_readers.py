@@ -37,10 +37,11 @@ from drillctl.machine.source import Source
 from drillctl.portio.gpiod_lines import read_line_map
 from drillctl.portio.mapped import read_map
 from drillctl.ports import PortLayout, PortRefused
-from drillctl.replay.replay import taped_again
-from drillctl.replay.stimuli import machine_of, playback, program_of
-from drillctl.replay.trace_files import read_record, read_trace
+from drillctl.replay.compare import taped_again
+from drillctl.replay.header import machine_of, program_of
+from drillctl.replay.player import playback
 from drillctl.trace import Trace, TraceError, segment_bytes
+from drillctl.trace.files import read_record, read_trace
 from drillctl.trace.segment_file import MAGIC
 from drillctl.viewmodel.jobs import Site
 

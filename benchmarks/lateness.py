@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.lab.latency import measure, pace
-from drillctl.lab.wakeups import WakeLog, quantile_us
+from drillctl.lab.wakeups import WakeupLog, quantile_us
 from drillctl.machine import Library, Machine, shipped_tables
-from drillctl.ticker.processes import Child
+from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.realtime import PRIORITY, become_punctual
 from drillctl.ticker.ticker import Ticker
 from drillctl.viewmodel.reports import LatencyReport
@@ -88,12 +88,12 @@ def _control() -> bool:
 
 def late_share_in_a_thread() -> float:
     """The same loop, at the same priority, in a process whose main thread is busy."""
-    log = WakeLog()
-    Child(lambda: _busy_process(log)).end(patience_s=5 * RUN_S)
-    return int(log.record["late_wakes"]) / log.wakes
+    log = WakeupLog()
+    ChildProcess(lambda: _busy_process(log)).end(patience_s=5 * RUN_S)
+    return int(log.record["late_wakeups"]) / log.wakeups
 
 
-def _busy_process(log: WakeLog) -> None:
+def _busy_process(log: WakeupLog) -> None:
     ticker = Ticker.simulated(pcb_drill(HZ))
 
     def tick_on() -> None:

@@ -1,4 +1,4 @@
-"""Wiring: ``*.trace`` and ``*.seg`` files are tests, in anybody's repository that has drillctl installed.
+"""A pytest plugin: ``*.trace`` and ``*.seg`` files are tests, in anybody's repository that has drillctl installed.
 
 A trace is replayed with the tables at hand; the test fails at the first tick that differs. Only files that begin
 with the magic line are collected. ``--drillctl-rewrite`` records goldens anew on the simulated machine.
@@ -24,7 +24,7 @@ TO_CONTROLLER = "drillctl_traces"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The plugin's options."""
+    """Adds the plugin's options to pytest's."""
     group = parser.getgroup("drillctl", "traces of drilling machines")
     group.addoption("--drillctl-rewrite", action="store_true", help="record every golden trace anew, then pass")
     group.addoption("--drillctl-tables", metavar="DIR", type=Path, help="look for tables here first")
@@ -40,7 +40,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "TraceFile | None":
-    """Traces by their first line; other files that happen to be called so are left alone."""
+    """Collects files that begin as a trace does; others with such a name are left alone."""
     if file_path.suffix in SUFFIXES and _is_trace(file_path):
         return TraceFile.from_parent(parent, path=file_path)
     return None
@@ -65,8 +65,8 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: Any, error: object) -> None:
     """With pytest-xdist the workers collect; each tells the controller, as it ends, how many traces it found."""
-    told = getattr(node, "workeroutput", {}).get(TO_CONTROLLER, 0)
-    node.config.stash[COUNT] = max(node.config.stash.get(COUNT, 0), told)
+    count = getattr(node, "workeroutput", {}).get(TO_CONTROLLER, 0)
+    node.config.stash[COUNT] = max(node.config.stash.get(COUNT, 0), count)
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
@@ -79,7 +79,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    """Why a run whose tests all passed has failed."""
+    """Says why a run whose tests all passed has failed."""
     if _lacks_traces(config):
         terminalreporter.write_line("drillctl: no trace was collected (--drillctl-require-traces)", red=True)
 
@@ -89,10 +89,10 @@ def _lacks_traces(config: pytest.Config) -> bool:
 
 
 class TraceFile(pytest.File):
-    """One file: one test."""
+    """A trace file, which has one test."""
 
     def collect(self) -> "Iterable[TraceItem]":
-        """The file's only item."""
+        """Yields the file's only test."""
         yield TraceItem.from_parent(self, name="replay")
 
 
@@ -101,12 +101,12 @@ class TraceMismatch(Exception):
 
 
 class TraceItem(pytest.Item):
-    """Replays a trace, or records it anew."""
+    """The test of a trace: replays it, or records it anew."""
 
     def runtest(self) -> None:
         """Raises TraceMismatch at the first tick that differs."""
         from drillctl.machine import Library
-        from drillctl.replay.replay import record_again, replay
+        from drillctl.replay.compare import record_again, replay
 
         option = self.config.getoption
         library = Library.standard(option("--drillctl-tables"))
@@ -128,5 +128,5 @@ class TraceItem(pytest.Item):
         return str(super().repr_failure(excinfo))
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """Where the test stands."""
+        """The file of the test, its line and the name shown."""
         return self.path, 0, f"trace {one_line(self.path.name)}"

@@ -62,9 +62,9 @@ def _ending(out: Path) -> str:
 def _trace(arguments: argparse.Namespace) -> int:
     """Writes a trace in its other form; segments as small as the tables at hand allow."""
     from drillctl.files.outputs import reserved
-    from drillctl.replay.replay import in_form_of
-    from drillctl.replay.stimuli import machine_of
-    from drillctl.replay.trace_files import read_trace, write_record
+    from drillctl.replay.compare import in_form_of
+    from drillctl.replay.header import machine_of
+    from drillctl.trace.files import read_trace, write_record
 
     trace = read_trace(arguments.file, arguments.to_tick)
     machine = machine_of(trace, arguments.file, options.library(arguments))

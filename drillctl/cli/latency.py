@@ -25,7 +25,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """Ctrl-C ends it early, with what was measured (exit 130)."""
+    """Measures and prints the report; Ctrl-C ends it early, with what was measured until then (exit 130)."""
     from drillctl.lab.latency import LatencyError, a_moment, measure
     from drillctl.ui.terminal.reports import latency_lines
 
@@ -34,10 +34,10 @@ def call(arguments: argparse.Namespace) -> int:
     signals: list[int] = []
     with caught(lambda number, frame: signals.append(number)):
         try:
-            told = measure(machine, arguments.seconds, lambda: a_moment() or bool(signals))
+            report = measure(machine, arguments.seconds, lambda: a_moment() or bool(signals))
         except LatencyError:
             if signals:
                 return exit_code(signals[0])
             raise
-    text = json_text(told.as_dict(), 2) if arguments.json else "\n".join(latency_lines(told))
+    text = json_text(report.as_dict(), 2) if arguments.json else "\n".join(latency_lines(report))
     return streams.delivered(exit_code(signals[0]) if signals else 0, text + "\n")

@@ -27,11 +27,11 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """The output is reserved before the run is made again."""
     with drawing.drawn(arguments.out, (arguments.trace,)) as draw:
-        from drillctl.lab.dynamic_rerun import watch
+        from drillctl.lab.dynamic_rerun import rerun_axis
         from drillctl.lab.pictures import PICTURES, Window
 
-        watched = watch(arguments.trace, options.library(arguments), arguments.axis)
-        draw(PICTURES[arguments.what](watched, Window(arguments.from_tick, arguments.to_tick)))
+        run = rerun_axis(arguments.trace, options.library(arguments), arguments.axis)
+        draw(PICTURES[arguments.what](run, Window(arguments.from_tick, arguments.to_tick)))
     return 0
 
 

@@ -17,18 +17,18 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """One port a paragraph; looking at them opens none."""
+    """Prints a paragraph for each port; none is opened."""
     from drillctl.portio.registry import PORTS
 
-    told = [_told(port) for port in PORTS.values()]
+    rows = [_facts(port) for port in PORTS.values()]
     if arguments.json:
-        print(json_text(told, 2))
+        print(json_text(rows, 2))
     else:
-        print("\n\n".join(_paragraph(row) for row in told))
+        print("\n\n".join(_paragraph(row) for row in rows))
     return 0
 
 
-def _told(port: "Port") -> dict[str, str | bool | None]:
+def _facts(port: "Port") -> dict[str, str | bool | None]:
     reason = port.missing()
     return {
         "name": port.name,
@@ -41,7 +41,7 @@ def _told(port: "Port") -> dict[str, str | bool | None]:
     }
 
 
-def _paragraph(told: dict[str, str | bool | None]) -> str:
-    named = f"{told['name']}:{told['address']}" if told["address"] else told["name"]
-    here = "can be used here" if told["usable"] else f"can't be used here: {told['reason']}"
-    return f"{named}\n  {told['summary']}\n  needs {told['needs']}\n  {here}"
+def _paragraph(facts: dict[str, str | bool | None]) -> str:
+    named = f"{facts['name']}:{facts['address']}" if facts["address"] else facts["name"]
+    here = "can be used here" if facts["usable"] else f"can't be used here: {facts['reason']}"
+    return f"{named}\n  {facts['summary']}\n  needs {facts['needs']}\n  {here}"

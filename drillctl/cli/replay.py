@@ -19,7 +19,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Replays each; 1 where one differs. A trace that can't be read is an error, as everywhere."""
-    from drillctl.replay.replay import replay
+    from drillctl.replay.compare import replay
 
     library = options.library(arguments)
     differing = 0

@@ -63,9 +63,9 @@ def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     was not given.
     """
     from drillctl.generation.errors import JobError
-    from drillctl.jobs.site import Asked, moved, running_at, site_of
+    from drillctl.jobs.site import SiteOptions, moved, running_at, site_of
 
-    given = Asked(arguments.port, arguments.pace, options.plant(arguments))
+    given = SiteOptions(arguments.port, arguments.pace, options.plant(arguments))
     running = running_at(account.site, given)
     if not arguments.elsewhere and (reason := moved(account.site, site_of(running))):
         there = "leave --port, --pace, --plant, --fault and --seed out to go on there"

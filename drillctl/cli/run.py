@@ -37,8 +37,9 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.files.outputs import reserved, unwritten
     from drillctl.jobs.session import Session
     from drillctl.machine import machine_hazards
-    from drillctl.replay.trace_files import machine_named, takes_segments
+    from drillctl.replay.header import machine_named
     from drillctl.ticker.launch import pace_of
+    from drillctl.trace.files import takes_segments
 
     machine = options.machine(arguments)
     port = options.port(arguments, machine)
@@ -78,7 +79,8 @@ def _tell(session: "Session") -> None:
 
 
 def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:
-    from drillctl.replay.trace_files import machine_named, write_record
+    from drillctl.replay.header import machine_named
+    from drillctl.trace.files import write_record
 
     record = done.trace
     if trace is not None and record is not None:

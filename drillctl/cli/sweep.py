@@ -38,7 +38,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument(
         "--steps", default="1,10,100", metavar="VALUES", help="lengths of the moves; default: %(default)s"
     )
-    _add_luck(verb)
+    _add_draws(verb)
     verb.add_argument(
         "--out", type=Path, required=True, metavar="F.csv", help="file of results; one that was begun is continued"
     )
@@ -49,7 +49,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """The question is checked whole before the first machine is tried."""
+    """Runs or continues the sweep and draws it; the question is checked whole before the first machine is tried."""
     from drillctl.lab.sweep import Results, WorkerPool
     from drillctl.lab.sweep_picture import losing, sweep_picture
     from drillctl.lab.workers import cores
@@ -64,7 +64,7 @@ def call(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _add_luck(verb: argparse.ArgumentParser) -> None:
+def _add_draws(verb: argparse.ArgumentParser) -> None:
     draws = "machines at each point, with parameters drawn at random within --spread; default: %(default)s"
     verb.add_argument("--draws", type=options.up_to(MOST_DRAWS), default=1, metavar="N", help=draws)
     verb.add_argument("--spread", type=_share, default=0.0, metavar="F", help="0.03: within 3 %%; default: %(default)s")
@@ -98,8 +98,8 @@ def _varied(text: str) -> tuple[str, tuple[float, ...]]:
     return name, numbers(values, f"--vary {name}", 0.001, 1000)
 
 
-def _work(question: "Question", results: "Results", crew: "WorkerPool") -> None:
-    """With a bar on a terminal."""
+def _work(question: "Question", results: "Results", pool: "WorkerPool") -> None:
+    """Runs the sweep, with a progress bar on a terminal."""
     from tqdm import tqdm
 
     from drillctl.lab.sweep import sweep
@@ -108,7 +108,7 @@ def _work(question: "Question", results: "Results", crew: "WorkerPool") -> None:
         print(f"drillctl: {results.path}: {results.rows} of {question.machines} machines are done", file=sys.stderr)
     stream = streams.bar(sys.stderr)
     with tqdm(total=question.machines, initial=results.rows, unit="machine", disable=None, file=stream) as bar:
-        for rows in sweep(question, results, crew):
+        for rows in sweep(question, results, pool):
             bar.update(rows - bar.n)
 
 

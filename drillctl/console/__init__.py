@@ -1,10 +1,16 @@
-"""The machine kept running for the screens: implements what viewmodel/console.py and its neighbours ask for.
+"""The machine kept running for the screens: implements the protocols of viewmodel/.
 
-    machine_console.py  one machine, one board after another     operating.py  jobs, jogs, queues, requests on it
-    machine_in_use.py   its link and port, or another machine    boards.py     the board: planned, drilled, resumed
-    operator_state.py   hold, tool change and working base, as the operator has asked
-    jogging.py          a key pressed, a key held down
-    views.py            status, machine and job as records       signals.py    signals, outputs, single ticks
-    port.py             the port in use, tested                  tables.py, queues.py  as the editors change them
-    scope.py, scope_layout.py, scope_runs.py   runs for the scope                    recent_jobs.py
+    machine_console.py  the Console: everything that a person can ask of the machine, made of the parts below
+    machine_in_use.py   the machine with its link and port; changes to another machine or port
+    running_job.py      the job that runs on it, held and resumed
+    boards.py           the board that is loaded: planned, drilled with a journal, what is left of one cut off
+    operator_state.py   the tool change that is waited for, and the working base
+    jogging.py          jog keys: pressed, or held down
+    views.py            status record, machine and board as the records that screens draw
+    recent_jobs.py      the boards opened last, in a file
+
+    tables.py, queues.py    for the editors                   signals.py      signals, outputs, single ticks
+    port.py                 the port in use, tested           scope.py, scope_layout.py, scope_runs.py   for the scope
+
+Rule: nothing here draws or knows a key; a problem is returned as a sentence, never raised.
 """

@@ -1,7 +1,7 @@
-"""The board on the operator's desk: planned as asked for, journalled, opened again, gone on with.
+"""The board that is loaded: planned by its options, journalled, and what is left of one that was cut off.
 
 Rule: a board is planned whole or the one before stays; a job that is drilled has a journal as `drillctl run` keeps it,
-and what was cut off is made again by the same code as `drillctl resume`. Used by station.
+and what was cut off is made again by the same code as `drillctl resume`.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import MeasuredRow, Recipe
-from drillctl.jobs.estimate import foresee
+from drillctl.jobs.estimate import estimate_with_ticks
 from drillctl.jobs.journal import Account, Head, Journal, JournalError, head_of, read_journal
 from drillctl.jobs.journal.folder import give_up, unfinished
 from drillctl.jobs.runner import JobRunner
@@ -38,24 +38,32 @@ REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, OSError)
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A board as it will be drilled; ``left`` of it, ``known`` by a new journal's head or by an old one's account."""
+    """A board as it will be drilled.
+
+    left     the job that drills it, or what is left of it
+    ticks    (n,) that each command of ``left`` takes
+    journal  its file; begun with ``start_from``, or gone on with where that is the account of an earlier run
+    """
 
     file: Path
     recipe: Recipe
     view: BoardView
     left: Job
-    foreseen: NDArray[np.int64]  # ticks of each command of what is left
+    ticks: NDArray[np.int64]
     journal: Path
-    known: Head | Account
+    start_from: Head | Account
 
     @property
     def done_before(self) -> int:
-        """Holes of earlier runs."""
-        return self.known.holes_done if isinstance(self.known, Account) else 0
+        """How many holes earlier runs have drilled."""
+        return self.start_from.holes_done if isinstance(self.start_from, Account) else 0
 
 
 class Boards:
-    """One board at a time, with the lists of what was opened and what was cut off."""
+    """One board at a time, with the lists of what was opened and what was cut off.
+
+    troubles  of the journal of the job that ran last; that the job was stopped is none
+    """
 
     def __init__(self) -> None:
         self._recent = RecentJobs(journals() / "recent.json")
@@ -64,7 +72,7 @@ class Boards:
         self.troubles: Problems = ()
 
     def load(self, file: Path, asked: Asked, machine: Machine, base: Base) -> Problems:
-        """A drill file, as asked."""
+        """Plans the board of a drill file, from this working base; it becomes the newest of the recent jobs."""
         try:
             recipe = recipe_of(asked, machine, base)
         except msgspec.ValidationError as error:
@@ -74,27 +82,29 @@ class Boards:
         self._recent.add(file, asked)
         return ()
 
-    def based(self, machine: Machine, base: Base) -> Problems:
-        """The same board from another working base, or at another tick rate. Nothing where it is planned so."""
+    def plan_again(self, machine: Machine, base: Base) -> Problems:
+        """Plans the loaded board again where its working base or the machine's tick rate is another one now."""
         if self.plan is None or (self.plan.recipe.base, self.plan.recipe.tick_hz) == (base, machine.tick_hz):
             return ()
         recipe = msgspec.structs.replace(self.plan.recipe, base=base, tick_hz=machine.tick_hz)
         return self._planned(self.plan.file, recipe, machine)
 
     def forget(self) -> None:
-        """No board lies on the desk."""
+        """From now on no board is loaded."""
         self.plan = None
 
     def recent(self) -> list[RecentJob]:
-        """The newest first."""
+        """The boards opened last, the newest first."""
         return self._recent.read()
 
     def unfinished(self, here: Site) -> list[UnfinishedJob]:
-        """The newest first, whichever machine they were begun on; ``here`` is where they would go on."""
+        """The jobs that were cut off, the newest first, on whichever machine; ``here`` is where they would go on."""
         return [_unfinished_job(file, account, here) for file, account in unfinished(journals())]
 
     def take_up(self, journal: Path, machine: Machine, here: Site, elsewhere: bool) -> Problems:
-        """What is left of a job that was cut off, from its own base; not elsewhere unless that was agreed to."""
+        """Plans what is left of a job that was cut off, from its own working base. Refused where it ran on another
+        machine, or elsewhere than ``here``; ``elsewhere``: the operator has agreed to the latter.
+        """
         try:
             account = read_journal(journal)
             if account.head.machine != machine.name:
@@ -102,15 +112,15 @@ class Boards:
             if not elsewhere and (reason := moved(account.site, here)):
                 return (f"{journal}: {reason}",)
             rest = rest_of(journal, account, machine)
-            told, ticks = foresee(rest.left)
-            view = board_view(Path(account.head.job), rest.whole, told, *rest.recipe.reading())
+            estimate, ticks = estimate_with_ticks(rest.left)
+            view = board_view(Path(account.head.job), rest.whole, estimate, *rest.recipe.reading())
         except REFUSALS as error:
             return _problems(error)
         self.plan = Plan(Path(account.head.job), rest.recipe, view, rest.left, ticks, journal, account)
         return ()
 
     def give_up(self, journal: Path) -> Problems:
-        """It is not gone on with."""
+        """Deletes the journal of a job that was cut off."""
         try:
             give_up(journal)
         except JournalError as error:
@@ -118,26 +128,26 @@ class Boards:
         return ()
 
     def begin(self, here: Site) -> Problems:
-        """Opens the journal of the board on the desk. Refused too where an unfinished job of its file would be lost."""
+        """Opens the journal of the loaded board. Refused where it holds an unfinished job, which would be lost."""
         assert self.plan is not None
         try:
-            self.journal = Journal(self.plan.journal, self.plan.known, here)
+            self.journal = Journal(self.plan.journal, self.plan.start_from, here)
         except JournalError as error:
             return _problems(error)
         return ()
 
-    def ended(self, desk: JobRunner, machine: Machine) -> None:
-        """A job is over, its journal with it. What can be started now is the whole board again."""
+    def ended(self, runner: JobRunner, machine: Machine) -> None:
+        """Ends the journal of a job that is over. What can be started now is the whole board again."""
         if self.journal is None:
             return
-        self.troubles = (desk.trouble,) if desk.trouble else ()  # of the journal; that the job was stopped is no news
-        desk.settle()
+        self.troubles = (runner.trouble,) if runner.trouble else ()
+        runner.settle()
         self.close()
-        if self.plan is not None and isinstance(self.plan.known, Account):
+        if self.plan is not None and isinstance(self.plan.start_from, Account):
             self._planned(self.plan.file, self.plan.recipe, machine)
 
     def close(self) -> None:
-        """Nothing more is written of a job that was cut off."""
+        """Closes the journal; of a job that still runs, as where it was cut off."""
         if self.journal is not None:
             self.journal.close()
             self.journal = None
@@ -147,8 +157,8 @@ class Boards:
             job = load_job(file, machine, recipe.wishes(machine), *recipe.reading())
             if job.work is None:
                 return (f"{file}: a queue of commands; it is run from the queue editor",)
-            told, ticks = foresee(job)
-            view = board_view(file, job, told, *recipe.reading())
+            estimate, ticks = estimate_with_ticks(job)
+            view = board_view(file, job, estimate, *recipe.reading())
             head = head_of(file, job, recipe.options())
         except REFUSALS as error:
             return _problems(error)
@@ -157,11 +167,11 @@ class Boards:
 
 
 def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
-    """A board is placed by its measured holes alone where there are any. Raises msgspec.ValidationError for settings
-    that the command line would not take: a list of recent jobs may hold anything.
+    """The options of the screen as the command line has them, checked as it checks them: a list of recent jobs may hold
+    anything. A board with measured holes is placed by these alone. Raises msgspec.ValidationError.
     """
     panel = asked.panel
-    told = {
+    options = {
         "machine": _reference(machine),
         "tick_hz": machine.tick_hz,
         "origin": None if asked.origin == "base" else asked.origin,
@@ -179,18 +189,18 @@ def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
         "after_end": asked.after_end,
         "base": base,
     }
-    return Recipe.checked(told)
+    return Recipe.checked(options)
 
 
 def _reference(machine: Machine) -> str:
-    """By its name where that leads to it, else by its file."""
+    """A machine's name where the standard library finds it by that, else its file."""
     file = real_path(machine.file)
     named = Library.standard().find("machines", machine.name)
     return machine.name if named is not None and real_path(named) == file else str(file)
 
 
 def align(measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
-    """What measured holes say of where a board lies; or why they say nothing."""
+    """Fits a placing to measured holes: the report, or None and the reasons why there is none."""
     rows = [_row(hole) for hole in measured]
     try:
         found = alignment.fit([row[:2] for row in rows], [row[2:] for row in rows], mirrored=face_down)
@@ -199,10 +209,10 @@ def align(measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[Alignmen
     parts = decompose(found.affine)
     residual_mm = tuple(found.residual_mm.tolist())
     scale = (parts.scale_x, parts.scale_y)
-    told = AlignmentReport(
+    report = AlignmentReport(
         found.kind, found.affine.matrix, residual_mm, parts.turn_deg, scale, found.warnings, found.rejected
     )
-    return told, ()
+    return report, ()
 
 
 def _row(hole: MeasuredHole) -> MeasuredRow:

@@ -2,7 +2,7 @@
 
 A terminal tells of presses and never of a key let go. Presses that follow each other faster than a finger can come from
 a key that is held down; when they stop coming, it was let go, and so it was if the line to the terminal broke.
-Rule: Jogging knows keys and time alone; what moves and what stops is handed in. Made and asked by station.
+Rule: Jogging knows keys and time alone; what moves and what stops is handed in.
 """
 
 from collections.abc import Callable
@@ -22,8 +22,11 @@ Step = tuple[str, int]  # axis, signed steps
 
 
 class Jogging:
-    """``move`` sends an axis so many steps from here; ``stop`` brakes it; ``way`` tells the steps that are left to the
-    end of an axis's reach in the direction of a step, None where nobody knows.
+    """Turns key presses into moves.
+
+    move  moves an axis by so many steps; stop: brakes it
+    way   signed steps left to the end of an axis's reach in the direction of a step; None where the position is unknown
+    under_way   a move that a key began is on its way
     """
 
     def __init__(self, move: Callable[[str, int], Problems], stop: Callable[[], object],
@@ -35,7 +38,7 @@ class Jogging:
         self.under_way = self._running = False
 
     def press(self, step: Step, busy: bool, now_s: float) -> Problems:
-        """A key was pressed, or repeats; ``busy`` while a move is on its way."""
+        """Takes a key press, or a repeat of one; ``busy`` while a move is on its way."""
         together = step == self._key and now_s - self._pressed_s <= REPEAT_S
         self._presses = self._presses + 1 if together else 1
         self._key, self._pressed_s = step, now_s
@@ -55,7 +58,7 @@ class Jogging:
         return self._begin(*step, self._held(now_s)) if step else ()
 
     def forget(self) -> None:
-        """Something else was asked for: no step waits, and no press counts as a repeat of one before."""
+        """Forgets the step that waits and the key that is held, because something else was asked for."""
         self._further = self._key = None
 
     def _begin(self, axis: str, steps: int, held: bool) -> Problems:

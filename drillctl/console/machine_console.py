@@ -1,149 +1,270 @@
-"""The machine kept running for the screens (operating.py), and the boards that are drilled on it.
+"""The machine kept running for the screens: a Console (viewmodel/console.py) made of the machine in use, its running
+job, the board on the table, the working base and the jog keys.
 
-Rule: a Console (viewmodel/console.py): never blocks, never raises for what a person did. The machine runs in a process
-of its own, so a screen that hangs disturbs no tick.
+Rule: never blocks, and never raises for what a person did: it returns problems, and then nothing has changed. Nothing
+is begun while something else is on its way; stops and emergency stops are never refused for that. The machine runs in
+a process of its own, so a screen that hangs disturbs no tick.
 """
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from drillctl.console.boards import Boards, align
+from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
-from drillctl.console.operating import BUSY, OperatedMachine
 from drillctl.console.operator_state import WorkingBase
+from drillctl.console.running_job import RunningJob, took_a_base
+from drillctl.console.scope import RunRecording
 from drillctl.console.views import machine_list, machine_view
-from drillctl.generation.job import Job
+from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
-from drillctl.jobs.runner import JobRunner
+from drillctl.kmd import Condition, KmdError, Request, parse_program
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
+from drillctl.ticker.link import Link
 from drillctl.viewmodel.console import BoardView, MachineView, Problems
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
+from drillctl.viewmodel.records import Progress
+
+BUSY = "the machine is at work; hold or stop it first"
 
 
-class MachineConsole(OperatedMachine):
-    """One operator, one machine. ``running``, ``tick_hz``, ``port_won``: as console/machine_in_use.py has them.
-
-    tools  ask or assume, at a tool change; None: as the machine's file has it
-    """
+class MachineConsole:
+    """One operator, one machine. ``running``, ``tick_hz``, ``port_won`` go to MachineInUse, ``tools`` to RunningJob."""
 
     def __init__(
         self, library: Library, machine: Machine, running: RunSettings, tools: str | None = None,
         tick_hz: int | None = None, port_won: bool = False,
     ):  # fmt: skip
-        super().__init__(MachineInUse(library, machine, running, tick_hz, port_won), tools)
         self._library = library
+        self.used = MachineInUse(library, machine, running, tick_hz, port_won)
+        self._job = RunningJob(self.used, tools)
         self._boards = Boards()
+        self._base = WorkingBase(machine)
+        self._jogs = Jogging(
+            lambda axis, steps: self.run_queue(f"KMD_RUCHd {axis}={steps}\n"),
+            lambda: self.link.post(Request.STOP),
+            lambda axis, steps: way_left(self.machine, self.link.status(), axis, steps),
+        )
+
+    @property
+    def machine(self) -> Machine:
+        """The machine in use, at the tick rate in force."""
+        return self.used.machine
+
+    @property
+    def link(self) -> Link:
+        """The link to the machine in use."""
+        return self.used.link
+
+    @property
+    def recording(self) -> RunRecording:
+        """What the machine in use has done since it was started, for the scope."""
+        return self.used.recording
+
+    @property
+    def at_work(self) -> bool:
+        """Whether a job, a jog or an initialisation is on its way."""
+        return self._job.at_work
+
+    def turn(self) -> bool:
+        """Lets the machine run for a moment; True where it runs free and has more to do at once."""
+        ended = self._job.advance()
+        if ended is not None:
+            if took_a_base(ended):
+                self._base.take(ended.status["base"].tolist())
+            self._boards.ended(ended, self.machine)
+        if self.used.follow_rate() or ended is not None:
+            self._boards.plan_again(self.machine, self._base.xy)
+        if self.link.status()["condition"] == Condition.RETURNING:  # by the homing table, which ends at machine zero
+            self._base.move(0, 0)
+        self.recording.keep()
+        self._jogs.carry_on(self.at_work, time.monotonic())
+        return self.at_work and self.used.runs_free
 
     def view(self) -> MachineView:
-        """From the status record."""
-        running = self._desk.job.program if self._desk else None
-        first = int(self._desk.first["done"]) if self._desk else 0
+        """The machine as its status record and the running job have it now."""
+        program, done_before = self._job.program
         view = machine_view(
-            self.machine, self._used.running.port, self.link, self.link.status(), running, first, self._base.steps
+            self.machine, self.used.running.port, self.link, self.link.status(), program, done_before, self._base.steps
         )
-        notices = (*self._used.notices(), *view.notices, *self._boards.troubles)
+        notices = (*self.used.notices(), *view.notices, *self._boards.troubles)
         return replace(
-            view, tool_wanted=self._gate.wanted, real_wanted=self._used.real_wanted, notices=notices,
-            at_work=self.at_work, local=bool(self._used.local), condition=self._hand.foreseen(view.condition),
+            view, tool_wanted=self._job.prompt.wanted, real_wanted=self.used.real_wanted, notices=notices,
+            at_work=self.at_work, local=bool(self.used.local), condition=self._job.condition_forecast(view.condition),
         )  # fmt: skip
 
+    def progress(self) -> Progress | None:
+        """How far the running job is, or how far the last one came."""
+        return self._job.progress()
+
     def board(self) -> BoardView | None:
-        """As planned."""
+        """The board that was loaded, as it is planned; None for none."""
         return self._boards.plan.view if self._boards.plan else None
 
     def machines(self) -> Sequence[tuple[str, str]]:
-        """Those that can be loaded."""
+        """Name and description of every machine; for one that can't be loaded the reason in place of the latter."""
         return machine_list(self._library)
 
     def choose_machine(self, name: str) -> Problems:
-        """The old one's outputs are safe before the new one starts."""
+        """Changes to the machine of this name, or takes the edited tables of the one in use."""
         return self.change(lambda used: used.choose(name))
 
     def go_real(self) -> Problems:
-        """On the port that the machine's file configures."""
+        """Changes to the port that the machine's file configures."""
         return self.change(MachineInUse.go_real)
 
     def change(self, how: Callable[[MachineInUse], Problems]) -> Problems:
-        """Another machine, or the same on another port: what was loaded is forgotten. Refused while something moves."""
+        """Changes the machine or its port by ``how``; refused while something moves. Board and base are forgotten where
+        another ticker runs afterwards.
+        """
         if not self.link.lost() and (problems := self.busy()):
             return problems
-        before = self._used.link, self._used.machine
-        problems = how(self._used)
-        if (self._used.link, self._used.machine) != before:
+        before = self.link, self.machine
+        problems = how(self.used)
+        if (self.link, self.machine) != before:
             self._boards.forget()
-            self._last = None
+            self._job.forget()
             self._base = WorkingBase(self.machine)
         return problems
 
+    def set_tick_hz(self, hz: int) -> Problems:
+        """Asks for another tick rate; it is in force once the ticker has served the request."""
+        return self.busy() or self.used.set_tick_hz(hz)
+
     def load(self, file: str, asked: Asked) -> Problems:
-        """Read, placed, ordered, checked against the reach, and foreseen; or nothing changes. Takes its time."""
-        if self._desk is not None:
+        """Reads a drill file, places and orders its holes and checks them against the reach. May take seconds."""
+        if self.at_work:
             return (BUSY,)
         return self._boards.load(Path(file), asked, self.machine, self._base.xy)
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
-        """By the same fit as ``--align``."""
+        """Fits a placing to measured holes, as ``--align`` does."""
         return align(measured, face_down)
 
     def recent(self) -> Sequence[RecentJob]:
-        """From the user's state folder."""
+        """The boards opened last, from the user's state folder, the newest first."""
         return self._boards.recent()
 
     def unfinished(self) -> Sequence[UnfinishedJob]:
-        """From the user's state folder; not the one that runs."""
-        return self._boards.unfinished(self._used.site)
+        """The jobs that were cut off, from the user's state folder; without the one that runs."""
+        return self._boards.unfinished(self.used.site)
 
     def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
-        """As ``drillctl resume`` does; ``elsewhere`` is its option."""
-        if problems := self.busy() or self._boards.take_up(Path(journal), self.machine, self._used.site, elsewhere):
+        """Drills what is left of a job, as ``drillctl resume`` does; ``elsewhere`` is its option."""
+        if problems := self.busy() or self._boards.take_up(Path(journal), self.machine, self.used.site, elsewhere):
             return problems
         return self._drill()
 
     def give_up(self, journal: str) -> Problems:
-        """Its journal goes."""
+        """Deletes the journal of a job that was cut off."""
         return self._boards.give_up(Path(journal))
 
     def start(self, dry: bool) -> Problems:
-        """The job's own program begins with an initialisation. A board that is drilled has a journal."""
+        """Drills the board with a journal; ``dry``: follows its way with the drill up, without one."""
         if self._boards.plan is None:
             return ("no board is loaded: open a drill file first",)
-        if problems := self.busy() or self._boards.based(self.machine, self._base.xy):
+        if problems := self.busy() or self._boards.plan_again(self.machine, self._base.xy):
             return problems
-        return self._begin(_with_drill_up(self._boards.plan.left)) if dry else self._drill()
+        if not dry:
+            return self._drill()
+        left = self._boards.plan.left
+        self._job.begin(replace(left, program=drill_up(left.program)))
+        return ()
+
+    def run_queue(self, text: str) -> Problems:
+        """Runs commands as they would stand in a ``.kmd`` file."""
+        try:
+            program = parse_program(text, names_of(self.machine), "queue")
+        except KmdError as error:
+            return (str(error),)
+        if problems := self.busy():
+            return problems
+        self._job.begin(Job("queue", program, self.machine))
+        return ()
+
+    def initialise(self) -> Problems:
+        """Goes to machine zero, which becomes the working base."""
+        return self.run_queue("KMD_INICJALIZACJA\n")
+
+    def set_base(self) -> Problems:
+        """Makes the present place of X and Y the working base."""
+        return self.run_queue("KMD_BAZA\n")
+
+    def go_to(self, x_mm: float, y_mm: float) -> Problems:
+        """Goes to a place that counts from the working base, the drill up."""
+        base = self.link.status()["base"].tolist()
+        x, y = (self._base.commanded(axis, mm, base) for axis, mm in (("x", x_mm), ("y", y_mm)))
+        return self.run_queue(f"KMD_WIERTLO_GORA\nKMD_GOTO_X_Y {x} {y}\n")
+
+    def jog(self, axis: str, steps: int) -> Problems:
+        """Moves an axis by so many steps, at most its length. Refused while a jog is held, or anything else runs."""
+        index = self.machine.axis_index(axis)
+        if index is not None and abs(steps) > self.machine.axes[index].span_steps:
+            return (TOO_FAR,)
+        held = self.link.status()["condition"] != Condition.READY
+        if self.at_work and (held or not self._jogs.under_way):
+            return (BUSY,)
+        return self._jogs.press((axis, steps), self.at_work, time.monotonic())
+
+    def tool_changed(self) -> Problems:
+        """Confirms that the tool which was waited for is in; the job goes on, unless it is held."""
+        return self._job.prompt.confirm()
+
+    def hold(self) -> Problems:
+        """Holds the running job, down the ramps."""
+        self._jogs.forget()
+        return self._job.hold()
+
+    def resume(self) -> Problems:
+        """Ends a hold; a clock that was stopped goes on too."""
+        return self._job.resume()
+
+    def stop(self) -> Problems:
+        """Ends the job. At rest nothing is asked: the stop would meet whatever is begun next."""
+        self._jogs.forget()
+        status = self.link.status()
+        if self.at_work or status["moving"] or status["job"] or status["condition"] != Condition.READY:
+            self.link.post(Request.STOP)
+        return ()
+
+    def emergency_stop(self) -> Problems:
+        """Stops all axes without a ramp and latches, whatever the machine does."""
+        self._jogs.forget()
+        self.link.post(Request.ESTOP)
+        return ()
 
     def acknowledge(self) -> Problems:
-        """A ticker that is gone is started anew."""
+        """Acknowledges a latched fault; a ticker that is gone is started anew."""
         if self.link.lost():
             return self.choose_machine(self.machine.name)
-        return super().acknowledge()
+        if self.link.status()["condition"] != Condition.LATCHED:
+            return ("there is nothing to acknowledge",)
+        self.link.post(Request.ACK)
+        return ()
+
+    def busy(self) -> Problems:
+        """Why nothing new can be begun now; empty where it can."""
+        status = self.link.status()
+        if self.link.lost():
+            return ("the ticker's process is gone; acknowledge, and it is started anew",)
+        if status["condition"] == Condition.LATCHED:
+            return ("a fault waits to be acknowledged",)
+        return (BUSY,) if self.at_work or status["moving"] else ()
 
     def close(self) -> None:
-        """Everything that was started ends."""
-        self._used.close()
+        """Ends the machine's processes, its outputs safe, and closes the journal."""
+        self.used.close()
         self._boards.close()
 
     def _drill(self) -> Problems:
-        """From the base that the board was planned for, with its journal."""
-        if problems := self._boards.begin(self._used.site):
+        """Drills what is left of the planned board, from the base it was planned for, into its journal."""
+        if problems := self.busy() or self._boards.begin(self.used.site):
             return problems
         plan = self._boards.plan
         assert plan is not None
         self._base.move(*plan.recipe.base)
-        return self._begin(plan.left, self._boards.journal, plan.foreseen, plan.done_before)
-
-    def _paced(self) -> None:
-        """What a board takes is told by the rate in force."""
-        self._boards.based(self.machine, self._base.xy)
-
-    def _over(self, desk: JobRunner) -> None:
-        """Its journal ends with it; a board is planned anew where its base has moved."""
-        super()._over(desk)
-        self._boards.ended(desk, self.machine)
-        self._boards.based(self.machine, self._base.xy)
-
-
-def _with_drill_up(job: Job) -> Job:
-    """The same way over the board, with nothing drilled."""
-    return replace(job, program=drill_up(job.program))
+        self._job.begin(plan.left, self._boards.journal, plan.ticks, plan.done_before)
+        return ()

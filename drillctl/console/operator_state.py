@@ -1,41 +1,12 @@
-"""The operator's hold and its end, from the key to the machine. Used by operating.
-
-Rule: what was asked last counts, though the machine is a tick or two behind it, or has not begun.
-"""
+"""What the operator has to do or has set: the tool change that is waited for, and the working base."""
 
 from drillctl.generation.job import Job
-from drillctl.kmd import Request
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import Problems, ToolWanted
 
 
-class HoldRequest:
-    """A desk.Operator: a hold that is pressed before the first command has begun is asked for until it is so.
-
-    wish  what the operator asked last: to hold, or not; None where nothing was, or it is so
-    """
-
-    def __init__(self) -> None:
-        self.wish: bool | None = None
-
-    @property
-    def held(self) -> bool:
-        """See desk.Operator."""
-        return bool(self.wish)
-
-    def foreseen(self, condition: str) -> str:
-        """The condition that the machine has, or is about to have: keys pressed in one breath mean the latter."""
-        if self.wish and condition == "ready":
-            return "holding"
-        return "ready" if self.wish is False and condition in ("holding", "held") else condition
-
-    def requests(self) -> tuple[Request, ...]:
-        """None: the rest is posted when its key is pressed."""
-        return ()
-
-
 class ToolChangePrompt:
-    """A ToolChange (jobs/runner.py). ``wanted`` is the tool that is waited for, None while there is none."""
+    """A ToolChange (jobs/operator.py) answered on the screen. ``wanted`` is the tool that is waited for, if any."""
 
     def __init__(self) -> None:
         self.wanted: ToolWanted | None = None
@@ -43,17 +14,17 @@ class ToolChangePrompt:
         self._changed = False
 
     def open_for(self, job: Job) -> None:
-        """A job begins: its tools are known by the drills that serve them."""
+        """A job begins: notes which drill serves each of its tools."""
         groups = job.work.groups if job.work else ()
         self._drills_mm = {group.number: group.drill.diameter_mm for group in groups if group.drill}
         self.close()
 
     def close(self) -> None:
-        """The job is over: nothing is waited for any more."""
+        """The job is over: no tool is waited for any more."""
         self.wanted, self._changed = None, False
 
     def confirm(self) -> Problems:
-        """The operator has put the tool in."""
+        """The operator says that the tool is in. Refused where none is waited for."""
         if self.wanted is None:
             return ("no tool is waited for",)
         self._changed = True
@@ -68,14 +39,14 @@ class ToolChangePrompt:
         return False
 
 
-def asks_for_tools(machine: Machine, simulated: bool, wish: str | None) -> bool:
-    """Whether the operator is asked: as ``wish`` has it (``--tools``: ask, assume), else as the machine's file has it.
+def asks_for_tools(machine: Machine, simulated: bool, tools: str | None) -> bool:
+    """Whether tool changes wait for the operator: by ``tools`` (the option: ask, assume), else by the machine's file.
 
-    AUTOMATIC is believed of a simulated machine only: no changer is driven by this program, and a wrong drill on a real
-    machine spoils the board.
+    AUTOMATIC counts on a simulated machine only: this program drives no tool changer, and on a real machine a wrong
+    drill spoils the board.
     """
-    if wish is not None:
-        return wish == "ask"
+    if tools is not None:
+        return tools == "ask"
     return machine.configuration.tool_change == "MANUAL" or not simulated
 
 
@@ -83,7 +54,7 @@ Base = tuple[int, int]
 
 
 class WorkingBase:
-    """``steps`` of every axis from machine zero; the heads always count from there."""
+    """Where the working base lies: ``steps`` from machine zero by axis, always 0 for the heads."""
 
     def __init__(self, machine: Machine):
         self._machine = machine
@@ -91,22 +62,22 @@ class WorkingBase:
 
     @property
     def xy(self) -> Base:
-        """X and Y; zero on a machine that has none."""
+        """The base of X and Y in steps; zeros on a machine without these axes."""
         x, y = (self._machine.axis_index(name) for name in ("x", "y"))
         return (0, 0) if x is None or y is None else (self.steps[x], self.steps[y])
 
     def move(self, x_steps: int, y_steps: int) -> None:
-        """The base lies there."""
+        """Moves the base of X and Y there; that of every other axis becomes 0."""
         places = {"x": x_steps, "y": y_steps}
         self.steps = [places.get(name, 0) for name in self._machine.axis_names]
 
     def commanded(self, axis: str, mm: float, base: list[int]) -> int:
-        """A place that counts from here as a command has it, which counts from execution's ``base``, by axis."""
+        """A place in mm from this base, in steps from execution's ``base`` (by axis), from which commands count."""
         index = self._machine.axis_index(axis)
         if index is None:
             return 0
         return round(mm * self._machine.axes[index].steps_per_mm) + self.steps[index] - base[index]
 
     def take(self, base: list[int]) -> None:
-        """By axis, as execution has it now."""
+        """Takes over execution's base, by axis."""
         self.steps = base[: len(self._machine.axes)]

@@ -1,6 +1,6 @@
-"""Looks at a port before anything is driven on it: who answers, what it can carry, what its inputs say.
+"""Tests a port before anything is driven on it: who answers, which tick rate it carries, what its inputs say.
 
-Rule: the outputs are safe from the first to the last moment, and nothing moves. Called by the screens' station.
+Rule: the outputs are safe from the first to the last moment, and nothing moves.
 """
 
 import time
@@ -10,7 +10,7 @@ from drillctl.console.machine_in_use import MachineInUse
 from drillctl.machine import Machine
 from drillctl.portio.registry import open_port, rate_of, select
 from drillctl.ports import Driver, PortError, Telling
-from drillctl.ticker.launch import wiring_of
+from drillctl.ticker.launch import port_layout
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.signals import PortReport, PortView
 
@@ -19,12 +19,12 @@ LOOK_EVERY_S = 0.01
 
 
 def look_at_port(machine: Machine, spec: str) -> PortReport:
-    """Opens a real port ``NAME[:ADDRESS]``, asks it and gives it back. What went wrong stands in the report."""
+    """Opens a real port ``NAME[:ADDRESS]``, asks it and closes it. What went wrong stands in the report."""
     try:
         port, address = select(spec)
         if not address and (reason := port.missing()):
             return PortReport(spec, problem=f"{reason}; it needs {port.needs}")
-        driver = open_port(spec, wiring_of(machine))
+        driver = open_port(spec, port_layout(machine))
         try:
             facts = (port.summary, *(driver.facts() if isinstance(driver, Telling) else ()), _rate(machine, spec))
             return PortReport(spec, facts, sensors_of(machine, _listened(driver)))
@@ -42,7 +42,7 @@ def sensors_of(machine: Machine, inputs: int) -> tuple[tuple[str, bool], ...]:
 
 
 def _listened(driver: Driver) -> int:
-    """The inputs, once there was time for all of them to be told."""
+    """The input image, after a time in which a board has reported all its inputs."""
     until_s = time.monotonic() + LISTEN_S
     while time.monotonic() < until_s:
         driver.latch()
@@ -51,39 +51,39 @@ def _listened(driver: Driver) -> int:
 
 
 def _rate(machine: Machine, spec: str) -> str:
-    most_hz = rate_of(spec, wiring_of(machine))
+    most_hz = rate_of(spec, port_layout(machine))
     carries = "any rate of this program" if most_hz is None else f"up to {most_hz} Hz with all axes moving"
     return f"carries {carries}; the machine wants {machine.tick_hz} Hz"
 
 
 class MachinePort:
-    """A PortControl over the station's machine."""
+    """A PortControl (viewmodel/ports.py) over the machine in use."""
 
-    def __init__(self, station: MachineConsole):
-        self._station = station
+    def __init__(self, console: MachineConsole):
+        self._console = console
 
     def port(self) -> PortView:
-        """From the machine's file and the options."""
-        return self._station.used.port
+        """The port in use, and the one that the machine's file configures."""
+        return self._console.used.port
 
     def test(self) -> PortReport:
-        """A port in use is open already, and only one can have it: what it says is in the status record."""
-        machine, port = self._station.machine, self.port()
+        """Tests the configured port. One in use can't be opened twice: its inputs come from the status record."""
+        machine, port = self._console.machine, self.port()
         if port.real:
-            reached = int(self._station.link.status()["sensors"])
+            reached = int(self._console.link.status()["sensors"])
             inputs = tuple((sensor.name, bool(reached >> sensor.bit & 1)) for sensor in machine.sensors)
             return PortReport(port.in_use, ("this port is in use: the machine runs on it",), inputs)
-        if problems := self._station.busy():
+        if problems := self._console.busy():
             return PortReport(port.configured, problem=problems[0])
         if not port.configured:
-            known = f"no port drives the card {port.card!r}; name one in its place (drillctl ports)"
-            return PortReport("", problem=known)
+            problem = f"no port drives the card {port.card!r}; name one in its place (drillctl ports)"
+            return PortReport("", problem=problem)
         return look_at_port(machine, port.configured)
 
     def go_real(self) -> Problems:
-        """After which the position is unknown."""
-        return self._station.go_real()
+        """Changes to the configured port; the position is unknown afterwards."""
+        return self._console.go_real()
 
     def go_simulated(self) -> Problems:
-        """After which the position is unknown."""
-        return self._station.change(MachineInUse.go_simulated)
+        """Changes to a simulated card; the position is unknown afterwards."""
+        return self._console.change(MachineInUse.go_simulated)

@@ -1,6 +1,6 @@
 """Queues of commands as the queue editor sees them (viewmodel/tables.py).
 
-Rule: a queue is checked by the parser that runs it. Created by the screen verb.
+Rule: a queue is checked by the parser that runs it.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,30 +20,30 @@ LARGEST_QUEUE_BYTES = 256 * 1024  # more than a person writes by hand; all of it
 
 
 class QueueFiles:
-    """A QueueEditing for the machine that ``machine`` gives: the one in use when it is asked."""
+    """A QueueEditing. ``machine`` returns the machine in use, for whose axes and wires queues are checked."""
 
     def __init__(self, machine: Callable[[], Machine]):
         self._machine = machine
 
     def commands(self) -> list[CommandHelp]:
-        """From the one definition of the commands."""
+        """Every command with its usage and meaning, from the table of kmd."""
         return [CommandHelp(spec.name, spec.usage, spec.meaning) for spec in COMMANDS.values()]
 
     def words(self) -> list[str]:
-        """Axes, outputs, sensors."""
+        """The names that may stand in a queue: of axes, outputs and sensors."""
         names = self._names()
         return [*names.axes, *names.outputs, *names.inputs]
 
     def check_queue(self, text: str) -> tuple[TextFinding, ...]:
-        """Each line alone first, so that all wrong lines are told; then the whole, for what lies between lines."""
+        """All wrong lines, each checked alone; where there are none, what is wrong with the queue as a whole."""
         return tuple(_wrong_lines(text, self._names())) or tuple(_wrong(text, self._names(), 0))
 
     def too_far(self, text: str) -> tuple[TextFinding, ...]:
-        """Base and place are known when the queue runs, and lie within the range: a move longer than it can't fit."""
+        """Moves of a sound queue that are longer than the axis: they can't fit, wherever they begin."""
         return tuple(_too_far(text, self._machine())) if text.strip() else ()
 
     def open_queue(self, file: str) -> tuple[str, Problems]:
-        """UTF-8."""
+        """The text of a queue file, which is UTF-8; or an empty text and why it can't be read."""
         try:
             data = read_bytes(file, LARGEST_QUEUE_BYTES, "a queue to be edited; run it as it is")
             return data.decode("utf-8-sig"), ()
@@ -53,7 +53,7 @@ class QueueFiles:
             return "", (f"{file}: can't be read: {error.strerror}",)
 
     def save_queue(self, file: str, text: str) -> Problems:
-        """Sound or not: a queue may be kept unfinished."""
+        """Writes a queue to a file, sound or not: it may be finished later."""
         return write_text(Path(file), text)
 
     def _names(self) -> Names:
@@ -61,7 +61,7 @@ class QueueFiles:
 
 
 def _lines(text: str) -> Iterator[tuple[int, str]]:
-    """Those that hold a command, by their numbers from 1."""
+    """The lines that hold a command, with their numbers from 1."""
     lines = enumerate(text.split("\n"), start=1)
     return ((number, line) for number, line in lines if line.partition("#")[0].strip())
 

@@ -1,7 +1,7 @@
-"""The jobs opened last, in a file of the user's state folder. Called by the station.
+"""The jobs opened last, in a file of the user's state folder.
 
-Rule: a convenience. A list that is missing, damaged or of another version reads as an empty one, and one that can't be
-written is given up without a word; no job ever fails for it.
+Rule: no job ever fails for this list. One that is missing, damaged or of another version reads as empty, and one that
+can't be written is left unwritten.
 """
 
 from contextlib import suppress
@@ -24,12 +24,12 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class RecentJobs:
-    """The newest first, each drill file once, with the settings it was opened with last."""
+    """A list of drill files, the newest first, each once, with the options it was opened with last."""
 
     file: Path
 
     def read(self) -> list[RecentJob]:
-        """Never raises for what the file holds."""
+        """The list, empty where the file can't be read as one."""
         try:
             data = read_bytes(self.file, LARGEST_LIST_BYTES, "a list of jobs")
             return msgspec.json.decode(data, type=_File).recent[:MOST_RECENT]
@@ -37,7 +37,7 @@ class RecentJobs:
             return []
 
     def add(self, file: Path, asked: Asked) -> None:
-        """To the front. A file whose name is not Unicode can't be listed."""
+        """Puts a drill file to the front. A file whose name is not Unicode is left out."""
         newest = RecentJob(str(real_path(file)), asked)
         others = [job for job in self.read() if job.file != newest.file]
         with suppress(UnicodeEncodeError):

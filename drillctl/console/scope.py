@@ -1,7 +1,7 @@
-"""A run as the scope sees it (viewmodel/scope.py), whether the machine is at it or it stands in a file.
+"""A run as the scope sees it (viewmodel/scope.py): what any run has, and the run of the machine in use.
 
-Rule: lanes are looked into, never run through; what is not known is None, never a guess. ``Recording`` is kept by the
-station, tracefile.py has the run of a file.
+Rule: values are found by searching the lanes, never by going through a run; what is not known is None, never a guess.
+The run of a trace file is in scope_runs.py.
 """
 
 from bisect import bisect_right
@@ -28,7 +28,7 @@ MOST_PROGRAMS = 500  # whose commands are remembered as they were written
 
 
 class RunScope:
-    """A ScopeSource over the signals of one machine. Who makes it fills ``lanes`` and says how far."""
+    """A ScopeSource over the signals of one machine. A subclass fills ``lanes`` and keeps ``last_tick``."""
 
     def __init__(self, name: str, machine: Machine, recorded: Sequence[Signal], most_rows: int):
         self.name, self.machine, self._recorded = name, machine, recorded
@@ -41,48 +41,48 @@ class RunScope:
 
     @property
     def tick_hz(self) -> int:
-        """The machine's."""
+        """Ticks a second, as the machine runs now."""
         return self.machine.tick_hz
 
     @property
     def first_tick(self) -> int:
-        """Later than 0 once something was forgotten."""
+        """The first tick that is still known: later than 0 once something was forgotten."""
         return self.lanes.first_tick
 
     def turn(self) -> None:
-        """Nothing is new where nothing goes on."""
+        """Takes in what was recorded since the last call; here nothing, as of a run that is complete."""
 
     def notices(self) -> tuple[Notice, ...]:
-        """What was forgotten; and where ticks became longer or shorter."""
+        """Notices of what was forgotten, and of the first tick at another tick rate."""
         forgotten = [Notice("forgotten", self.first_tick)] if self.first_tick else []
         pace = self._index.get((RUN, "pace"))
         changed = None if pace is None else self.lanes.columns[pace].find(self.first_tick - 1, 1, onset=True)
         return (*forgotten, *([] if changed is None else [Notice("other rate", changed)]))
 
     def signals(self) -> tuple[ScopeSignal, ...]:
-        """The lanes of the machine."""
+        """The signals, in the order in which they are numbered and drawn."""
         return self._signals
 
     def shown(self, signal: int, value: int, tick: int) -> str:
-        """Commands as they were written, as far as that is remembered."""
+        """A value in words: a command as it was written, as far as that is remembered."""
         if self._signals[signal].group == KMD:
             return self._command_text(value, tick)
         return self._source(signal).show(value) if self._signals[signal].shape == "words" else str(value)
 
     def known_to(self, signal: int) -> int:
-        """Everything is known to the end."""
+        """The tick up to which a signal is known: here to the end."""
         return self.last_tick + 1
 
     def window(self, signal: int, from_tick: int, to_tick: int) -> Changes:
-        """Copies nothing but the first row."""
+        """The changes of a signal between two ticks; views into the lane, but for the first row."""
         return Changes(*self.lanes.columns[signal].window(from_tick, to_tick))
 
     def strip(self, signal: int, edges: Ints) -> Strip:
-        """Two binary searches a column."""
+        """What a signal does between each two neighbouring edges (n,) in ticks, by two binary searches each."""
         return Strip(*self.lanes.columns[signal].strip(edges))
 
     def at(self, tick: int) -> Moment:
-        """A binary search a lane."""
+        """All values, the command and the axes in one tick, by a binary search in each lane."""
         values = tuple(self._value(number, tick) for number in range(len(self._signals)))
         command = values[self._index[KMD, "command"]] if (KMD, "command") in self._index else None
         axes = (_axis_moment(axis, self._named(axis.name, values)) for axis in self.machine.axes)
@@ -90,7 +90,7 @@ class RunScope:
         return Moment(tick, text, values, tuple(filter(None, axes)))
 
     def find(self, what: Find, tick: int, direction: int, signal: int) -> int | None:
-        """In all the lanes that could show it."""
+        """The nearest tick with an event in a direction (+1, -1), from any lane that can show it; None for none."""
         onset = what != "change" and LANDMARKS[what].onset
         lanes = (self.lanes.columns[number] for number in lanes_with(what, signal, self._signals))
         found = [place for lane in lanes if (place := lane.find(tick, direction, onset)) is not None]
@@ -109,7 +109,7 @@ class RunScope:
         return self._recorded[self._laid[signal][1].signal]
 
     def _command_text(self, value: int, tick: int) -> str:
-        """Number and text of the command that is current in a tick; its name at least."""
+        """Number and text of the command that runs in a tick; its name where the text is not remembered."""
         text = self._written(value // OPCODES, tick) if value else ""
         return f"{value // OPCODES} {text}" if text else self._source(self._index[KMD, "command"]).show(value)
 
@@ -118,10 +118,10 @@ class RunScope:
         return ""
 
 
-class Recording(RunScope):
-    """What the machine at hand does: ``ring`` is filled by its ticker and emptied by ``keep``.
+class RunRecording(RunScope):
+    """The run of the machine in use, from its start: ``ring`` is filled by the ticker and emptied by ``keep``.
 
-    ticks  how many the ticker has run
+    ticks  returns how many the ticker has run
     """
 
     def __init__(self, machine: Machine, plant_lanes: Sequence[str], ring: RingRecorder, ticks: Callable[[], int]):
@@ -132,11 +132,11 @@ class Recording(RunScope):
 
     @staticmethod
     def ring_for(machine: Machine) -> RingRecorder:
-        """Large enough with any plant and without."""
+        """A ring with room for the signals of a machine, whatever plant it has."""
         return RingRecorder(len(signals(machine, EVERY_LANE, derived=True)))
 
     def keep(self) -> None:
-        """Empties the ring; cheap, and to be called often."""
+        """Empties the ring. Cheap, and to be called often."""
         changes = self._ring.drain()
         if len(changes):
             self._waiting.append(changes)
@@ -144,11 +144,11 @@ class Recording(RunScope):
             self.turn()
 
     def begin(self, program: NDArray[np.void], commands_before: int) -> None:
-        """From the next tick on, commands are those of ``program``, numbered on from those before."""
+        """Remembers a program whose commands run from the next tick on, numbered on from those before."""
         self._programs.append((self._ticks(), commands_before, program))
 
     def turn(self) -> None:
-        """What waits is sorted into the lanes."""
+        """Sorts what was taken out of the ring into the lanes."""
         self.last_tick = self._ticks() - 1
         self._waiting.append(self._ring.drain())
         changes = np.concatenate([np.zeros(0, CHANGE), *self._waiting])
@@ -156,7 +156,7 @@ class Recording(RunScope):
         self.lanes.append(changes["tick"], changes["signal"], changes["value"])
 
     def notices(self) -> tuple[Notice, ...]:
-        """A ring that ran over has lost changes for good."""
+        """As of any run; and that changes were lost because the ring ran over."""
         return (*super().notices(), *[Notice("behind")] * self._ring.overrun)
 
     def _written(self, sequence: int, tick: int) -> str:
@@ -169,7 +169,7 @@ class Recording(RunScope):
 
 
 def _axis_moment(axis: AxisTable, values: dict[str, int | None]) -> AxisMoment | None:
-    """None where its column, position or state is not known."""
+    """An axis from its signals' values; None where its column, position or state is not known."""
     position, state, column = (values.get(name) for name in ("position", "state", "column"))
     if position is None or state is None or column is None:
         return None

@@ -1,7 +1,6 @@
 """Which lanes the scope has for a machine, in what order, and which of them an event shows in.
 
 Rule: the lanes are those of the VCD form (ticker/sampler.py), the command above them, what else was recorded below.
-Called by scope.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -56,7 +55,7 @@ def _lane_of(var: VcdVar, index: dict[str, int]) -> Row:
 
 
 def _outputs(machine: Machine, index: dict[str, int]) -> Iterator[Row]:
-    """What hangs on the cards beside the motors."""
+    """A lane for each output that is no motor wire."""
     for name, bit in machine.outputs:
         card, place = divmod(bit, CARD_BITS)
         if f"out.{card}" in index:
@@ -64,7 +63,7 @@ def _outputs(machine: Machine, index: dict[str, int]) -> Iterator[Row]:
 
 
 def lanes_with(what: Find, signal: int, signals: Sequence[ScopeSignal]) -> Iterable[int]:
-    """The lanes in which to look for an event, from a signal's point of view; ``change`` is its own."""
+    """The lanes to search for an event: those of the signal's axis, if any, else all; ``change``: the signal's own."""
     if what == "change":
         return (signal,)
     found = [number for number, each in enumerate(signals) if LANDMARKS[what].shows(each)]

@@ -1,8 +1,7 @@
 """The run of a trace file as the scope sees it. What the file leaves out is found by running it again.
 
 Rule: the file is shown at once, and the axes at the cursor with it; the waves of columns, positions and states follow,
-and those of the dynamic plant that a run was made on, a little at every turn, so that nothing has to wait for a long
-run. Created by the scope verb and by scopebench.
+and those of the dynamic plant that a run was made on, a little at every turn, so that no screen waits for a long run.
 """
 
 import time
@@ -12,17 +11,16 @@ from pathlib import Path
 
 import numpy as np
 
-from drillctl.console.machine_console import MachineConsole
-from drillctl.console.operating import BUSY
-from drillctl.console.scope import Recording, RunScope
+from drillctl.console.machine_console import BUSY, MachineConsole
+from drillctl.console.scope import RunRecording, RunScope
 from drillctl.machine import Library, Machine, TableError
 from drillctl.plant import Plant, PlantRefused
 from drillctl.plant.choice import DYNAMIC
-from drillctl.replay.rerun import AxisState, Jumps, rerun
-from drillctl.replay.stimuli import check_tick, choice_of, machine_of, same_tables
-from drillctl.replay.trace_files import read_trace
+from drillctl.replay.derived_signals import AxisState, Jumps, rerun
+from drillctl.replay.header import check_tick, choice_of, machine_of, same_tables
 from drillctl.ticker.sampler import signals
 from drillctl.trace import Signal, Trace, TraceError
+from drillctl.trace.files import read_trace
 from drillctl.trace.values import IDLE, Values
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.scope import Notice
@@ -58,17 +56,17 @@ class TraceFile(RunScope):
         self._here: tuple[int, tuple[AxisState, ...]] = (-1, ())
 
     def turn(self) -> None:
-        """The run again, for as long as a screen can wait."""
+        """Runs the trace on, for TURN_S at most."""
         until_s = time.monotonic() + TURN_S
         while self._known_to <= self.last_tick and not self._trouble and time.monotonic() < until_s:
             self._known_to = next(self._derivation, self._known_to)
 
     def known_to(self, signal: int) -> int:
-        """Derived signals as far as the run has come."""
+        """The tick up to which a signal is known: a derived one as far as the run has come."""
         return self._known_to if self._source(signal).name in self._missing else self.last_tick + 1
 
     def notices(self) -> tuple[Notice, ...]:
-        """How far the run has come, and what it can't tell."""
+        """As of any run; how far the run has come, and why its derived signals may be wrong or missing."""
         found = [*super().notices()]
         if self._trouble:
             found.append(self._trouble)
@@ -79,13 +77,13 @@ class TraceFile(RunScope):
         return tuple(found)
 
     def _value(self, signal: int, tick: int) -> int | None:
-        """Of an axis also where the run has not come to yet."""
+        """As of any run; of an axis also in a tick that the run has not reached yet."""
         if self._known_to <= tick <= self.last_tick and self._source(signal).name in self._missing:
             return self._far_value(signal, tick)
         return super()._value(signal, tick)
 
     def _far_value(self, signal: int, tick: int) -> int | None:
-        """By a jump, and None where that can't tell: then no later tick can be told by one."""
+        """A value found by a jump to its tick. None where a jump can't find it; then none is tried again."""
         if self._jumps is not None and self._here[0] != tick:
             self._here = tick, self._jumps.at(tick)
             if not self._here[1]:
@@ -104,7 +102,7 @@ class TraceFile(RunScope):
 
     def _derived(self, recorded: Trace, machine: Machine, file: Path, plant: Plant | None, sampled: list[Signal]
                  ) -> Iterator[int]:  # fmt: skip
-        """Runs the trace again, its derived signals into the lanes; gives the tick up to which they are known."""
+        """Runs the trace again and fills the derived lanes; yields the tick up to which they are known."""
         place = self._places(sampled)
         try:
             for stretch in rerun(recorded, machine, file, plant):
@@ -119,7 +117,7 @@ class TraceFile(RunScope):
             self._trouble = Notice("underivable", error.reason)
 
     def _places(self, sampled: list[Signal]) -> "np.ndarray[tuple[int], np.dtype[np.int32]]":
-        """For each signal of the run where it stands among ours; -1 for those that the file has itself."""
+        """(n,): for each signal of the run its number in this source; -1 for those that the file has itself."""
         own = {signal.name: number for number, signal in enumerate(self._recorded)}
         return np.array([own[each.name] if each.name in self._missing else -1 for each in sampled], np.int32)
 
@@ -128,7 +126,7 @@ class TraceFile(RunScope):
 
 
 def _dynamic(recorded: Trace, machine: Machine) -> Plant | None:
-    """The dynamic plant that a run was made on, new; None where there was another, or this program can't build it."""
+    """A new dynamic plant like the one that a run was made on; None for another kind, or where it can't be built."""
     try:
         choice = choice_of(recorded)
         return choice.build(machine) if choice.kind == DYNAMIC else None
@@ -137,7 +135,7 @@ def _dynamic(recorded: Trace, machine: Machine) -> Plant | None:
 
 
 def _idle_first(trace: Trace) -> tuple[list[Signal], Values]:
-    """Signals and values, words numbered anew so that none is 0, as in a run: a file numbers them as they come."""
+    """Signals and values with each signal's words numbered anew, the idle word 0: a file numbers them as they come."""
     values, own = trace.values.copy(), list(trace.signals)
     for index, signal in enumerate(trace.signals):
         if signal.kind == "name":
@@ -149,18 +147,18 @@ def _idle_first(trace: Trace) -> tuple[list[Signal], Values]:
 
 
 class ScopeRuns:
-    """A RunOpening for a station and the tables of a library."""
+    """A RunOpening (viewmodel/scope.py): the run of the machine in use, and those of trace files."""
 
-    def __init__(self, library: Library, station: MachineConsole):
-        self._library, self._station = library, station
+    def __init__(self, library: Library, console: MachineConsole):
+        self._library, self._console = library, console
 
-    def running(self) -> Recording:
-        """Another one once another machine was chosen."""
-        return self._station.recording
+    def running(self) -> RunRecording:
+        """The run of the machine in use; another one once another machine was chosen."""
+        return self._console.recording
 
     def open_trace(self, file: str) -> tuple[TraceFile | None, Problems]:
-        """Refused while the machine is at work: reading a long file takes longer than a ticker waits for its desk."""
-        if self._station.at_work:
+        """Opens a trace file. Refused while the machine is at work: a long file takes longer than a ticker waits."""
+        if self._console.at_work:
             return None, (BUSY,)
         try:
             return TraceFile(Path(file), self._library), ()

@@ -1,7 +1,6 @@
-"""The machine under a person's hands (viewmodel/signals.py): signals, outputs, single ticks.
+"""Manual control of the machine (viewmodel/signals.py): signals, outputs, single ticks.
 
-Rule: what is shown comes from the status record, what is asked goes down as a request; execution decides again. Created
-by the screen verb.
+Rule: what is shown comes from the status record; what is asked goes down as a request, and execution checks it again.
 """
 
 from collections.abc import Iterator
@@ -15,57 +14,57 @@ MOST_TICKS = 1_000_000  # asked for at once
 
 
 class MachineSignals:
-    """A ManualControl over the station's machine: the one in use when it is asked."""
+    """A ManualControl over the machine in use."""
 
-    def __init__(self, station: MachineConsole):
-        self._station = station
+    def __init__(self, console: MachineConsole):
+        self._console = console
 
     def signals(self) -> list[SignalView]:
-        """Of the first two cards: the status record has no more."""
-        status, machine = self._station.link.status(), self._station.machine
+        """Every signal of the first two cards (the status record has no more), as it is now."""
+        status, machine = self._console.link.status(), self._console.machine
         return signals_of(machine, int(status["sensors"]), int(status["image"]))
 
     def real_port(self) -> str:
-        """Where there is no plant to measure there is a real machine."""
-        return "" if self._station.link.measured else self._station.used.running.port
+        """The real port that the machine runs on; empty where it is simulated."""
+        return "" if self._console.link.measured else self._console.used.running.port
 
     def set_output(self, bit: int, on: bool) -> Problems:
-        """Looked at here for an answer to the operator; what counts is the tick that serves it."""
-        if problems := self._station.busy():
+        """Asks for an output to be switched. Checked here for an answer at once, and by the tick that serves it."""
+        if problems := self._console.busy():
             return problems
-        if bit not in {signal.bit for signal in _outputs(self._station.machine, 0)}:
+        if bit not in {signal.bit for signal in _outputs(self._console.machine, 0)}:
             return (f"bit {bit} is no output of this machine",)
-        taken = self._station.link.set_output(bit, int(on))
+        taken = self._console.link.set_output(bit, int(on))
         return () if taken else ("too many outputs at once; try again",)
 
     def run_paused(self, text: str) -> Problems:
-        """The clock stops first, so that no tick of the queue is missed."""
-        if problems := self._station.busy():
+        """Runs a queue with the clock stopped before its first tick."""
+        if problems := self._console.busy():
             return problems
-        self._station.link.gate.grant(0)
-        if problems := self._station.run_queue(text):
-            self._station.link.gate.open()
+        self._console.link.gate.grant(0)
+        if problems := self._console.run_queue(text):
+            self._console.link.gate.open()
         return problems
 
     def tick(self, ticks: int) -> Problems:
-        """A machine that runs is paused after them."""
-        if not self._station.at_work:
+        """Lets so many ticks through, then stops the clock."""
+        if not self._console.at_work:
             return ("nothing runs that could be let on by ticks",)
         if not 1 <= ticks <= MOST_TICKS:
             return (f"from 1 to {MOST_TICKS} ticks can be asked for, not {ticks}",)
-        self._station.link.gate.grant(ticks)
+        self._console.link.gate.grant(ticks)
         return ()
 
     def go(self) -> Problems:
-        """From where it stands."""
-        if not self._station.link.gate.paused:
+        """Starts a clock that was stopped."""
+        if not self._console.link.gate.paused:
             return ("the clock is not stopped",)
-        self._station.link.gate.open()
+        self._console.link.gate.open()
         return ()
 
 
 def signals_of(machine: Machine, reached: int, image: int) -> list[SignalView]:
-    """All signals of a machine: ``reached`` by input bit, ``image`` as put out."""
+    """All signals of a machine: sensors by ``reached`` (a bit each, 1 where reached), outputs by the image."""
     return [*_inputs(machine, reached), *_outputs(machine, image)]
 
 

@@ -1,7 +1,6 @@
-"""Tables and queues as the screens' editors see them (viewmodel/tables.py).
+"""Tables as the screens' editors see them (viewmodel/tables.py).
 
 Rule: a text is checked by the same readers that load it; a file changes whole or not at all, and only the user's own.
-Created by the screen verb.
 """
 
 import difflib
@@ -50,14 +49,14 @@ TABLES_OF_A_MOTOR = ("phase", "ramp")  # keys of an axis that name a table
 
 class TableFiles:
     """A TableEditing over ``library``; edits go to ``user_folder``, which is one of the library's folders. ``machine``
-    gives the machine at hand, None for none.
+    returns the machine in use, None for none.
     """
 
     def __init__(self, library: Library, user_folder: Path, machine: Callable[[], Machine | None] = lambda: None):
         self._library, self._user_folder, self._machine = library, user_folder, machine
 
     def tables(self, kind: TableKind) -> list[TableEntry]:
-        """By name."""
+        """All tables of a kind, by name: where each comes from, and whether the machine in use has it."""
         machine = self._machine()
         used = _used(kind, machine) if machine else set()
         return [
@@ -66,7 +65,7 @@ class TableFiles:
         ]
 
     def read(self, kind: TableKind, name: str) -> str:
-        """From the first folder that has it."""
+        """The text of a table, from the first folder that has it; empty where it can't be read."""
         file = self._library.find(kind, name)
         try:
             return Source.read(file).text if file else ""
@@ -74,11 +73,11 @@ class TableFiles:
             return ""
 
     def check(self, kind: TableKind, text: str) -> Checked:
-        """By the readers that load tables."""
+        """Errors and warnings of a text, from the readers that load tables."""
         return self._check(kind, Source(self._own(kind, "unsaved"), text))
 
     def save(self, kind: TableKind, name: str, text: str) -> Problems:
-        """Refused too where a folder named before the user's has a table of this name: that one would still win."""
+        """Writes a sound text to the user's folder. Refused where an earlier folder has that name: it would win."""
         own = self._own(kind, name)
         if problems := self._check(kind, Source(own, text)).problems:
             return tuple(map(str, problems))
@@ -88,7 +87,7 @@ class TableFiles:
         return write_text(own, text)
 
     def reset(self, kind: TableKind, name: str) -> Problems:
-        """Only where there is a shipped one to go back to."""
+        """Deletes the user's copy of a table, where there is a shipped one to go back to."""
         own = self._own(kind, name)
         if not own.is_file():
             return ("there is no copy of your own to take away",)
@@ -97,7 +96,7 @@ class TableFiles:
         return _unlinked(own)
 
     def delete(self, kind: TableKind, name: str) -> Problems:
-        """One that comes with the program is never deleted, and reset goes back to it."""
+        """Deletes a table of the user's own; one that comes with the program is reset instead."""
         if self._shipped(kind, name).is_file():
             return (f"{name} comes with the program and stays; your own copy goes by a reset",)
         if self._origin(kind, name) != "yours":
@@ -105,14 +104,14 @@ class TableFiles:
         return _unlinked(self._own(kind, name))
 
     def diff(self, kind: TableKind, name: str, text: str) -> tuple[str, ...]:
-        """From an empty file for a table that does not come with the program."""
+        """The lines of a unified diff from the shipped table; from an empty file where there is none."""
         shipped = self._shipped(kind, name)
         before = Source.read(shipped).text if shipped.is_file() else ""
         names = (f"shipped {name}", f"this {name}")
         return tuple(difflib.unified_diff(before.splitlines(), text.splitlines(), *names, lineterm=""))
 
     def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
-        """The copy is named so inside as well."""
+        """Saves a table under another name, which stands in its text as well."""
         if not NAME.fullmatch(new_name) or len(new_name) > LONGEST_NAME:
             return (f"{new_name!r}: a name is at most {LONGEST_NAME} letters, digits, - and _, no - or _ first",)
         if self._library.find(kind, new_name) is not None:
@@ -123,20 +122,20 @@ class TableFiles:
             return (str(error),)
 
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
-        """Of any text whose rows can be read, sound or not."""
+        """The rows of a phase table, sound or not; none where they can't be read."""
         try:
             return tuple(PhaseRow(*row) for row in phase_rows(_source(text)))
         except TableError:
             return ()
 
     def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
-        """Comments and layout stay."""
+        """The text with these rows changed; comments and layout stay."""
         for row in rows:
             text = set_pattern(text, row.name, row.pattern)
         return set_reverse(text, {row.name: row.reverse for row in rows if row.reverse is not None})
 
     def ramp(self, text: str) -> RampDrawing:
-        """Its rows as long as they can be read; the drawing only of a ramp that lands exactly."""
+        """The rows of a ramp, sound or not; of one that lands exactly also its drawing."""
         source = _source(text)
         try:
             rows = ramp_rows(source)
@@ -150,11 +149,13 @@ class TableFiles:
         return RampDrawing(states, tuple(intervals(ramp, ramp.straight_from())))
 
     def with_state(self, text: str, state: int, field: str, value: int) -> str:
-        """Comments and layout stay."""
+        """The text with a field of a state changed; comments and layout stay."""
         return set_state_row(text, state, field, value)
 
     def with_top(self, text: str, higher: bool) -> str:
-        """Numbers are tried until every move lands exactly; where none does, the editor shows what is wrong."""
+        """The text with a state more on top, or a state less. For a new state numbers are tried until every move lands
+        exactly; where none does, the first are taken, and the editor shows what is wrong.
+        """
         try:
             rows = ramp_rows(_source(text))
         except TableError:
@@ -168,25 +169,25 @@ class TableFiles:
         return next((changed for changed in tried if not self.check("ramp", changed).problems), tried[0])
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
-        """In the order of the paper's screen."""
+        """The settings of a machine's file, in the order of the paper's screen; none where they can't be read."""
         try:
             return tuple(map(self._field_view, settings(_source(text))))
         except TableError:
             return ()
 
     def wires(self, text: str) -> tuple[FieldView, ...]:
-        """In the order of the file."""
+        """The bits of a machine's wires, in the order of its file; none where they can't be read."""
         try:
             return tuple(map(self._field_view, wire_settings(_source(text))))
         except TableError:
             return ()
 
     def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
-        """Comments and layout stay, and an address in hexadecimal stays so."""
+        """The text with a field set as typed, or as it was and why not. Comments, layout and hexadecimal stay."""
         try:
             source = _source(text)
-            known = (*settings(source), *wire_settings(source))
-            setting = next(setting for setting in known if setting.place == place)
+            fields = (*settings(source), *wire_settings(source))
+            setting = next(setting for setting in fields if setting.place == place)
             if setting.locked:
                 return text, (_locked(source, setting),)
             return set_value(text, place, setting.parsed(typed)), ()

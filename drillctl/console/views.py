@@ -1,4 +1,4 @@
-"""Status record, machine and job as the records that screens draw. Called by station."""
+"""Status record, machine and board as the records that screens draw (viewmodel/console.py)."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -36,10 +36,10 @@ def machine_list(library: Library) -> list[tuple[str, str]]:
 
 
 def machine_view(
-    machine: Machine, port: str, link: Link, status: np.void, program: NDArray[np.void] | None, first: int,
+    machine: Machine, port: str, link: Link, status: np.void, program: NDArray[np.void] | None, done_before: int,
     base_steps: list[int],
 ) -> MachineView:  # fmt: skip
-    """The machine at this moment; ``first`` is the sequence before the running program's."""
+    """The machine as ``status`` has it. ``program``: the one that runs, with the commands done before it began."""
     condition = CONDITIONS[Condition(int(status["condition"]))]
     moving = bool(status["moving"])
     image = int(status["image"])
@@ -52,7 +52,7 @@ def machine_view(
         condition="held" if condition == "holding" and not moving else condition,
         moving=moving,
         position_known=bool(status["position_known"]),
-        command=_command_text(machine, status, program, first),
+        command=_command_text(machine, status, program, done_before),
         queued=int(status["queued"]),
         tool=int(status["tool"]),
         axes=tuple(_axis_view(axis, i, status, image, base_steps[i]) for i, axis in enumerate(machine.axes)),
@@ -67,11 +67,11 @@ def machine_view(
         cut_off=bool(status["cut_off"]),
         paused=link.gate.paused,
     )
-    return _gone(view) if link.lost() else view
+    return _without_ticker(view) if link.lost() else view
 
 
-def _gone(view: MachineView) -> MachineView:
-    """What a ticker wrote before it was lost holds no longer: the guard has dropped the outputs."""
+def _without_ticker(view: MachineView) -> MachineView:
+    """Corrects what a ticker wrote before it was lost: the guard has switched the outputs off since."""
     return replace(view, condition="latched", moving=False, position_known=False, command="", queued=0)
 
 
@@ -95,15 +95,15 @@ def _axis_view(axis: AxisTable, index: int, status: np.void, image: int, base_st
     )
 
 
-def _command_text(machine: Machine, status: np.void, program: NDArray[np.void] | None, first: int) -> str:
-    row = int(status["sequence"]) - first - 1
+def _command_text(machine: Machine, status: np.void, program: NDArray[np.void] | None, done_before: int) -> str:
+    row = int(status["sequence"]) - done_before - 1
     if program is None or not status["sequence"] or not 0 <= row < len(program):
         return ""
     return to_text(program[row], names_of(machine))
 
 
 def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None, after_end: str) -> BoardView:
-    """A planned board; a queue has none. The file is read once more for what it says of its format."""
+    """A planned job with a board; ``file`` is read once more for what it says of its format."""
     from drillctl.generation.drillfile import read
 
     drill_file = read(file, fmt=fmt, after_end=after_end)

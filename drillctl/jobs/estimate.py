@@ -1,6 +1,6 @@
-"""What a job will take, before it is run. The lab foresees its program, generation knows its tools.
+"""What a job will take, worked out before it is run, and what is left of it while it runs.
 
-Called by the estimate verb.
+Rule: the ticks of every command come from ticker/forecast.py, which is exact on the ideal plant.
 """
 
 import numpy as np
@@ -13,20 +13,22 @@ from drillctl.viewmodel import Estimate, ToolEstimate, fault_report
 
 
 def estimate(job: Job, engine: str | None = None) -> Estimate:
-    """Exact on the ideal plant; the first tool's share begins with the initialisation, the last's ends at the end."""
-    return foresee(job, engine)[0]
+    """The time of a job, also by tool: the first tool's share begins with the initialisation, the last one's ends with
+    the job. ``engine``: ``tick`` to run every tick of it.
+    """
+    return estimate_with_ticks(job, engine)[0]
 
 
-def foresee(job: Job, engine: str | None = None) -> tuple[Estimate, NDArray[np.int64]]:
-    """As ``estimate``, with the ticks of each command."""
-    told = forecast(job.program, job.machine, engine)
-    return _estimate(job, told), told.ticks
+def estimate_with_ticks(job: Job, engine: str | None = None) -> tuple[Estimate, NDArray[np.int64]]:
+    """As ``estimate``; also the ticks (n,) of each command."""
+    found = forecast(job.program, job.machine, engine)
+    return _estimate(job, found), found.ticks
 
 
-def _estimate(job: Job, told: Forecast) -> Estimate:
+def _estimate(job: Job, found: Forecast) -> Estimate:
     groups = job.work.groups if job.work else ()
     changes = tool_changes(job.program).tolist()
-    shares = [int(ticks.sum()) for ticks in np.split(told.ticks, changes[1:])]
+    shares = [int(ticks.sum()) for ticks in np.split(found.ticks, changes[1:])]
     tools = [
         ToolEstimate(
             number=group.number,
@@ -41,23 +43,27 @@ def _estimate(job: Job, told: Forecast) -> Estimate:
     return Estimate(
         machine=job.machine.name,
         holes_total=job.holes_total,
-        ticks=told.total_ticks,
+        ticks=found.total_ticks,
         tick_hz=job.machine.tick_hz,
         tools=tuple(tools),
-        exact=told.fault == 0,
-        fault=fault_report(told.fault, kept=False) if told.fault else None,
+        exact=found.fault == 0,
+        fault=fault_report(found.fault, kept=False) if found.fault else None,
     )
 
 
 class TimeLeft:
-    """Of a program whose commands take ``foreseen`` ticks (n,) each; fewer of them where the end is not foreseen."""
+    """The time left of a program whose commands take ``ticks`` (n,) each; n may be less than the program has, where it
+    was forecast to end early.
+    """
 
-    def __init__(self, foreseen: NDArray[np.int64]):
-        self._before = np.append(np.cumsum(foreseen[::-1])[::-1], 0)  # ticks left as command k begins
+    def __init__(self, ticks: NDArray[np.int64]):
+        self._before = np.append(np.cumsum(ticks[::-1])[::-1], 0)  # ticks left as command k begins
         self._done, self._since = 0, 0
 
     def ticks(self, done: int, tick: int) -> int:
-        """Left at ``tick`` of the job, ``done`` commands being done. One that takes longer stands at its end."""
+        """The ticks left at ``tick`` of the job, with so many commands done. While one takes longer than forecast, the
+        time left doesn't fall.
+        """
         if done != self._done:
             self._done, self._since = done, tick
         row = min(done, len(self._before) - 1)

@@ -1,7 +1,7 @@
-"""What Ctrl-C and SIGTERM do, and the exit code that tells of them.
+"""What Ctrl-C, SIGTERM and SIGHUP do, and the exit code after them.
 
 Rule: within a job they ask the machine to stop; anywhere else they end the verb by an exception, so that every
-``finally`` on the way out is run. Called by the CLI and, while a machine runs, by desk.
+``finally`` on the way out is run.
 """
 
 import signal
@@ -15,7 +15,7 @@ Handler = Callable[[int, FrameType | None], None]
 
 @contextmanager
 def caught(handler: Handler) -> Iterator[None]:
-    """Both signals go to ``handler``, and afterwards where they went before. For the main thread only."""
+    """Within it the signals of CAUGHT go to ``handler``, afterwards to what they went to before. Main thread only."""
     previous = {number: signal.signal(number, handler) for number in CAUGHT}
     try:
         yield
@@ -31,7 +31,9 @@ def leave(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def remembered() -> Iterator[list[int]]:
-    """As ``leave``, and noted too: an exception raised in the midst of foreign code may be lost there."""
+    """Within it the signals are handled by ``leave``, and put into the list that it yields: a library may swallow the
+    exception.
+    """
     came: list[int] = []
 
     def handler(number: int, frame: FrameType | None) -> None:

@@ -1,8 +1,8 @@
 """The operator's keys while a job runs: Space holds it and lets it go on, x stops it, ! is an emergency stop.
 
-Rule: never waits longer than a moment. The terminal gives single keys only while this program is in its foreground,
-and is as it was on every way out: at the end, by an exception, before Ctrl-Z and Ctrl-\\ do what they do. A kill alone
-can't be foreseen. Opened by the verbs, asked by desk at every turn.
+Rule: reading keys waits for MOMENT_S at most. The terminal's mode is changed only while this program is in its
+foreground, and given back on every way out: at the end, by an exception, before Ctrl-Z and Ctrl-\\ act. Only SIGKILL
+leaves it changed.
 """
 
 import os
@@ -16,7 +16,7 @@ from typing import Any, TextIO
 from drillctl.kmd import Request
 
 HELP = "keys: Space holds the job and lets it go on, x stops it, ! is an emergency stop"
-HOLD, ENTER = " ", "\n"
+HOLD_OR_RESUME, ENTER = " ", "\n"
 REQUESTS = {"x": Request.STOP, "!": Request.ESTOP}
 HANDED_ON = (signal.SIGTSTP, signal.SIGQUIT)  # nobody else in this program catches them
 MOMENT_S = 0.05  # well below the silence that the ticker bears
@@ -25,15 +25,13 @@ INPUT_FLAGS, LOCAL_FLAGS, CHARACTERS = 0, 3, 6  # where termios has them
 
 
 class TerminalKeys:
-    """A desk.Operator at a terminal. As a context manager it takes the single keys, and gives them back.
-
-    held  whether the machine is to be held: turned over by each Space
+    """An Operator (jobs/operator.py) at a terminal. As a context manager it changes the terminal to single keys, and
+    gives its mode back.
     """
 
     def __init__(self, keyboard: TextIO):
         self._keyboard = keyboard.fileno()
-        self.held = False
-        self._asked: list[Request] = []
+        self._keys: list[str] = []  # pressed since the last ``requests``
         self._entered = False
         self._before: list[Any] | None = None  # the terminal's mode, while it has ours
         self._ours: list[Any] = []
@@ -50,11 +48,18 @@ class TerminalKeys:
         for number, handler in self._handlers.items():
             signal.signal(number, handler)
 
-    def requests(self) -> list[Request]:
-        """Stops and emergency stops, as often as they were asked for since the last call."""
+    def requests(self, held: bool) -> list[Request]:
+        """The requests of all keys pressed since the last call. Space resumes a job that is ``held``, else holds it."""
         self._look(0.0)
-        asked, self._asked = self._asked, []
-        return asked
+        keys, self._keys = self._keys, []
+        found = []
+        for key in keys:
+            if key == HOLD_OR_RESUME:
+                held = not held
+                found.append(Request.HOLD if held else Request.RESUME)
+            else:
+                found.append(REQUESTS[key])
+        return found
 
     def entered(self) -> bool:
         """Whether Enter was pressed since the last call; waits a moment for it."""
@@ -64,15 +69,13 @@ class TerminalKeys:
 
     def _look(self, wait_s: float) -> None:
         for key in self._typed(wait_s):
-            if key == HOLD:
-                self.held = not self.held
-            elif key == ENTER:
+            if key == ENTER:
                 self._entered = True
-            elif key in REQUESTS:
-                self._asked.append(REQUESTS[key])
+            elif key == HOLD_OR_RESUME or key in REQUESTS:
+                self._keys.append(key)
 
     def _typed(self, wait_s: float) -> str:
-        """The keys that came. A program in the background that reads its terminal is stopped, so it doesn't."""
+        """The keys pressed, waiting so long for one. In the background none are read: that would stop this program."""
         if not self._in_foreground():
             time.sleep(wait_s)
             return ""
@@ -91,7 +94,7 @@ class TerminalKeys:
 
     def _take(self) -> None:
         """Single keys, not shown; again after a shell has had the terminal meanwhile. Ctrl-S is a key like any other:
-        a terminal that stands still would silence the desk, and so hold the machine.
+        a terminal that it stops would stop this process too, and the ticker would hold the machine.
         """
         mode = termios.tcgetattr(self._keyboard)
         if mode == self._ours:
@@ -110,7 +113,9 @@ class TerminalKeys:
             termios.tcsetattr(self._keyboard, termios.TCSANOW, before)
 
     def _hand_on(self, number: int, frame: FrameType | None) -> None:
-        """The signal does what it did before us; where it only suspends, the next look takes the keys again."""
+        """A handler: gives the terminal back and lets the signal act as it did before; where it only suspends, the next
+        look at the keys changes the mode again.
+        """
         self._give_back()
         signal.signal(number, self._handlers[number])
         os.kill(os.getpid(), number)
@@ -118,7 +123,7 @@ class TerminalKeys:
 
 
 def has_keys(keyboard: TextIO) -> bool:
-    """Whether somebody may sit there: a terminal, and this process in its session."""
+    """Whether an operator can press keys there: it is a terminal, and this process belongs to its session."""
     try:
         return keyboard.isatty() and os.tcgetpgrp(keyboard.fileno()) > 0
     except OSError:

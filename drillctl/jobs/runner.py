@@ -1,14 +1,13 @@
-"""Wiring of layers 1 and 2: takes a job down the queue to its end, journals it, and says how it ended.
+"""Runs one job: puts its commands into the queue, journals its holes, listens to the operator, says how it ended.
 
-Rule: no layer is skipped; the desk knows a job, a link (queue, requests, status) and a journal, the ticker the rest.
-On every way out the outputs are safe. Called by the verbs.
+Rule: the runner knows a job, a link to a ticker (queue, requests, status) and a journal; everything below the queue is
+the ticker's. On every way out the outputs are safe.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +17,9 @@ from drillctl.generation.job import Job, MadeHole
 from drillctl.jobs.estimate import TimeLeft
 from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
-from drillctl.kmd import Condition, Fault, Request
-from drillctl.replay.stimuli import trace_header
+from drillctl.jobs.operator import JobHold, Operator, ToolChange
+from drillctl.kmd import Fault, Request
+from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link, is_over
 from drillctl.trace import Segments, Trace
 from drillctl.viewmodel import Outcome, Progress, fault_report
@@ -27,39 +27,37 @@ from drillctl.viewmodel import Outcome, Progress, fault_report
 BY_OPERATOR = "the operator stopped the job"
 BY_OTHERS = "the job was stopped before its end"  # by a signal to a process beside this one
 Watcher = Callable[[Progress], None]
-ToolChange = Callable[[int, float | None], bool]  # tool and diameter; asked again and again until it is True
-
-
-class Operator(Protocol):
-    """Somebody at the machine, asked at every turn."""
-
-    def requests(self) -> Iterable[Request]:
-        """Stops and emergency stops since the last call."""
-
-    @property
-    def held(self) -> bool:
-        """Whether the machine is to be held."""
 
 
 @dataclass(frozen=True)
 class JobResult:
-    """A job that is over: how it ended, the holes that the plant saw made, the trace if one was kept."""
+    """A job that is over.
+
+    holes    made, as the plant saw the bit meet the board; none on a real port
+    signal   the number of the signal that stopped the job, None if none did
+    trouble  what else stopped it, in a sentence; None where nothing did, or a fault, which ``outcome`` has
+    notices  sentences about how it was paced
+    """
 
     outcome: Outcome
     holes: list[MadeHole]
     trace: Trace | Segments | None
-    signal: int | None  # that stopped it
-    trouble: str | None = None  # what stopped it, but for faults and signals
-    notices: tuple[str, ...] = ()  # of how it was paced
+    signal: int | None
+    trouble: str | None = None
+    notices: tuple[str, ...] = ()
 
 
 @dataclass
 class JobRunner:
     """One job on one link: ``begin``, ``advance`` until it is over, ``end``; or ``run``, which does all three.
 
-    watcher      is shown the progress; ``journal`` is kept where there is one. Both it and the link stay open.
-    foreseen     ticks that each command of the program takes, None where nobody knows: foreseeing may take longer than
-                 a link bears the desk's silence
+    watcher        is given the progress at every turn
+    journal        is written where there is one; it and the link stay open afterwards
+    done_before    holes drilled by earlier runs of this job
+    ticks          (n,) that each command of the program takes; None where that was not worked out, which may take
+                   longer than a ticker tolerates the desk's silence
+    tool_change    None: each tool change counts as made
+    resumes_itself see JobHold
     """
 
     job: Job
@@ -67,22 +65,23 @@ class JobRunner:
     watcher: Watcher
     journal: Journal | None = None
     done_before: int = 0
-    foreseen: NDArray[np.int64] | None = None
+    ticks: NDArray[np.int64] | None = None
     holes: list[MadeHole] = field(default_factory=list)
     trouble: str | None = None
-    tool_change: ToolChange | None = None  # None: taken as made
+    tool_change: ToolChange | None = None
     operator: Operator | None = None
-    resumes_itself: bool = True  # after a hold for a gap in time; where nobody sits who could say go on
+    resumes_itself: bool = True
 
     def __post_init__(self) -> None:
         self.first = self.status = self.link.status()
         self.feeder = Feeder(self.job.program, self.link.queue)
         self.confirmed = 0
-        self._time_left = None if self.foreseen is None else TimeLeft(self.foreseen)
-        self._told_to_stop = False
+        self.hold = JobHold(self.resumes_itself)
+        self._time_left = None if self.ticks is None else TimeLeft(self.ticks)
+        self._stop_asked = False
 
     def run(self) -> JobResult:
-        """Drills the job to its end. Ctrl-C, SIGTERM and a closed terminal stop it; a second one drops it."""
+        """Runs the job to its end. Ctrl-C, SIGTERM or a closed terminal stops it; a second one is an emergency stop."""
         with _stopping(self.link) as stopped:
             self.begin()
             while not self.advance():
@@ -90,7 +89,7 @@ class JobRunner:
         return self.end(stopped[0] if stopped else None)
 
     def begin(self) -> None:
-        """The program is numbered on from what the ticker has done, so that nothing old counts as ours; and sent."""
+        """Sends the program, numbered on from what the ticker has done, so that no earlier command counts as ours."""
         self.first = self.link.status()
         program = self.job.program.copy()
         program["sequence"] += self.first["done"]
@@ -104,7 +103,7 @@ class JobRunner:
         self._feed()
 
     def advance(self) -> bool:
-        """Feeds the queue, lets the machine go on for a moment, and looks at what came of it. True: it is over."""
+        """Feeds the queue, lets the machine run for a moment and reads its status; returns whether the job is over."""
         self._feed()
         self.link.turn()
         self.status = status = self.link.status()
@@ -118,43 +117,38 @@ class JobRunner:
         return False
 
     @property
-    def held(self) -> bool:
-        """Whether the operator has it held."""
-        return self.operator is not None and self.operator.held
-
-    @property
     def last_sequence(self) -> int:
-        """The number of the program's last command, as it was sent."""
+        """The sequence number of the program's last command, as it was sent."""
         return int(self.first["done"]) + len(self.job.program)
 
     def end(self, stopped_by: int | None = None) -> JobResult:
-        """How it ended, with all that was kept of it."""
+        """Ends the journal and returns how the job ended; ``stopped_by`` is the signal that stopped it."""
         self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
         outcome = self.settle(stopped_by is not None)
         trace = self.link.trace(trace_header(self.job, self.link.plant_header))
         return JobResult(outcome, self.holes, trace, stopped_by, self.trouble, tuple(self.link.notices()))
 
     def settle(self, interrupted: bool = False) -> Outcome:
-        """How it ended, in the journal too."""
+        """Writes the end of the job into the journal and returns it; ``interrupted``: a signal stopped it."""
         outcome = self._outcome(self.status, interrupted)
         self._end_journal(outcome)
         return outcome
 
     def progress(self) -> Progress:
-        """How far the job is."""
+        """How far the job is: holes, tool, time, and the time left where the ticks of its commands are known."""
         hz, ticks = self.job.machine.tick_hz, int(self.status["tick"] - self.first["tick"])
         commands = int(self.status["done"] - self.first["done"])
         left = None if self._time_left is None else self._time_left.ticks(commands, ticks) / hz
         done = self.done_before + self.confirmed
         total = self.done_before + self.job.holes_total
-        return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left, self.held)
+        return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left, self.hold.held)
 
     def _feed(self) -> None:
-        """With a journal: a hole is written down before its commands may go, and only one is ahead. One that waits for
-        its tool has not begun.
+        """Fills the queue. With a journal, a hole's commands are sent after the hole was journalled as begun, and only
+        one such hole is ahead of those done. A hole that waits for its tool has not begun.
         """
         wanted = min(self.confirmed + 1, self.feeder.holes)
-        stopping = self.trouble or self._told_to_stop
+        stopping = self.trouble or self._stop_asked
         next_one = self.feeder.released_holes < wanted and not self.feeder.gated(wanted)
         if self.journal is not None and next_one and not stopping:
             try:
@@ -165,18 +159,18 @@ class JobRunner:
         self.feeder.feed()
 
     def _hear_operator(self) -> None:
-        """A hold, and its end, are asked for until they are so: a request may meet a gap's hold, or a command's end."""
-        for request in self.operator.requests() if self.operator else ():
-            self.link.post(request)
-            self._told_to_stop |= request == Request.STOP
-        condition = self.status["condition"]
-        if self.held and condition == Condition.READY and self.status["job"]:
-            self.link.post(Request.HOLD)
-        if not self.held and self.resumes_itself and condition == Condition.HOLDING and not self.status["moving"]:
-            self.link.post(Request.RESUME)
+        """Passes on what the operator asked since the last turn, and what the hold still needs."""
+        for request in self.operator.requests(self.hold.held) if self.operator else ():
+            if request in (Request.HOLD, Request.RESUME):
+                self.hold.wanted = request == Request.HOLD
+            else:
+                self.link.post(request)
+                self._stop_asked |= request == Request.STOP
+        if (due := self.hold.due(self.status)) is not None:
+            self.link.post(due)
 
     def _change_tool(self) -> None:
-        """At a gate, with everything before it done and at rest, the operator is asked."""
+        """Asks the operator for the tool that the program needs next, once everything before is done and at rest."""
         tool = self.feeder.awaited_tool()
         done = int(self.status["done"]) - int(self.first["done"])
         if tool is None or self.tool_change is None or done < self.feeder.put or self.status["moving"]:
@@ -187,8 +181,8 @@ class JobRunner:
             self.feeder.open_gate()
 
     def _confirm(self) -> None:
-        """Holes that execution has drilled, into the journal: once the head is up again. A lower sensor that answers
-        too early is caught there at the latest (SENSOR_CONTRADICTION), and its hole drilled again.
+        """Journals the holes that are done: a hole is, once the head is up again. A lower sensor that answers too early
+        is noticed there at the latest (SENSOR_CONTRADICTION), and its hole is drilled again.
         """
         done = self.feeder.holes_ended(int(self.status["done"]) - int(self.first["done"]))
         if self.journal is not None and done > self.confirmed and not self.trouble:
@@ -199,7 +193,7 @@ class JobRunner:
         self.confirmed = done
 
     def _stop_for(self, error: JournalError) -> None:
-        """What can't be written down is not drilled."""
+        """Stops the job because its journal can't be written."""
         if self.trouble is None:
             self.trouble = str(error)
             self.link.post(Request.STOP)
@@ -218,7 +212,7 @@ class JobRunner:
         code = self.link.lost() or int(status["fault"])
         complete = int(status["done"]) == self.last_sequence
         if not (code or complete or interrupted or self.trouble):
-            self.trouble = BY_OPERATOR if self._told_to_stop else BY_OTHERS
+            self.trouble = BY_OPERATOR if self._stop_asked else BY_OTHERS
         kept = bool(status["fault_kept"]) and not self.link.lost()
         by_axis = {name: status[name].tolist() for name in ("steps", "position", "lost")}
         return Outcome(
@@ -241,7 +235,9 @@ class JobRunner:
 
 @contextmanager
 def _stopping(link: Link) -> Iterator[list[int]]:
-    """The first signal asks for a stop down the ramp, the second for an emergency stop. Yields those that came."""
+    """Within it the first signal asks for a stop down the ramp, the second for an emergency stop. Yields the list of
+    the signals that came.
+    """
     came: list[int] = []
 
     def ask(number: int, frame: FrameType | None) -> None:

@@ -1,4 +1,8 @@
-"""One run of a job, from opening the port to the last line of the journal. Called by run and resume."""
+"""One run of a job, from opening the port to the last line of the journal; and the files that it leaves behind.
+
+Rule: whatever can be refused is refused before anything moves; port, journal and status file are closed on every way
+out.
+"""
 
 import hashlib
 import os
@@ -18,7 +22,8 @@ from drillctl.generation.pcb_drill.board import without_holes
 from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import Recipe
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
-from drillctl.jobs.runner import JobResult, JobRunner, Operator, ToolChange, Watcher
+from drillctl.jobs.operator import Operator, ToolChange
+from drillctl.jobs.runner import JobResult, JobRunner, Watcher
 from drillctl.jobs.site import site_of
 from drillctl.machine import Machine
 from drillctl.ticker.forecast import forecast
@@ -28,59 +33,62 @@ from drillctl.trace.segments import MOST_TICKS
 
 @dataclass(frozen=True)
 class Session:
-    """A job and how it is run. With a journal file: kept there, begun with a Head, or gone on with from an Account."""
+    """A job and how it is run. With ``journal``, a file: begun there with a Head, or gone on with from an Account."""
 
     job: Job
     running: RunSettings
     journal: Path | None = None
-    known: Head | Account | None = None
+    start_from: Head | Account | None = None
     tool_change: ToolChange | None = None
     operator: Operator | None = None
 
     def journalled(self, file: Path, journal: Path | None, recipe: Recipe) -> "Session":
-        """With a journal for a job made from ``file``; in the user's state folder where no place is given."""
-        return replace(self, journal=journal or default_journal(file), known=head_of(file, self.job, recipe.options()))
+        """The same with a journal for a job made from ``file``; in the user's state folder where no place is given."""
+        head = head_of(file, self.job, recipe.options())
+        return replace(self, journal=journal or default_journal(file), start_from=head)
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """What it keeps on the disk while it runs: no place for its results."""
+        """The files that it writes while it runs; its results must go elsewhere."""
         kept = () if self.journal is None else (self.journal, _status_of(self.journal))
         return (*kept, *files_of(self.running.port))
 
     def run(self, watcher: Watcher) -> JobResult:
-        """Raises JournalError or PortError before anything moves."""
-        foreseen = self._foreseen()
-        done_before = self.known.holes_done if isinstance(self.known, Account) else 0
+        """Runs the job to its end; ``watcher`` is given its progress. Raises JobError, JournalError or PortError before
+        anything moves.
+        """
+        ticks = self._forecast()
+        done_before = self.start_from.holes_done if isinstance(self.start_from, Account) else 0
         with ExitStack() as opened:
             journal = None
-            if self.journal is not None and self.known is not None:
-                journal = opened.enter_context(closing(Journal(self.journal, self.known, site_of(self.running))))
+            if self.journal is not None and self.start_from is not None:
+                journal = opened.enter_context(closing(Journal(self.journal, self.start_from, site_of(self.running))))
             status_file = opened.enter_context(_status_file(self.journal))
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
-            desk = JobRunner(
-                self.job, link, watcher, journal, done_before, foreseen,
+            runner = JobRunner(
+                self.job, link, watcher, journal, done_before, ticks,
                 tool_change=self.tool_change, operator=self.operator,
             )  # fmt: skip
-            return desk.run()
+            return runner.run()
 
-    def _foreseen(self) -> NDArray[np.int64] | None:
-        """The ticks of each command, where somebody waits for them. Raises JobError for a run that is to be kept in a
-        trace and has more ticks than one has room for.
+    def _forecast(self) -> NDArray[np.int64] | None:
+        """The ticks of each command, where the time left is worth showing. Raises JobError for a run that is to be kept
+        in a trace and has more ticks than one has room for.
         """
         kept = self.running.traced and pace_of(self.running) == FREE
         if not kept and (not self.job.work or is_soon_over(self.running)):
             return None
-        told = forecast(self.job.program, self.job.machine)
-        if kept and told.total_ticks > MOST_TICKS:
-            reason = f"{told.total_ticks} ticks; a trace has room for {MOST_TICKS}"
+        found = forecast(self.job.program, self.job.machine)
+        if kept and found.total_ticks > MOST_TICKS:
+            reason = f"{found.total_ticks} ticks; a trace has room for {MOST_TICKS}"
             hint = "record a part of the job, or run it without --trace and --vcd"
             raise JobError([f"{self.job.name}: {reason}; {hint}"])
-        return None if is_soon_over(self.running) or not self.job.work else told.ticks
+        return None if is_soon_over(self.running) or not self.job.work else found.ticks
 
 
 @dataclass(frozen=True, eq=False)
 class RemainingJob:
-    """A journalled job made again: the whole of it, and what is left."""
+    """A job made again from its journal: the recipe, the whole job, and the job that drills what is left."""
 
     recipe: Recipe
     whole: Job
@@ -88,7 +96,9 @@ class RemainingJob:
 
 
 def rest_of(journal: Path, account: Account, machine: Machine) -> RemainingJob:
-    """Refused unless it is the same job. Raises JobError, JournalError, PlacingError or AlignmentError."""
+    """Makes the job of a journal again and leaves out what is drilled. Raises JournalError unless it is the same job as
+    then; JobError, PlacingError or AlignmentError where it can't be made, or nothing is left.
+    """
     recipe = Recipe.of_options(account.head.options, journal)
     file = Path(account.head.job)
     wishes = recipe.wishes(machine)
@@ -100,13 +110,13 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> RemainingJob:
 
 
 def default_journal(file: Path) -> Path:
-    """Where a job's journal is kept when nobody says where: one for each file, wherever that lies."""
+    """The journal's file where none is named: one for each drill file, by its name and a digest of its path."""
     place = hashlib.sha256(os.fsencode(real_path(file))).hexdigest()[:8]
     return journals() / f"{file.stem}-{place}.journal"
 
 
 def journals() -> Path:
-    """The user's folder of journals."""
+    """The folder in which journals are kept: the user's state folder."""
     from platformdirs import user_state_path
 
     return user_state_path("drillctl", appauthor=False)
@@ -118,8 +128,8 @@ def _status_of(journal: Path) -> Path:
 
 @contextmanager
 def _status_file(journal: Path | None) -> Iterator[Path]:
-    """The mapped file of a paced run: beside the journal, where it stays after a crash until the next run; else for
-    the moment.
+    """A place for the file that desk and ticker share in a paced run: beside the journal, where a crash leaves it until
+    the next run takes it away; without a journal in a folder that goes with this run.
     """
     if journal is not None:
         file = _status_of(journal)

@@ -1,7 +1,6 @@
-"""Where a job runs, as its journal names it, and whether a run that goes on with it runs there too.
+"""Where a job runs (port, pace, plant), as its journal names it, and whether a resumed run is at the same site.
 
-Rule: a job goes on where it ran; on another port, at another pace or before another plant it does so only where a
-person said so. Called by session, by the resume verb and by station.
+Rule: a job goes on where it ran; on another port, at another pace or with another plant only where a person said so.
 """
 
 import os
@@ -16,8 +15,8 @@ from drillctl.viewmodel.jobs import Site
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What was asked for of a site; None: as the job ran."""
+class SiteOptions:
+    """What the command line says of the site of a resumed run; None: as the job ran."""
 
     port: str | None = None
     pace: str | None = None
@@ -34,19 +33,19 @@ def site_of(running: RunSettings) -> Site:
     return Site(port, pace, " ".join((choice.kind, *sorted(choice.faults))), seed)
 
 
-def running_at(site: Site, asked: Asked) -> RunSettings:
-    """A run at this site, but for what was asked for. On another port pace and plant are that port's own, unless they
-    were asked for too. Raises PortRefused.
+def running_at(site: Site, options: SiteOptions) -> RunSettings:
+    """The settings of a run at this site, changed by the options. On another port pace and plant are that port's own,
+    unless the options name them too. Raises PortRefused.
     """
-    port = site.port if asked.port is None else _whole(asked.port)
+    port = site.port if options.port is None else _whole(options.port)
     same = port == site.port
     real = select(port)[0].real
-    plant = asked.plant or (IDEAL_PLANT if real else _plant_at(site))
-    return RunSettings(port, asked.pace or (site.pace if same else None), plant=plant)
+    plant = options.plant or (IDEAL_PLANT if real else _plant_at(site))
+    return RunSettings(port, options.pace or (site.pace if same else None), plant=plant)
 
 
 def moved(ran: Site, here: Site) -> str:
-    """Why a job would go on elsewhere, in a sentence; empty where it would not."""
+    """A sentence that says in what the two sites differ; empty where they are the same."""
     if ran == here:
         return ""
     if ran.real and not here.real:
@@ -55,7 +54,7 @@ def moved(ran: Site, here: Site) -> str:
 
 
 def _whole(spec: str) -> str:
-    """With a file's address absolute, whatever folder it was named from. Raises PortRefused."""
+    """A port ``NAME[:ADDRESS]`` with its address absolute, where that is a file. Raises PortRefused."""
     files = files_of(spec)
     return f"{spec.partition(':')[0]}:{os.path.abspath(files[0])}" if files else spec
 

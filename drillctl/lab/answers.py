@@ -1,7 +1,6 @@
-"""Answers a question, chunk by chunk: the machines of a chunk run side by side in fleets.
+"""The rows of a sweep's results, one for each machine, worked out chunk by chunk: a chunk runs in fleets.
 
-Rule: a chunk is as many machines as the question makes it, whoever runs it, so that its rows are the same bytes on any
-number of processes. A row is a machine.
+Rule: the size of a chunk depends on the question alone, so that its rows are the same bytes on any number of processes.
 """
 
 from functools import cache
@@ -18,22 +17,22 @@ FIXED_TAIL = ("load_nm", "draw", "moves", "lost", "worst_full_steps")
 
 
 def head(question: Question) -> str:
-    """The first line of the table: names of the columns."""
+    """The first line of the table: the names of its columns."""
     return ",".join((*FIXED_HEAD, *(name for name, _ in question.times), *FIXED_TAIL))
 
 
 def moves_a_machine(question: Question) -> int:
-    """How many trials make a row."""
+    """How many moves are tried with each machine."""
     return len(question.steps) * 2 * len(starts(question.axis))
 
 
 def chunk_size(question: Question) -> int:
-    """Machines to a chunk: a fleet of LANES."""
+    """How many machines make a chunk: as many as fill a fleet of LANES."""
     return max(1, LANES // moves_a_machine(question))
 
 
 def chunks(question: Question, begin: int = 0) -> list[range]:
-    """Machine numbers, chunk by chunk, from the one that has machine ``begin``; none where that is the end."""
+    """The machine numbers of each chunk, from the chunk with machine ``begin`` on; empty where none is left."""
     if begin == question.machines:
         return []
     size = chunk_size(question)
@@ -42,7 +41,7 @@ def chunks(question: Question, begin: int = 0) -> list[range]:
 
 
 def answer(question: Question, chunk: range) -> list[str]:
-    """A row for each machine of a chunk."""
+    """The rows of a chunk, in the order of its machines."""
     variants = [question.variant(number) for number in chunk]
     rows: dict[int, str] = {}
     for phase in dict.fromkeys(variant.phase for variant in variants):
@@ -53,7 +52,7 @@ def answer(question: Question, chunk: range) -> list[str]:
 
 
 def _tried(question: Question, variants: list[Variant]) -> list[str]:
-    """Machines on the same phase table: one fleet."""
+    """The rows of machines with the same phase table, tried in one fleet."""
     moves = cache(_moves)
     trials = [
         Trial(each, variant.tick_hz, variant.dynamics, variant.load_nm)

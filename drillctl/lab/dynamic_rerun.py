@@ -1,7 +1,7 @@
 """A recorded run once more on the dynamic plant: where an axis was, how fast, its currents, and where holes came.
 
 Rule: the port images are those of the trace. A run that was made on the dynamic plant is had again to the bit, with
-its faults and its seed; of any other run this is what motors with inertia would have made of it. Called by plots.
+its faults and its seed; of any other run this is what motors with inertia would have made of it.
 """
 
 from dataclasses import dataclass
@@ -18,10 +18,10 @@ from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.plant.dynamic.recorder import Motion, MotionRecorder
 from drillctl.plant.faults import PlantRefused
 from drillctl.ports import CARD_BITS
-from drillctl.replay.rerun import with_columns
-from drillctl.replay.stimuli import choice_of, machine_of, same_tables
-from drillctl.replay.trace_files import read_trace
+from drillctl.replay.derived_signals import with_columns
+from drillctl.replay.header import choice_of, machine_of, same_tables
 from drillctl.trace import Trace, dense
+from drillctl.trace.files import read_trace
 
 MOST_TICKS = 5_000_000  # 120 bytes each, and some minutes of the plant
 
@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Watched:
+class AxisRun:
     """One axis of a run, a value a tick.
 
     commanded  (ticks,) columns put out since power-up, forward counted
@@ -53,7 +53,7 @@ class Watched:
         return self.table.columns_per_step * self.table.steps_per_mm * (-1 if self.table.invert else 1)
 
 
-def watch(file: Path, library: Library, axis_name: str | None = None) -> Watched:
+def rerun_axis(file: Path, library: Library, axis_name: str | None = None) -> AxisRun:
     """Runs a trace on the dynamic plant; ``axis_name`` None: the axis that went farthest.
 
     Raises TraceError for a file that is no trace or can't be run, TableError for its machine, LabError for a machine
@@ -73,7 +73,7 @@ def watch(file: Path, library: Library, axis_name: str | None = None) -> Watched
     index = axis_index(machine, axis_name) if axis_name else _farthest(columns)
     plant, as_run = _plant(recorded, machine)
     rotor, sent_mm, drilled_mm = _driven(plant, recorded, machine, index, columns)
-    return Watched(machine, machine.axes[index], columns[index], rotor, sent_mm, drilled_mm, as_run)
+    return AxisRun(machine, machine.axes[index], columns[index], rotor, sent_mm, drilled_mm, as_run)
 
 
 def _unwrapped(column: Counts, length: int) -> Counts:
@@ -98,7 +98,7 @@ def _plant(recorded: Trace, machine: Machine) -> tuple[DynamicPlant, bool]:
 def _driven(
     plant: DynamicPlant, recorded: Trace, machine: Machine, index: int, columns: list[Counts]
 ) -> tuple[Motion, Floats, Floats]:
-    """All ticks of the run, with the eyes on one motor and on the bit."""
+    """Drives the plant through all ticks of the run; returns what one motor did, and the holes sent and drilled."""
     recorder, touches, places = MotionRecorder(plant.motors[index]), 0, []
     for tick, image in enumerate(_images(recorded, machine).tolist()):
         plant.drive(image)

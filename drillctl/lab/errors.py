@@ -1,5 +1,5 @@
-"""What the lab refuses, for the operator: a question that it can't answer, with what to ask instead."""
+"""What the lab refuses: a question, a table or a trace that it can't work on, with what to do about it."""
 
 
 class LabError(Exception):
-    """``str()`` says what is wrong, and what to do."""
+    """A refusal for the operator; ``str()`` says what is wrong and what to do."""

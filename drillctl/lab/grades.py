@@ -1,7 +1,7 @@
 """What a measured lateness is good for: grades A to E, and what to do for a better one.
 
 Rule: a grade asks two things, how often a tick is late and how long the longest wait was; each line of the table must
-hold for both. The waits are those at which execution acts (execution/clock.py). Called by latency.
+hold for both. The waits are those at which execution acts (execution/clock.py).
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ RATES_HZ = (20_000, 10_000, 5_000, 2_000, 1_000, 500, 250, 200, 100, 50)
 
 
 class Rung(NamedTuple):
-    """At most so many late, and none longer."""
+    """A grade: at most this share of ticks late, and no wait longer."""
 
     letter: str
     late_share: float

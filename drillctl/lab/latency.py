@@ -1,11 +1,10 @@
 """How punctual the ticks of an idle machine are on this computer, and whose fault it is when they are not.
 
     ticker   a process that ticks the machine as a paced run does, on the simulated card
-    canary   one on each processor used: sleeps to its deadlines and does nothing else, equally privileged
+    canary   a process on each processor used, with the same rights: sleeps to its deadlines and does nothing else
 
-Rule: the canaries wake twice a period, so whatever holds them up together with the ticker for a period is seen by
-them as half a period at the least: such a late tick is the platform's, any other is ours. Every way out ends the
-children. Called by the latency verb and by benchmarks/lateness.py. Linux.
+Rule: the canaries wake up twice a period. What delays them together with the ticker for a period, they notice as half a
+period at least: such a late tick is the platform's fault, any other is ours. Every way out ends the children. Linux.
 """
 
 import os
@@ -20,15 +19,15 @@ import numpy as np
 
 from drillctl.execution.clock import PacedClock
 from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
-from drillctl.lab.wakeups import MOST_TEXT, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
+from drillctl.lab.wakeups import MOST_TEXT, WakeupLog, bars, covered_ns, lateness, overlapping, quantile_us
 from drillctl.machine import Machine
-from drillctl.ticker.processes import Child
+from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.realtime import become_punctual
 from drillctl.ticker.ticker import Ticker
 from drillctl.viewmodel.reports import LatencyReport
 
 MOST_PROCESSORS = 4  # the ticker stays on these, so that a canary sees whatever stops it
-CANARY_WAKES = 2  # a period
+CANARY_WAKEUPS = 2  # a period
 WARM_UP_TICKS = 200
 TURN_S = 0.05
 START_S = 10.0
@@ -36,24 +35,24 @@ LEAVE_S = 2.0
 
 
 class LatencyError(Exception):
-    """Nothing could be measured here. The text says why."""
+    """Nothing could be measured on this computer; ``str()`` says why."""
 
 
 def a_moment() -> bool:
-    """What ``measure`` does while it waits, where nothing else is asked for."""
+    """Sleeps for TURN_S and returns False: the default of ``measure``'s ``meanwhile``."""
     time.sleep(TURN_S)
     return False
 
 
 def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_moment) -> LatencyReport:
-    """Ticks ``machine`` for so long. ``meanwhile`` is called over and over until then; True from it ends it early.
+    """Ticks ``machine`` for so long and reports. ``meanwhile`` is called over and over; True from it ends that early.
 
     Raises LatencyError.
     """
     if not sys.platform.startswith("linux"):
         raise LatencyError("latency is measured on Linux only")
     processors = sorted(os.sched_getaffinity(0))[:MOST_PROCESSORS]
-    log, canaries = WakeLog(), [WakeLog() for _ in processors]
+    log, canaries = WakeupLog(), [WakeupLog() for _ in processors]
     interrupted = False
     with _children() as start:
         for processor, canary in zip(processors, canaries, strict=True):
@@ -63,18 +62,18 @@ def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_
             each.record["go"] = 1
         while not ticker.gone and not interrupted:
             interrupted = meanwhile()
-    if not log.wakes or not log.record["to_ns"]:
-        raise LatencyError(f"no figures: the ticker's process was ended, or died, after {log.wakes} ticks")
+    if not log.wakeups or not log.record["to_ns"]:
+        raise LatencyError(f"no figures: the ticker's process was ended, or died, after {log.wakeups} ticks")
     return _report(machine, log, canaries, interrupted)
 
 
 @contextmanager
-def _children() -> Iterator[Callable[[WakeLog, Callable[[], None]], Child]]:
-    """Gives a function that starts a child and waits until it is ready; ends all of them afterwards."""
-    children: list[tuple[Child, WakeLog]] = []
+def _children() -> Iterator[Callable[[WakeupLog, Callable[[], None]], ChildProcess]]:
+    """Yields a function that starts a child and waits until it is ready; ends all children afterwards."""
+    children: list[tuple[ChildProcess, WakeupLog]] = []
 
-    def start(log: WakeLog, body: Callable[[], None]) -> Child:
-        child = Child(body)
+    def start(log: WakeupLog, body: Callable[[], None]) -> ChildProcess:
+        child = ChildProcess(body)
         children.append((child, log))
         until_s = time.monotonic() + START_S
         while not log.record["ready"]:
@@ -94,7 +93,7 @@ def _children() -> Iterator[Callable[[WakeLog, Callable[[], None]], Child]]:
             child.end(LEAVE_S)
 
 
-def run_ticker(log: WakeLog, machine: Machine, seconds: float, processors: list[int]) -> None:
+def run_ticker(log: WakeupLog, machine: Machine, seconds: float, processors: list[int]) -> None:
     """The body of the ticker's process."""
     ticker = Ticker.simulated(machine)
     ticker.run(WARM_UP_TICKS)
@@ -102,14 +101,14 @@ def run_ticker(log: WakeLog, machine: Machine, seconds: float, processors: list[
     pace(log, machine.tick_hz, seconds, lambda: ticker.run(1))
 
 
-def run_canary(log: WakeLog, tick_hz: int, seconds: float, processor: int) -> None:
-    """The body of a canary's process; it lives until it is told to leave."""
+def run_canary(log: WakeupLog, tick_hz: int, seconds: float, processor: int) -> None:
+    """The body of a canary's process, which runs until its parent wants it to leave."""
     _prepare(log, [processor])
-    pace(log, tick_hz * CANARY_WAKES, seconds + LEAVE_S, lambda: None)
+    pace(log, tick_hz * CANARY_WAKEUPS, seconds + LEAVE_S, lambda: None)
 
 
-def _prepare(log: WakeLog, processors: list[int]) -> None:
-    """Real-time where it is allowed, on these processors; then waits for the others."""
+def _prepare(log: WakeupLog, processors: list[int]) -> None:
+    """Becomes real-time where allowed, on these processors, says ready and waits for go."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)  # the parent's handler is not for us
     os.sched_setaffinity(0, processors)
     log.record["refused"] = "\n".join(become_punctual()).encode()[:MOST_TEXT]
@@ -118,8 +117,8 @@ def _prepare(log: WakeLog, processors: list[int]) -> None:
         time.sleep(TURN_S / 10)
 
 
-def pace(log: WakeLog, tick_hz: int, seconds: float, body: Callable[[], object]) -> None:
-    """A paced loop, logged, for so long; or until nobody wants it any more."""
+def pace(log: WakeupLog, tick_hz: int, seconds: float, body: Callable[[], object]) -> None:
+    """Calls ``body`` at each deadline and logs the wakeups, for so long or until the parent is gone."""
     record = log.record
     spent_ns = time.process_time_ns()
     clock = PacedClock(tick_hz)
@@ -133,16 +132,16 @@ def pace(log: WakeLog, tick_hz: int, seconds: float, body: Callable[[], object])
     record["to_ns"] = time.monotonic_ns()
 
 
-def _report(machine: Machine, log: WakeLog, canaries: list[WakeLog], interrupted: bool) -> LatencyReport:
-    record, told = log.record, lateness([log])
-    elapsed_ns, cpu_ns, late = log.elapsed_ns, int(record["cpu_ns"]), int(record["late_wakes"])
+def _report(machine: Machine, log: WakeupLog, canaries: list[WakeupLog], interrupted: bool) -> LatencyReport:
+    record, ticks = log.record, lateness([log])
+    elapsed_ns, cpu_ns, late = log.elapsed_ns, int(record["cpu_ns"]), int(record["late_wakeups"])
     spans, held = log.late_spans(), np.concatenate([canary.late_spans() for canary in canaries])
     platform = int(overlapping(spans, held).sum())
     refused = tuple(bytes(record["refused"]).decode(errors="replace").splitlines())
-    carries_hz = carried_hz(quantile_us(record["counts"], 1 - GOOD_SHARE), cpu_ns / 1000 / told.wakes)
+    carries_hz = carried_hz(quantile_us(record["counts"], 1 - GOOD_SHARE), cpu_ns / 1000 / ticks.wakes)
     finding = Finding(
-        late_share=late / told.wakes,
-        longest_ms=told.max_us / 1000,
+        late_share=late / ticks.wakes,
+        longest_ms=ticks.max_us / 1000,
         real_time=not refused,
         platform_share=platform / max(1, len(spans)),
         tick_hz=machine.tick_hz,
@@ -152,7 +151,7 @@ def _report(machine: Machine, log: WakeLog, canaries: list[WakeLog], interrupted
         machine=machine.name,
         tick_hz=machine.tick_hz,
         seconds=elapsed_ns / 1e9,
-        ticker=told,
+        ticker=ticks,
         canary=lateness(canaries),
         canary_late_share=covered_ns(held, int(record["from_ns"]), int(record["to_ns"])) / elapsed_ns,
         late=late,

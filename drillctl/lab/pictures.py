@@ -1,6 +1,6 @@
 """What a picture of a recorded run shows: speed, lag, currents, the board as drilled, the pull-out curve.
 
-Rule: numbers into panel.picture records; how they are drawn is ui's. Called by the plot verb.
+Rule: here numbers become records of viewmodel/picture.py; drawing them is the work of ui.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,7 +10,7 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.lab.dynamic_rerun import Watched
+from drillctl.lab.dynamic_rerun import AxisRun
 from drillctl.lab.errors import LabError
 from drillctl.lab.moves import move
 from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, Trial, errors_full_steps, lost
@@ -34,59 +34,59 @@ class Window:
     first: int = 0
     end: int | None = None
 
-    def of(self, watched: Watched) -> slice:
-        """What of a run is to be seen. Raises LabError where that is nothing."""
-        ticks = len(watched.commanded)
+    def of(self, run: AxisRun) -> slice:
+        """The ticks of a run that are shown. Raises LabError where there are none."""
+        ticks = len(run.commanded)
         found = slice(self.first, ticks if self.end is None else min(self.end, ticks))
         if found.start >= found.stop:
             raise LabError(f"no ticks from {found.start} to {found.stop}; the run has {ticks}")
         return found
 
 
-def speed(watched: Watched, window: Window) -> Picture:
-    """Of the columns put out, and of the rotor, in mm/s."""
-    shown = window.of(watched)
-    motor_mm = watched.table.motor.columns_per_cycle / watched.columns_per_mm
-    cycles_per_rad = _dynamics_cycles(watched) / (2 * pi)
-    sent = _sent_columns_per_tick(watched.commanded) * watched.machine.tick_hz / watched.columns_per_mm
-    real = watched.rotor.speed * cycles_per_rad * motor_mm
-    time_s = _time_s(watched)[shown]
+def speed(run: AxisRun, window: Window) -> Picture:
+    """Speed over time, in mm/s: as commanded and of the rotor."""
+    shown = window.of(run)
+    motor_mm = run.table.motor.columns_per_cycle / run.columns_per_mm
+    cycles_per_rad = _dynamics_cycles(run) / (2 * pi)
+    sent = _sent_columns_per_tick(run.commanded) * run.machine.tick_hz / run.columns_per_mm
+    real = run.rotor.speed * cycles_per_rad * motor_mm
+    time_s = _time_s(run)[shown]
     curves = (Curve.of("rotor", time_s, real[shown]), Curve.of("commanded", time_s, sent[shown], Style.STAIRS))
     chart = Chart(TIME, "speed, mm/s", curves)
     fastest = f"fastest: {np.abs(sent[shown]).max():.1f} mm/s commanded, {np.abs(real[shown]).max():.1f} mm/s reached"
-    return Picture(_title(watched, "speed"), (chart,), (fastest, _whose(watched)))
+    return Picture(_title(run, "speed"), (chart,), (fastest, _whose(run)))
 
 
-def lag(watched: Watched, window: Window) -> Picture:
+def lag(run: AxisRun, window: Window) -> Picture:
     """Where the axis was sent and where it was; and by how many full steps it was behind."""
-    shown = window.of(watched)
-    time_s = _time_s(watched)[shown]
-    places = [(columns / watched.columns_per_mm)[shown] for columns in (watched.commanded, watched.rotor.columns)]
-    behind = _behind_full_steps(watched)[shown]
+    shown = window.of(run)
+    time_s = _time_s(run)[shown]
+    places = [(columns / run.columns_per_mm)[shown] for columns in (run.commanded, run.rotor.columns)]
+    behind = _behind_full_steps(run)[shown]
     where = (Curve.of("rotor", time_s, places[1]), Curve.of("commanded", time_s, places[0], Style.STAIRS))
     late = (Curve.of("lag", time_s, behind),)
     charts = (Chart(TIME, "from the start, mm", where), Chart(TIME, "lag, full steps", late))
     notes = f"greatest lag {np.abs(behind).max():.2f} full steps, {behind[-1]:.2f} at the end"
-    return Picture(_title(watched, "lag"), charts, (notes, _whose(watched)))
+    return Picture(_title(run, "lag"), charts, (notes, _whose(run)))
 
 
-def currents(watched: Watched, window: Window) -> Picture:
-    """Of the four half windings, one phase above the other."""
-    shown = window.of(watched)
-    time_s = _time_s(watched)[shown]
-    names = {degrees % FULL_TURN: name for name, degrees in watched.table.motor.windings}
+def currents(run: AxisRun, window: Window) -> Picture:
+    """The currents of the four half windings, one phase above the other."""
+    shown = window.of(run)
+    time_s = _time_s(run)[shown]
+    names = {degrees % FULL_TURN: name for name, degrees in run.table.motor.windings}
     curves = [
         Curve.of(names[degrees], time_s, amperes[shown])
-        for degrees, amperes in zip(WINDING_DEGREES, watched.rotor.currents.T, strict=True)
+        for degrees, amperes in zip(WINDING_DEGREES, run.rotor.currents.T, strict=True)
     ]
     charts = tuple(Chart(TIME, "current, A", tuple(curves[phase : phase + 2])) for phase in (0, 2))
-    greatest = f"greatest current {watched.rotor.currents[shown].max():.2f} A"
-    return Picture(_title(watched, "currents"), charts, (greatest, _whose(watched)))
+    greatest = f"greatest current {run.rotor.currents[shown].max():.2f} A"
+    return Picture(_title(run, "currents"), charts, (greatest, _whose(run)))
 
 
-def board(watched: Watched, _window: Window) -> Picture:
+def board(run: AxisRun, _window: Window) -> Picture:
     """The holes of the whole run: where each was sent, and how far off it was drilled, enlarged. Raises LabError."""
-    sent, error = watched.sent_mm, watched.drilled_mm - watched.sent_mm
+    sent, error = run.sent_mm, run.drilled_mm - run.sent_mm
     if not len(sent):
         raise LabError("the bit never met the board in this run: there is no hole to be shown")
     off_mm = np.hypot(*error.T)
@@ -101,22 +101,22 @@ def board(watched: Watched, _window: Window) -> Picture:
         f"{len(off_mm)} holes, off by {off_mm.mean() * 1000:.0f} um on average, {off_mm[worst] * 1000:.0f} um at most "
         f"(hole {worst + 1} at {sent[worst, 0]:.2f}, {sent[worst, 1]:.2f} mm)"
     )
-    title = f"{watched.machine.name}: board as drilled"
-    return Picture(title, (plan, Chart("hole", "error, um", (by_hole,))), (note, _whose(watched)))
+    title = f"{run.machine.name}: board as drilled"
+    return Picture(title, (plan, Chart("hole", "error, um", (by_hole,))), (note, _whose(run)))
 
 
-def pull_out_curve(watched: Watched, _window: Window) -> Picture:
-    """Of the axis's motor, ramp and phase table; the run itself doesn't matter."""
-    found = {name: pull_out(watched.table, RATES_HZ, way) for name, way in WAYS.items()}
+def pull_out_curve(run: AxisRun, _window: Window) -> Picture:
+    """The pull-out curve of the axis's motor with its phase table; the run itself doesn't matter."""
+    found = {name: pull_out(run.table, RATES_HZ, way) for name, way in WAYS.items()}
     curves = [Curve.of(name, each.rates_hz, each.torque_nm * 1000) for name, each in found.items()]
-    hz = watched.machine.tick_hz
+    hz = run.machine.tick_hz
     left = [f"{np.interp(hz, each.rates_hz, each.torque_nm) * 1000:.1f} mN m {name}" for name, each in found.items()]
     notes = (f"at {hz} Hz it carries besides its friction {' and '.join(left)}", "a constant load, ramps included")
     chart = Chart("interrupt frequency, Hz", "load carried, mN m", tuple(curves))
-    return Picture(_title(watched, "pull-out"), (chart,), notes)
+    return Picture(_title(run, "pull-out"), (chart,), notes)
 
 
-Drawing = Callable[[Watched, Window], Picture]
+Drawing = Callable[[AxisRun, Window], Picture]
 PICTURES: dict[str, Drawing] = {
     "speed": speed,
     "lag": lag,
@@ -126,29 +126,29 @@ PICTURES: dict[str, Drawing] = {
 }
 
 
-def _title(watched: Watched, what: str) -> str:
-    return f"{watched.machine.name}, {watched.table.name}: {what} at {watched.machine.tick_hz} Hz"
+def _title(run: AxisRun, what: str) -> str:
+    return f"{run.machine.name}, {run.table.name}: {what} at {run.machine.tick_hz} Hz"
 
 
-def _whose(watched: Watched) -> str:
-    if watched.as_run:
+def _whose(run: AxisRun) -> str:
+    if run.as_run:
         return "the plant as it was in the run"
     return "the run had no such motors: these are what the dynamic plant makes of its images"
 
 
-def _time_s(watched: Watched) -> Floats:
-    """Of the end of each tick."""
-    return (np.arange(len(watched.commanded)) + 1) / watched.machine.tick_hz
+def _time_s(run: AxisRun) -> Floats:
+    """(ticks,): the time at the end of each tick."""
+    return (np.arange(len(run.commanded)) + 1) / run.machine.tick_hz
 
 
-def _dynamics_cycles(watched: Watched) -> int:
-    assert watched.table.dynamics is not None
-    return watched.table.dynamics.cycles_per_turn
+def _dynamics_cycles(run: AxisRun) -> int:
+    assert run.table.dynamics is not None
+    return run.table.dynamics.cycles_per_turn
 
 
-def _behind_full_steps(watched: Watched) -> Floats:
-    behind = watched.commanded - watched.rotor.columns
-    return behind * FULL_STEPS_PER_CYCLE / watched.table.motor.columns_per_cycle
+def _behind_full_steps(run: AxisRun) -> Floats:
+    behind = run.commanded - run.rotor.columns
+    return behind * FULL_STEPS_PER_CYCLE / run.table.motor.columns_per_cycle
 
 
 def _sent_columns_per_tick(commanded: NDArray[np.int64]) -> Floats:

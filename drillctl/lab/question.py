@@ -1,7 +1,7 @@
 """What a sweep asks: every machine of a grid, and what is tried with it.
 
-Rule: a question is data; machine number n of it is always the same one, whoever tries it and when. Its digest tells
-two questions apart. Made by the sweep verb, answered by answers.py.
+Rule: a question is data; its machine number n is always the same one, on any computer. Its digest tells two questions
+apart.
 """
 
 import hashlib
@@ -75,22 +75,22 @@ class Question:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each factor has, the slowest first."""
+        """How many values each factor of the grid has, the one that changes slowest first."""
         multiples = (len(values) for _, values in self.times)
         return len(self.phases), len(self.ramps), len(self.rates_hz), *multiples, len(self.loads_nm), self.draws
 
     @property
     def machines(self) -> int:
-        """How many there are."""
+        """How many machines the grid has."""
         return prod(self.shape)
 
     @property
     def digest(self) -> str:
-        """16 hex digits over all that the answer depends on."""
+        """16 hex digits over everything that the results depend on."""
         return hashlib.sha256(repr((LAW, self, self.axis.dynamics)).encode()).hexdigest()[:16]
 
     def variant(self, number: int) -> Variant:
-        """Machine ``number``, from 0."""
+        """The machine with this number, counted from 0."""
         phase, ramp, rate, *multiples, load, draw = (int(place) for place in np.unravel_index(number, self.shape))
         name, table = self.phases[phase]
         axis = replace(self.axis, phase=table, ramp=self.ramps[ramp])
@@ -104,7 +104,7 @@ class Question:
         return self.axis.dynamics
 
     def _drawn(self, dynamics: Dynamics, draw: int) -> Dynamics:
-        """The same draw has the same luck everywhere on the grid, so that its points can be compared."""
+        """The parameters of a draw: the same factors everywhere on the grid, so that its points can be compared."""
         if not self.spread:
             return dynamics
         random = Random(f"{self.seed} {draw}")

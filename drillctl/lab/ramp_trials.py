@@ -1,7 +1,7 @@
 """Ramps of an axis tried on the dynamic plant: which lose steps, and what was tried with one to be sure.
 
 Rule: *loses nothing* holds for the load as it is and for heavier ones, up to ``margin`` times: inertia, viscous and
-Coulomb friction together, which is the same motion as a motor with so much less torque. Called by tune.py.
+Coulomb friction together, which is the same motion as a motor with so much less torque.
 """
 
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ PROOF_COLUMNS = 480  # at full speed in the longest moves of a proof
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """What was tried with a ramp: so many moves, the worst so far off; the shortest distance that lost, if any."""
+    """What was tried with a ramp: how many moves, the greatest error at rest, the shortest distance that lost steps."""
 
     trials: int
     worst_full_steps: float
@@ -52,7 +52,7 @@ class Bench:
             raise LabError(f"{self.tick_hz} Hz is outside {SLOWEST_HZ} to {FASTEST_HZ}")
 
     def losing(self, ramps: Sequence[RampTable], distances: Sequence[int] = ()) -> list[bool]:
-        """Which of them lose steps, on the moves that tell most and on ``distances``; all in one fleet."""
+        """Which ramps lose steps, on the moves most likely to and on ``distances``; all in one fleet."""
         begun = starts(self.axis)
         tried = [self._trials(ramp, sorted({*_telling(ramp, self.axis), *distances}), LOADS, begun) for ramp in ramps]
         losing = lost(errors_full_steps(self.axis, [trial for trials in tried for trial in trials]))
@@ -69,12 +69,12 @@ class Bench:
         return Proof(len(trials), float(errors.max()), distances[failing[0]] if len(failing) else None)
 
     def mean_ticks(self, ramp: RampTable) -> float:
-        """Over MOVES."""
+        """The mean time of a move over the distances of MOVES."""
         ticks = [travel_ticks(ramp, steps, 0, self.axis.columns_per_step) for steps in MOVES]
         return sum(ticks) / len(ticks)
 
     def loads(self, count: int) -> list[float]:
-        """So many times as heavy as it is, evenly from 1 to the margin."""
+        """``count`` factors of the load, evenly from 1 to the margin."""
         return np.linspace(1, self.margin, count).tolist()
 
     def _trials(self, ramp: RampTable, distances: Sequence[int], loads: int, begun: Sequence[int]) -> list[Trial]:

@@ -1,7 +1,7 @@
 """Whether a ramp lands exactly on every new target, given in the midst of a move: the real automaton, tried.
 
 Rule: machine/ramp.py proves moves from rest; here the axis is under way, in every state that a long move goes through,
-both ways, and is sent anywhere around. Called by tune.
+both ways, and is sent anywhere around.
 """
 
 from copy import copy
@@ -29,7 +29,7 @@ def first_missed(ramp: RampTable, axis: AxisTable) -> tuple[int, int] | None:
 
 
 def targets_tried(ramp: RampTable) -> int:
-    """How many new targets that are."""
+    """How many new targets ``first_missed`` tries."""
     reach = ramp.straight_from()
     return 2 * reach * (2 * reach + 1)
 

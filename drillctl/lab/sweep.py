@@ -1,8 +1,8 @@
-"""A sweep: a question answered into a results file, from where the file leaves off.
+"""A sweep: the machines of a question tried one after the other, their rows appended to a results file.
 
-Rule: rows come in the order of the machines and depend on nothing but the question, whose digest stands in the file's
-first line, so that rows of two questions never meet. A torn last line is taken off; any other damage refuses the file.
-It is locked as long as somebody writes.
+Rule: rows come in the order of the machines and depend on the question alone. Its digest is in the file's first line,
+so that rows of two questions are never mixed. A torn last line is taken off; any other damage refuses the file. While
+a sweep writes, the file is locked.
 """
 
 import fcntl
@@ -23,7 +23,7 @@ LONGEST_ROW_BYTES = 4096
 
 
 class Results:
-    """An open results file; ``rows`` are in it so far. Use as a context manager. Raises LabError, OSError."""
+    """An open results file, a context manager. ``rows``: how many it has so far. Raises LabError, OSError."""
 
     def __init__(self, path: Path, question: Question):
         self.path = path
@@ -42,13 +42,13 @@ class Results:
         self._file.close()
 
     def append(self, rows: Sequence[str]) -> None:
-        """Rows more; they are with the system when this returns."""
+        """Appends rows; the operating system has them when this returns."""
         self._file.write("".join(f"{row}\n" for row in rows).encode())
         self._file.flush()
         self.rows += len(rows)
 
     def _begun(self, question: Question) -> int:
-        """How many rows there are, with the file ready for the next; a new one gets its first lines."""
+        """Checks what the file holds and makes it ready for the next row; returns how many rows it has."""
         limit = (question.machines + len(_first_lines(question))) * LONGEST_ROW_BYTES
         data = self._file.read(limit + 1)
         if len(data) > limit:
@@ -67,12 +67,12 @@ class Results:
 
 
 def _first_lines(question: Question) -> list[bytes]:
-    """How the file begins."""
+    """The two lines that the file begins with: magic and digest, then the names of the columns."""
     return [f"{MAGIC} {question.digest}".encode(), head(question).encode()]
 
 
 def _opened(path: Path) -> BinaryIO:
-    """For reading and writing, made where there is none. Raises OSError, too for what is no file."""
+    """Opens the file for reading and writing, or makes it. Raises OSError, also for a device or a folder."""
     handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK, 0o666)
     try:
         check_kind(os.fstat(handle), path)
@@ -89,7 +89,7 @@ def _what_else(whole: list[bytes]) -> str:
 
 
 def _check_rows(rows: list[bytes], names: bytes, question: Question, path: Path) -> None:
-    """As many as there are machines at most, each with a value for every column."""
+    """Raises LabError for more rows than machines, or one without a value for every column."""
     if len(rows) > question.machines:
         raise LabError(f"{path}: has {len(rows)} rows, and the question {question.machines} machines")
     values = names.count(b",")
@@ -107,14 +107,14 @@ def _lock(file: BinaryIO, path: Path) -> None:
 
 @dataclass(frozen=True, slots=True)
 class WorkerPool:
-    """Who answers: so many processes here, or the workers of a dask scheduler at an address."""
+    """Where the rows are worked out: in so many processes here, or by the dask scheduler at an address."""
 
     workers: int = 1
     cluster: str | None = None
 
 
 def sweep(question: Question, results: Results, pool: WorkerPool) -> Iterator[int]:
-    """Answers what is missing; gives how many rows the file has, after each chunk. Raises LabError."""
+    """Works out the rows that are missing; yields how many the file has after each chunk. Raises LabError."""
     todo = chunks(question, results.rows)
     answers = on_cluster(question, todo, pool.cluster) if pool.cluster else on_cores(question, todo, pool.workers)
     for chunk, rows in zip(todo, answers, strict=True):

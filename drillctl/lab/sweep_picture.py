@@ -1,7 +1,6 @@
 """The picture of a sweep: which share of its machines loses steps, against the factor with most values.
 
-Rule: a line for each phase table, ramp or other value, as far as there is room; over the rest it is the mean. Called by
-the sweep verb.
+Rule: a line for each phase table, ramp or other value, as far as there is room; over the rest it is the mean.
 """
 
 from itertools import product
@@ -31,7 +30,7 @@ def losing(path: Path) -> NDArray[np.bool_]:
 
 
 def sweep_picture(question: Question, lost: NDArray[np.bool_], machine: str) -> Picture:
-    """From which machines lost steps, (machines,), all of them variants of ``machine``."""
+    """The picture, from which machines lost steps (machines,); ``machine`` is the name of the one that was varied."""
     factors = _factors(question)
     across = max(range(TICK_HZ, len(factors) - 1), key=lambda place: len(factors[place][1]))
     beside = _lines_by(factors, across)
@@ -74,7 +73,7 @@ def _lines_by(factors: list[Factor], across: int) -> list[int]:
 
 
 def _labels(factors: list[Factor]) -> list[str]:
-    """Of the lines, by the values that they have of these factors."""
+    """A label for each line: the values that it has of these factors."""
     points = product(*([f"{name} {value}" for value in values] for name, values in factors))
     return [", ".join(point) or "all" for point in points]
 

@@ -1,5 +1,6 @@
-"""The tables that a sweep or a search is asked to use, by name. Raises TableError and LabError. Called by the verbs
-and by watched.py.
+"""The tables that a sweep or a search is to use, by their names; and phase tables broken on purpose.
+
+Rule: an unknown name is refused with the nearest known ones. Everything here raises TableError or LabError.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,7 +20,7 @@ DIRECT_START = "direct-start"
 
 
 def axis_index(machine: Machine, name: str) -> int:
-    """An axis by its name. Raises LabError."""
+    """The index of the axis of this name. Raises LabError."""
     index = machine.axis_index(name)
     if index is None:
         raise LabError(f"{machine.name} has no axis {name!r}; {known_words(name, machine.axis_names)}")
@@ -27,27 +28,29 @@ def axis_index(machine: Machine, name: str) -> int:
 
 
 def axis_of(machine: Machine, name: str | None) -> AxisTable:
-    """The axis of this name; None: the first."""
+    """The axis of this name; for None the first."""
     return machine.axes[axis_index(machine, name) if name else 0]
 
 
 def ramps(names: str | None, axis: AxisTable, library: Library) -> tuple[RampTable, ...]:
-    """The ramps named, apart by commas: of the library, or ``direct-start``, none at all; None: the axis's own."""
+    """Ramps by names separated by commas: of the library, or ``direct-start`` (no ramp); for None the axis's own."""
     if names is None:
         return (axis.ramp,)
-    return tuple(_ramp(name, axis, library) for name in _apart(names))
+    return tuple(_ramp(name, axis, library) for name in _listed(names))
 
 
 def phases(names: str | None, axis: AxisTable, library: Library) -> tuple[tuple[str, PhaseTable], ...]:
-    """Phase tables with their names: of the library, or the axis's own, broken on purpose (lab/tables.py)."""
+    """Phase tables with their names: of the library, or names of BROKEN, the axis's own with a defect; for None the
+    axis's own.
+    """
     if names is None:
         return ((axis.phase.name, axis.phase),)
-    wanted = [each for name in _apart(names) for each in (BROKEN if name == ALL_BROKEN else (name,))]
+    wanted = [each for name in _listed(names) for each in (BROKEN if name == ALL_BROKEN else (name,))]
     return tuple((name, _phase(name, axis, library)) for name in wanted)
 
 
 def check_name(name: str) -> str:
-    """A table's name, as it may stand in a file. Raises LabError."""
+    """Returns a name for a new table. Raises LabError for one that a table can't have."""
     if not NAME.fullmatch(name) or len(name) > LONGEST_NAME:
         raise LabError(f"{name[:60]!r} can't name a table: letters, digits, - and _, {LONGEST_NAME} at most")
     return name
@@ -71,8 +74,8 @@ def _unknown(kind: str, name: str, known: list[str]) -> NoReturn:
     raise LabError(f"no {kind} is named {name[:60]!r}; {known_words(name, known)}")
 
 
-def _apart(names: str) -> list[str]:
-    """Raises LabError for one that is named twice."""
+def _listed(names: str) -> list[str]:
+    """The names of a list separated by commas. Raises LabError for one that comes twice."""
     found = [name.strip() for name in names.split(",")]
     if len(found) > len(set(found)):
         raise LabError(f"{names[:80]!r} has a name twice")
@@ -83,22 +86,22 @@ Breaking = Callable[[PhaseTable], PhaseTable]
 
 
 def direct_start(ramp: RampTable) -> RampTable:
-    """No ramp: every state as fast as the fastest."""
+    """A ramp that is none: every state as fast as the fastest."""
     return replace(ramp, interval=(min(ramp.interval),) * len(ramp.interval))
 
 
 def reordered(table: PhaseTable, order: Sequence[int]) -> PhaseTable:
-    """The columns in another order."""
+    """The table with its columns in another order, counted from 1."""
     return _with(table, lambda wire: [wire.forward[column - 1] for column in order])
 
 
 def without(table: PhaseTable, *names: str) -> PhaseTable:
-    """Wires that are never on."""
+    """The table with these wires never on."""
     return _with(table, lambda wire: [on and wire.name not in names for on in wire.forward])
 
 
 def wave(table: PhaseTable) -> PhaseTable:
-    """One half winding at a time, three columns each, without forcing."""
+    """A table of twelve columns: one half winding at a time, three columns each, without forcing."""
     first = {"1a": 1, "2b": 4, "1b": 7, "2a": 10}
     return _with(table, lambda wire: [wire.name in first and 0 <= c - first[wire.name] < 3 for c in range(1, 13)])
 

@@ -2,8 +2,7 @@
 
 Rule: *fastest* is the least time over the distances of MOVES. From a gentle ramp on, turn by turn, the best single
 change that still loses nothing is made: a state less, a start in a later state, or an interval a tick shorter. Where
-none is left the ramp is tried on every distance; one that loses joins the search, which begins again. Called by the
-tune verb.
+none is left the ramp is tried on every distance; a distance that loses joins the search, which begins again.
 """
 
 from collections.abc import Callable, Iterator
@@ -25,12 +24,12 @@ CRUISES = range(1, 17)  # intervals of the top state that are tried
 MOST_PROOFS = 8
 
 Profile = tuple[int, ...]  # the intervals of states 0 to n
-Told = Callable[[str], object]
+Report = Callable[[str], object]
 
 
 @dataclass(frozen=True, slots=True)
 class Tuned:
-    """A ramp, what was tried with it, and the same for the ramp that the axis had."""
+    """A tuned ramp and what was tried with it; ``before``: the same of the ramp that the axis had."""
 
     ramp: RampTable
     proof: Proof
@@ -39,25 +38,25 @@ class Tuned:
     mean_ticks_before: float
 
 
-def tune(bench: Bench, name: str, told: Told = lambda line: None) -> Tuned:
-    """The ramp, so named; ``told`` is given a line a turn. Raises LabError where the motor can't carry any."""
+def tune(bench: Bench, name: str, report: Report = lambda line: None) -> Tuned:
+    """The fastest ramp, with this name; ``report`` is given a line a turn. Raises LabError where there is none."""
     gentle = _gentle(bench)
     also: list[int] = []
     for _ in range(MOST_PROOFS):
-        profile = _quickest(bench, gentle, also, told)
+        profile = _quickest(bench, gentle, also, report)
         ramp = ramp_of(name, profile)
         proof = bench.proof(ramp)
         if proof.lost_at_steps is None:
             _check_exact(ramp, bench)
             own = bench.axis.ramp
             return Tuned(ramp, proof, bench.mean_ticks(ramp), bench.proof(own), bench.mean_ticks(own))
-        told(f"{_spoken(profile)} loses steps on moves of {proof.lost_at_steps}")
+        report(f"{_spoken(profile)} loses steps on moves of {proof.lost_at_steps}")
         also.append(proof.lost_at_steps)
     raise LabError(f"after {MOST_PROOFS} searches there is still a distance that loses steps; ask for less margin")
 
 
 def ramp_of(name: str, profile: Profile) -> RampTable:
-    """The table with these intervals, alike both ways: a state a step up and down, braked as late as can be."""
+    """The ramp with these intervals in both directions: a state up or down a step, braking as late as possible."""
     top = len(profile) - 1
     distances = (*range(top + 1), *range(top, 0, -1))
     interval = (*profile, *reversed(profile[1:]))
@@ -87,13 +86,13 @@ def _gentle_to(cruise: int, dwell: int) -> Profile:
     return tuple(interval for interval in distinct for _ in range(dwell))
 
 
-def _quickest(bench: Bench, profile: Profile, also: list[int], told: Told) -> Profile:
+def _quickest(bench: Bench, profile: Profile, also: list[int], report: Report) -> Profile:
     """From a profile that loses nothing to one of which every single change loses or is slower."""
     if bench.losing([ramp_of("gentle", profile)], also)[0]:
         raise LabError(f"moves of {', '.join(map(str, also))} steps lose even on a gentle ramp; ask for less margin")
     while True:
         ticks = bench.mean_ticks(ramp_of("now", profile))
-        told(f"{_spoken(profile)}: {ticks:.1f} ticks a move")
+        report(f"{_spoken(profile)}: {ticks:.1f} ticks a move")
         faster = sorted(set(_faster(bench, profile, ticks)))
         losing = bench.losing([ramp_of("next", each) for _, each in faster], also) if faster else []
         kept = [each for (_, each), loses in zip(faster, losing, strict=True) if not loses]
@@ -103,7 +102,7 @@ def _quickest(bench: Bench, profile: Profile, also: list[int], told: Told) -> Pr
 
 
 def _faster(bench: Bench, profile: Profile, ticks: float) -> Iterator[tuple[float, Profile]]:
-    """All single changes that save time, with the mean ticks of a move."""
+    """All single changes that save time, with the mean ticks of a move after them."""
     for state, interval in enumerate(profile):
         shorter = (*profile[:state], interval - 1, *profile[state + 1 :])
         fewer = (*profile[:state], *profile[state + 1 :])
@@ -113,7 +112,7 @@ def _faster(bench: Bench, profile: Profile, ticks: float) -> Iterator[tuple[floa
 
 
 def _falls(profile: Profile) -> bool:
-    """A ramp: from one state on, and never slower in a higher state."""
+    """Whether a profile is a ramp: of one state at least, none slower than the one below."""
     return len(profile) > 1 and profile[-1] >= 1 and all(a >= b for a, b in pairwise(profile))
 
 
@@ -128,14 +127,14 @@ def _spoken(profile: Profile) -> str:
 
 
 def ramp_text(tuned: Tuned, bench: Bench, machine: Machine) -> str:
-    """What the file says; read again it is the ramp."""
+    """The text of the ramp's file, the evidence in its comments."""
     text = "\n".join((*_evidence(tuned, bench, machine), *_rows(tuned.ramp))) + "\n"
     assert parse_ramp(Source(Path(tuned.ramp.name), text)) == tuned.ramp
     return text
 
 
 def evidence_lines(tuned: Tuned, bench: Bench, machine: Machine) -> list[str]:
-    """What was found, tried and proved, for the operator and for the file."""
+    """Lines that say what was found, tried and proved, for the operator and for the file."""
     axis, ramp = bench.axis, tuned.ramp
     assert axis.dynamics is not None
     return [
@@ -144,8 +143,8 @@ def evidence_lines(tuned: Tuned, bench: Bench, machine: Machine) -> list[str]:
         f"Torque margin: nothing is lost with inertia and friction 1 to {bench.margin:g} times as great.",
         f"A move takes {tuned.mean_ticks:.1f} ticks on average, with {axis.ramp.name} {tuned.mean_ticks_before:.1f}.",
         "No single change (a state less, a later start, an interval a tick shorter) loses nothing and is faster.",
-        f"Tried: {_told(tuned.proof)}.",
-        f"The same with {axis.ramp.name}: {_told(tuned.before)}.",
+        f"Tried: {_proof_text(tuned.proof)}.",
+        f"The same with {axis.ramp.name}: {_proof_text(tuned.before)}.",
         "Exact: every distance, both ways, under every floor; and each of",
         f"{targets_tried(ramp)} new targets in the midst of a move.",
     ]
@@ -157,7 +156,7 @@ def _evidence(tuned: Tuned, bench: Bench, machine: Machine) -> Iterator[str]:
     yield f'name = "{tuned.ramp.name}"'
 
 
-def _told(proof: Proof) -> str:
+def _proof_text(proof: Proof) -> str:
     tried = f"{proof.trials} moves, on {PROOF_LOADS} loads, from every column"
     if proof.lost_at_steps is not None:
         return f"{tried}, of which those of {proof.lost_at_steps} steps are the shortest that lose"

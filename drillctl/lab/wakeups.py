@@ -1,7 +1,6 @@
-"""How late one process woke, in memory that another can read: a histogram of lateness, and every late wake.
+"""How late one process woke up, in memory that its parent can read: a histogram, and the times of late wakeups.
 
-Rule: of fixed size and made before the fork; ``add`` keeps nothing else, and what no longer fits is counted.
-Filled by the loops of latency, read by whoever started them.
+Rule: the memory is of fixed size and made before the fork; late wakeups that no longer fit are only counted.
 """
 
 import mmap
@@ -18,9 +17,9 @@ MOST_LATE = 1 << 16
 MOST_TEXT = 1024
 LOG = np.dtype(
     [
-        ("counts", "<i8", LONGEST_US + 1),  # of wakes, by whole microseconds of lateness
+        ("counts", "<i8", LONGEST_US + 1),  # of wakeups, by whole microseconds of lateness
         ("late", "<i8", (MOST_LATE, 2)),  # monotonic ns: the deadline, and when it came to it
-        ("late_wakes", "<i8"),
+        ("late_wakeups", "<i8"),
         ("worst_ns", "<i8"),
         ("cpu_ns", "<i8"),
         ("from_ns", "<i8"),
@@ -33,10 +32,10 @@ LOG = np.dtype(
 )
 
 
-class WakeLog:
-    """The log of one process, made by its parent. Times are nanoseconds of the monotonic clock.
+class WakeupLog:
+    """The wakeups of one process, made by its parent. Times are nanoseconds of the monotonic clock.
 
-    ``record`` (LOG) also carries what the two say to each other: ready, go, leave.
+    ``record`` (LOG) also has the flags by which the two wait for each other: ready, go, leave.
     """
 
     def __init__(self) -> None:
@@ -47,43 +46,43 @@ class WakeLog:
         self._late: NDArray[np.int64] = self.record["late"]
 
     def add(self, begun_ns: int, late_ns: int, period_ns: int) -> None:
-        """A wake at ``begun_ns``, so much after its deadline; late from more than a period on."""
+        """Adds a wakeup at ``begun_ns``, so much after its deadline; it counts as late by more than a period."""
         self._counts[min(late_ns // 1000, LONGEST_US)] += 1
         self.record["worst_ns"] = max(int(self.record["worst_ns"]), late_ns)
         if late_ns > period_ns:
-            kept = int(self.record["late_wakes"])
+            kept = int(self.record["late_wakeups"])
             if kept < MOST_LATE:
                 self._late[kept] = begun_ns - late_ns, begun_ns
-            self.record["late_wakes"] = kept + 1
+            self.record["late_wakeups"] = kept + 1
 
     @property
     def wanted(self) -> bool:
-        """For the child: go on. False once it is told to leave, or whoever made the log is gone."""
+        """For the child: whether to go on. False once its parent wants it to leave, or is gone."""
         return not self.record["leave"] and os.getppid() == self._owner
 
     @property
-    def wakes(self) -> int:
-        """All of them."""
+    def wakeups(self) -> int:
+        """How many wakeups there were."""
         return int(self._counts.sum())
 
     @property
     def elapsed_ns(self) -> int:
-        """From the first deadline's sleep to the end."""
+        """The time from before the first wakeup to after the last."""
         return int(self.record["to_ns"] - self.record["from_ns"])
 
     def late_spans(self) -> Spans:
-        """From the deadline to the wake, of the first MOST_LATE late wakes."""
-        return self._late[: min(int(self.record["late_wakes"]), MOST_LATE)].copy()
+        """(n, 2): deadline and wakeup of the first MOST_LATE late wakeups."""
+        return self._late[: min(int(self.record["late_wakeups"]), MOST_LATE)].copy()
 
 
 def quantile_us(counts: NDArray[np.int64], share: float) -> int:
-    """The lateness that ``share`` of the wakes did not exceed, in whole microseconds, rounded down; 0 for no wakes."""
+    """The lateness that ``share`` of the wakeups did not exceed, in whole microseconds, rounded down; 0 for none."""
     reached = np.cumsum(counts)
     return int(np.searchsorted(reached, share * reached[-1])) if reached[-1] else 0
 
 
-def lateness(logs: list[WakeLog]) -> Lateness:
-    """Percentiles over the wakes of all these processes together."""
+def lateness(logs: list[WakeupLog]) -> Lateness:
+    """Percentiles over the wakeups of all these processes together."""
     counts = np.sum([log.record["counts"] for log in logs], axis=0)
     p50_us, p99_us, p999_us = (quantile_us(counts, share) for share in (0.5, 0.99, 0.999))
     worst_ns = max(int(log.record["worst_ns"]) for log in logs)
@@ -91,7 +90,7 @@ def lateness(logs: list[WakeLog]) -> Lateness:
 
 
 def bars(counts: NDArray[np.int64]) -> tuple[Bar, ...]:
-    """The histogram in doubling steps, from the first that holds a wake to the last."""
+    """The histogram in doubling steps, from the first that holds a wakeup to the last."""
     edges = [0, *(1 << power for power in range(LONGEST_US.bit_length()))]
     sums = np.add.reduceat(counts, edges).tolist()
     rows = [Bar(low, high, ticks) for low, high, ticks in zip(edges, [*edges[1:], None], sums, strict=True)]
@@ -110,7 +109,7 @@ def overlapping(spans: Spans, others: Spans) -> NDArray[np.bool_]:
 
 
 def covered_ns(spans: Spans, from_ns: int, to_ns: int) -> int:
-    """How much of the time between the two is in at least one of ``spans`` (n, 2)."""
+    """How much of the time from ``from_ns`` to ``to_ns`` lies in at least one of ``spans`` (n, 2)."""
     if not len(spans):
         return 0
     spans = np.clip(spans[np.argsort(spans[:, 0])], from_ns, to_ns)

@@ -1,7 +1,7 @@
-"""Many processes on one question: rows come back in the order of its machines, whoever was quicker.
+"""Many processes on one question: rows come back in the order of its machines, whichever process is quicker.
 
-Rule: nothing here changes a byte of the answer. On this computer by its cores; on a cluster through joblib's dask
-backend, an extra (``pip install '.[cluster]'`` in a clone). Called by sweep.py.
+Rule: nothing here changes a byte of the rows. On this computer by its cores; on a cluster through joblib's dask
+backend, an extra (``pip install '.[cluster]'`` in a clone).
 """
 
 import os
@@ -24,12 +24,12 @@ Rows = Iterator[list[str]]
 
 
 def cores() -> int:
-    """Those that this process may use."""
+    """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def on_cores(question: Question, chunks: list[range], workers: int) -> Rows:
-    """Each chunk's rows; with one worker in this process."""
+    """Yields the rows of each chunk, from so many processes; one worker is this process."""
     if min(workers, len(chunks)) <= 1:
         yield from (answer(question, chunk) for chunk in chunks)
         return
@@ -41,7 +41,7 @@ def on_cores(question: Question, chunks: list[range], workers: int) -> Rows:
 
 
 def on_cluster(question: Question, chunks: list[range], address: str) -> Rows:
-    """Each chunk's rows, from the workers of a dask scheduler (``tcp://HOST:PORT``); they need drillctl too.
+    """Yields the rows of each chunk, from workers of a dask scheduler (``tcp://HOST:PORT``); they need drillctl too.
 
     Raises LabError where the extra is missing or nobody answers at the address.
     """
@@ -62,7 +62,7 @@ def on_cluster(question: Question, chunks: list[range], address: str) -> Rows:
 
 
 def _serve() -> None:
-    """A worker's beginning: Ctrl-C is its parent's affair, and without that parent it has no more to do."""
+    """What a worker runs first: it ignores Ctrl-C, which its parent handles, and ends when the parent has."""
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -172,7 +172,7 @@ def _is_shipped(file: Path) -> bool:
 
 
 def _same_bytes(file: Path, other: Path) -> bool:
-    return other.is_file() and _bytes(file) == _bytes(other)
+    return file.is_file() and other.is_file() and _bytes(file) == _bytes(other)  # a text need not be in its file yet
 
 
 def _bytes(file: Path) -> bytes:

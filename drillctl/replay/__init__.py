@@ -1,7 +1,9 @@
-"""A recorded run once more: given to a ticker again, compared, or looked into for what the trace leaves out.
+"""A recorded run once more: given to a ticker again, and compared with the recording or looked into.
 
-    stimuli.py      what a trace says of its run: machine, program, inputs, requests; and gives them to a ticker
-    replay.py       the run again, and the first tick that differs
-    rerun.py        the run again, for columns, positions and states, which a trace leaves out
-    trace_files.py  files of traces in either form
+    header.py           what a trace's header says of its run: machine, tables, plant, program
+    player.py           gives a ticker the program, inputs and requests of a recorded run
+    compare.py          runs a trace again and finds the first tick that differs; records golden traces anew
+    derived_signals.py  runs a trace again for what it leaves out: columns, positions and states of the axes
+
+Rule: a run is repeated from what came from outside (program, inputs, requests, gaps in time); all else is worked out.
 """

@@ -1,8 +1,7 @@
 """A ticker that goes through its queue as fast as may be, on the ideal plant, with the same result to the byte.
 
-Rule: what execution/fastforward foresees is taken over whole, everything else is ticked by ``tick``, a command at a
-time. Holes, trace and status come out as if all had been ticked. Created by link and by the lab where nothing live is
-attached.
+Rule: what execution/fastforward can work out is taken over in whole batches of commands; every other command is run by
+``tick``. Holes, trace and status come out as if every tick had been run. Only where nothing live is attached.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -35,11 +34,11 @@ Records = NDArray[np.void]
 class FastTicker(Ticker):
     """As Ticker, with a simulated card and the ideal plant behind it. Of derived signals its trace has no rotors.
 
-    foresees  False: every command is ticked through
-    taped     the record is kept in the segment form, in place of a trace
+    in_batches  False: every command is run tick by tick
+    taped       the record is kept in the segment form, in place of a trace
     """
 
-    foresees: bool = True
+    in_batches: bool = True
     taped: bool = False
 
     def __post_init__(self) -> None:
@@ -54,21 +53,21 @@ class FastTicker(Ticker):
             self.sampler = Sampler(self.controller, self.plant, False, recorder)
 
     def load(self, machine: Machine) -> None:
-        """What was foreseen was by the old tables."""
+        """As Ticker; what was worked out by the old tables is dropped."""
         super().load(machine)
-        self._foresee_anew()
+        self._new_engine()
 
     def follow_rate(self) -> None:
-        """What was foreseen was by the old limits of time."""
+        """As Ticker; what was worked out by the old limits of time is dropped."""
         super().follow_rate()
-        self._foresee_anew()
+        self._new_engine()
 
-    def _foresee_anew(self) -> None:
+    def _new_engine(self) -> None:
         assert isinstance(self.plant, IdealPlant)
         self.engine = Engine(self.controller, PlantForecast(self.machine, self.plant), self.engine.pool)
 
     @classmethod
-    def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, foresees: bool = True,
+    def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, in_batches: bool = True,
               taped: bool = False, keeper: Recorder | None = None) -> "FastTicker":  # fmt: skip
         """The machine on the simulated card, with the ideal plant behind it, and a queue of this capacity.
 
@@ -77,12 +76,12 @@ class FastTicker(Ticker):
         plant = IdealPlant(machine)
         return cls(
             machine, SimulatedCard(plant), plant, traced, keeper is not None, Queue(capacity), keeper=keeper,
-            foresees=foresees, taped=taped,
+            in_batches=in_batches, taped=taped,
         )  # fmt: skip
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
-        """Through all that waits in the queue; where nothing can be foreseen, as many ticks as it is sure to last, or
-        until something can be again.
+        """Runs all that waits in the queue; where no batch can be made, as many ticks as the queue is sure to last, or
+        until one can be made again.
         """
         first = self.controller.tick
         for _ in self.batches(before):
@@ -94,13 +93,15 @@ class FastTicker(Ticker):
         return self.engine.between or (until is not None and until())
 
     def batches(self, before: int = NEVER) -> Iterator[Batch | None]:
-        """Carries out what waits, while nothing else is going on: each batch, or None after a ticked command."""
+        """Runs what waits in the queue while nothing else goes on; yields each batch, or None after a command that was
+        run tick by tick.
+        """
         assert isinstance(self.queue, Queue)
         while len(self.queue) and not self.gate.paused and self.engine.between:
             waiting, left = self.queue.waiting(), before - self.controller.tick
             if self.traced and not self.taped:
                 left = min(left, MOST_TICKS)
-            batch = self.engine.foresee(waiting) if self.foresees else None
+            batch = self.engine.foresee(waiting) if self.in_batches else None
             if batch is not None and batch.end > left:
                 batch = self.engine.foresee(waiting[: np.searchsorted(batch.starts, left, side="right") - 1])
             if batch is not None:
@@ -113,7 +114,7 @@ class FastTicker(Ticker):
             yield batch
 
     def _pass(self, batch: Batch) -> None:
-        """A batch as if ticked: its record, its holes, and where it leaves the machine."""
+        """Takes a batch over as if it had been ticked: into the record, the holes and the state of the machine."""
         first, tapes = self.controller.tick, batch.tapes(self.engine.pool) if self.sampler is not None else []
         if self.sampler is not None:
             self.sampler.sample_batch(batch, None if self.taped else self._images(batch, tapes), first)
@@ -130,13 +131,13 @@ class FastTicker(Ticker):
         return images(pool, tapes, np.empty(batch.end, pool.dtype))
 
     def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
-        """As Ticker; segments where it was taped."""
+        """The record of the run so far: segments where it is taped, else a trace."""
         if self.sampler is None or not isinstance(self.sampler.recorder, TapeRecorder):
             return super().record(header)
         return self.sampler.recorder.segments(self.controller.tick, header)
 
     def _tick_through(self, command: Records, before: int) -> None:
-        """One command by tick, noted where it may come again."""
+        """Runs one command tick by tick, and notes how it went where such a command may come again."""
         m = self.controller
         recording = self.engine.recording(command)
         if recording is None:
@@ -155,7 +156,7 @@ class FastTicker(Ticker):
         return self.controller.busy and self._undisturbed()
 
     def _undisturbed(self) -> bool:
-        """No stop, no fault, and nothing was asked in this tick."""
+        """Whether there was no stop, no fault, no gap and no request in this tick."""
         m = self.controller
         return m.condition == Condition.READY and not (m.served or m.late)
 

@@ -1,7 +1,7 @@
 """What a program will take on the ideal plant, to the tick, from the machine file's start position.
 
-Rule: exact. The program is run as it would be run, as fast as may be (execution/fastforward), and nothing is recorded
-but the ticks of each command. Called by estimate and by run, for the time left.
+Rule: exact. The program is run by the fast engine, which gives the same ticks as the machine, and only the ticks of
+each command are recorded.
 """
 
 from dataclasses import dataclass
@@ -24,13 +24,13 @@ class Forecast:
 
     @property
     def total_ticks(self) -> int:
-        """Ticks of the whole program."""
+        """The ticks of the whole program."""
         return int(self.ticks.sum())
 
 
 def forecast(program: NDArray[np.void], machine: Machine, engine: str | None = None) -> Forecast:
-    """The ticks of a program, dtype kmd.RECORD, numbered from 1; with the engine ``tick`` by ticking through it."""
-    ticker = FastTicker.ideal(machine, capacity=len(program), foresees=engine != TICK)
+    """Forecasts a program, dtype kmd.RECORD, numbered from 1; with the engine ``tick`` by running every tick of it."""
+    ticker = FastTicker.ideal(machine, capacity=len(program), in_batches=engine != TICK)
     ticker.queue.put(program)
     ticks, m = np.zeros(len(program), np.int64), ticker.controller
     for batch in ticker.batches():

@@ -1,4 +1,4 @@
-"""The process that makes outputs safe when the ticker can't. Started before it, ends after it.
+"""What the guard's process runs: it makes the outputs safe when the ticker can't. Started before it, ends after it.
 
 Rule: it does one thing. When the ticker's process has ended without saying so, or its heartbeat stands still, the
 ticker is killed first and the driver's safe image written then, so that nobody writes after it.
@@ -20,9 +20,9 @@ IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.
 
 
 def run_guard(channel: Channel, port: Driver, silence_ns: int = SILENCE_NS) -> None:
-    """Watches until the ticker has ended, one way or the other. The body of the guard's process.
+    """The body of the guard's process: watches until the ticker has ended, and makes the outputs safe if it had to.
 
-    silence_ns  how long the ticker's heartbeat may stand still, beside the length of a tick: a slow one beats seldom
+    silence_ns  how long the ticker's heartbeat may stand still, beyond the length of a tick
     """
     for number in IGNORED:
         signal.signal(number, signal.SIG_IGN)
@@ -40,7 +40,7 @@ def run_guard(channel: Channel, port: Driver, silence_ns: int = SILENCE_NS) -> N
 
 
 def _wait_for_ticker(channel: Channel) -> int | None:
-    """A handle on the ticker's process, once the desk has named it; None where it never came."""
+    """A pidfd of the ticker's process, once the desk has published its id; None where that never comes."""
     until_s, desk = time.monotonic() + LONGEST_WAIT_S, os.getppid()
     while time.monotonic() < until_s and os.getppid() == desk:
         channel["guard_beat_ns"] = time.monotonic_ns()
@@ -53,7 +53,7 @@ def _wait_for_ticker(channel: Channel) -> int | None:
 
 
 def _gone(ticker: int, wait_ms: int) -> bool:
-    """Whether the process behind the handle has ended; waits so long for that."""
+    """Whether the process behind the pidfd has ended; waits so long for that."""
     poll = select.poll()
     poll.register(ticker, select.POLLIN)
     return bool(poll.poll(wait_ms))
@@ -70,6 +70,6 @@ def _end(ticker: int) -> None:
 
 
 def _make_safe(port: Driver) -> None:
-    """A port that is gone can't be told anything; the desk says so (PORT_LOST, or TICKER_LOST and its cause)."""
+    """Writes the safe image. On a port that is gone that fails; the desk reports it (PORT_LOST, TICKER_LOST)."""
     with suppress(OSError):
         port.safe()

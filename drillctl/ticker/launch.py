@@ -1,6 +1,6 @@
-"""Opens the port that was asked for and puts a ticker behind it, in this process or in its own.
+"""Starts a machine: checks the settings of the run, opens the port and starts a ticker on it, here or in a process.
 
-Rule: everything that can be refused is refused here, before anything moves. Called by the verbs that run a machine.
+Rule: everything that can be refused is refused here, before anything moves.
 """
 
 import sys
@@ -27,17 +27,24 @@ FILE = "FILE"  # how an address that is one begins in the registry
 
 @dataclass(frozen=True)
 class RunSettings:
-    """How a machine is to be run: on which port, at which pace (None: as the port wants), what is kept of it, and what
-    stands behind a simulated card."""
+    """How a machine is to be run.
+
+    port    ``NAME[:ADDRESS]``
+    pace    ``free`` or ``real``; None: as the port wants
+    traced  a trace is recorded, with ``derived`` signals too; ``taped``: in the segment form, where it runs fast
+    plant   what stands behind a simulated card
+    engine  ``tick`` or ``fast``; None: fast where possible
+    kept    by a screen, from job to job: its desk may be silent for longer between jobs
+    """
 
     port: str = SIMULATED
     pace: str | None = None
     traced: bool = False
     derived: bool = False
     plant: PlantChoice = IDEAL_PLANT
-    engine: str | None = None  # tick or fast; None: fast where it may
-    taped: bool = False  # where it goes fast, the record is kept in the segment form
-    kept: bool = False  # by a screen, from job to job; else its desk may not fall silent after the job either
+    engine: str | None = None
+    taped: bool = False
+    kept: bool = False
 
 
 def port_of_mode(machine: Machine) -> str:
@@ -52,17 +59,17 @@ def port_of_mode(machine: Machine) -> str:
 
 
 def card_port(machine: Machine) -> str:
-    """The port of a machine's card, whatever its mode; empty where none drives it."""
+    """The port that drives a machine's card, whatever its mode; empty where none does."""
     return port_of_card(machine.configuration.card)
 
 
 def on_port(running: RunSettings, port: str) -> RunSettings:
-    """The same on another, real port."""
+    """The same settings on another, real port."""
     return replace(running, port=port, pace=REAL)
 
 
 def simulated(running: RunSettings) -> RunSettings:
-    """The same on a simulated card."""
+    """The same settings on a simulated card."""
     return running if not select(running.port)[0].real else replace(running, port=SIMULATED)
 
 
@@ -73,7 +80,9 @@ def files_of(spec: str) -> tuple[Path, ...]:
 
 
 def pace_of(running: RunSettings) -> str:
-    """Free for a simulated card, real for a real one. Raises PortRefused for a real port that nobody paces."""
+    """The pace of a run: by default free on a simulated card, real on a real one. Raises PortRefused for one that can't
+    be had.
+    """
     port, _ = select(running.port)
     if port.real and running.pace == FREE:
         raise PortRefused(running.port, "a real machine can't run free; leave --pace out, or say --pace real")
@@ -84,22 +93,22 @@ def pace_of(running: RunSettings) -> str:
 
 
 def is_soon_over(running: RunSettings) -> bool:
-    """Whether a run takes no longer than foreseeing it would: nobody needs to be told the time left."""
+    """Whether a run takes no longer than its forecast would, so that the time left isn't worth working out."""
     plain = running.plant == IDEAL_PLANT and not running.derived
     return plain and running.engine != TICK and pace_of(running) == FREE
 
 
 def start(machine: Machine, running: RunSettings, status_file: Path, keeper: RingRecorder | None = None) -> Link:
-    """A running ticker. Raises PortError for a port, a rate or a pace that is not to be had, or a plant;
-    nothing has moved then.
+    """Starts a ticker and returns the link to it. Raises PortError for a port, a rate, a pace or a plant that can't be
+    had; nothing has moved then.
 
     status_file  the mapped file between the two processes of a paced run
-    keeper       takes every signal of the run, derived ones too, in place of a trace; whoever made it empties it
+    keeper       a ring that takes all signals, derived ones too, in place of a trace; whoever made it empties it
     """
     pace = pace_of(running)
     check_rate(machine, running)
     plant = plant_of(machine, running)
-    driver = open_port(running.port, wiring_of(machine), SimulatedCard(plant) if plant else None)
+    driver = open_port(running.port, port_layout(machine), SimulatedCard(plant) if plant else None)
     if _goes_fast(running, pace, driver, plant, keeper):
         return LocalLink(
             FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
@@ -108,7 +117,7 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
         traced, derived = running.traced or keeper is not None, running.derived or keeper is not None
         return LocalLink(Ticker(machine, driver, plant, traced, derived, keeper=keeper))
     from drillctl.ticker.paced_link import PacedLink
-    from drillctl.ticker.paced_ticker import DESK_IDLE_NS, DESK_SAFE_NS
+    from drillctl.ticker.ticker_process import DESK_IDLE_NS, DESK_SAFE_NS
 
     idle_ns = DESK_IDLE_NS if running.kept else DESK_SAFE_NS
     try:
@@ -120,7 +129,7 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
 
 def check_rate(machine: Machine, running: RunSettings) -> None:
     """Raises PortRefused for a machine at a tick rate that its port, or this computer, does not carry."""
-    check_port_rate(running.port, wiring_of(machine))
+    check_port_rate(running.port, port_layout(machine))
     if pace_of(running) == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
         reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
         raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
@@ -130,8 +139,8 @@ def _goes_fast(
     running: RunSettings, pace: str, driver: Driver, plant: Plant | None, keeper: RingRecorder | None
 ) -> bool:
     """Whether the fast engine may run it. Raises PortRefused where it was asked for and may not."""
-    foreseen = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
-    may = foreseen and pace == FREE and not running.derived and keeper is None
+    predictable = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
+    may = predictable and pace == FREE and not running.derived and keeper is None
     if running.engine == FAST and not may:
         reason = "--engine fast foresees the ideal plant on a simulated card, running free and without --vcd"
         raise PortRefused(running.port, f"{reason}; leave --engine out, or say --engine tick")
@@ -139,7 +148,7 @@ def _goes_fast(
 
 
 def plant_of(machine: Machine, running: RunSettings) -> Plant | None:
-    """What stands behind the card; None behind a real port. Raises PortRefused."""
+    """The plant behind a simulated card; None on a real port. Raises PortRefused."""
     port, _ = select(running.port)
     if not port.real:
         try:
@@ -151,8 +160,8 @@ def plant_of(machine: Machine, running: RunSettings) -> Plant | None:
     return None
 
 
-def wiring_of(machine: Machine) -> PortLayout:
-    """What a driver must know of a machine."""
+def port_layout(machine: Machine) -> PortLayout:
+    """What a driver must know of a machine: its rate, card address, and which bits are used for what."""
     return PortLayout(
         tick_hz=machine.tick_hz,
         card_address=machine.configuration.card_address,

@@ -1,21 +1,18 @@
-"""The desk's end of a ticker, whether it runs in this process or in one of its own.
+"""The desk's end of a ticker: the protocol Link, and LocalLink for a ticker in the desk's own process.
 
-Rule: commands, requests and status go through the doors (kmd) and nothing else does; what the plant saw comes beside
-them. Created by the verbs' wiring, used by desk.
+Rule: commands, requests and status go through the doors (kmd); beside them come up only what the plant saw, the trace,
+and sentences for the operator. The link to a ticker in another process is in paced_link.py.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from drillctl.kmd import CommandQueue, Condition, Request, TickGate
-from drillctl.machine import Machine
-from drillctl.plant import IdealPlant, Plant
-from drillctl.portio.simulated import SimulatedCard
-from drillctl.ports import Driver
-from drillctl.ticker.table_loading import take_tables
+from drillctl.plant import Plant
+from drillctl.ticker.edited_tables import take_tables
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Segments, Trace
 
@@ -24,7 +21,7 @@ MOMENT_TICKS = 250  # some ten milliseconds: requests wait no longer
 
 
 class Touch(NamedTuple):
-    """The plant's bit met the board: tool, tag of the hole, place in steps from machine zero by axis."""
+    """The plant saw the bit meet the board: tool, tag of the hole, place in steps from machine zero by axis."""
 
     tool: int
     tag: int
@@ -36,123 +33,119 @@ class Link(Protocol):
 
     @property
     def measured(self) -> bool:
-        """Whether a plant tells of lost steps."""
+        """Whether there is a plant, which measures lost steps and holes."""
 
     @property
     def plant_lanes(self) -> Sequence[str]:
-        """What a recording has of it, by axis; none where there is no plant."""
+        """Names of what a recording has of the plant for each axis; empty without a plant."""
 
     @property
     def plant_header(self) -> Header:
-        """What a trace says of the plant."""
+        """The header lines by which a trace names the plant."""
 
     @property
     def queue(self) -> CommandQueue:
-        """Where commands go."""
+        """The queue into which commands are put."""
 
     @property
     def gate(self) -> TickGate:
-        """Where ticks can be stopped and let through one by one."""
+        """The gate at which ticks can be stopped and let through one by one."""
 
     def post(self, request: Request) -> None:
-        """A request, overtaking the queue."""
+        """Makes a request; the next tick serves it, whatever waits in the queue."""
 
     def set_output(self, bit: int, value: int) -> bool:
-        """The request OUTPUT. False, and nothing asked, where too many of them wait."""
+        """Makes the request OUTPUT. False, and nothing asked, where too many of them wait."""
 
     def set_rate(self, tick_hz: int) -> bool:
-        """The request PACE. False, and nothing asked, where too many wait. Whether the port and this computer carry the
-        rate is looked at before (machinery.check_rate); the status record has the one in force.
+        """Makes the request PACE. False, and nothing asked, where too many wait. The caller has checked that port and
+        computer carry the rate (launch.check_rate); the status record has the one in force.
         """
 
     def load(self, text: str) -> str:
-        """Edited tables as a bundle (machine/bundle.py), at rest; the reason where they are refused. Takes a moment."""
+        """Loads edited tables, a bundle (machine/bundle.py), at rest; returns why they are refused, or an empty text.
+        May take some seconds.
+        """
 
     def turn(self) -> None:
-        """Lets the machine go on for a moment; returns at once when it has nothing to do."""
+        """Lets the machine run for a moment; in a free run nothing runs but within this call."""
 
     def status(self) -> np.void:
-        """The newest status record."""
+        """The newest status record, dtype kmd.STATUS; it doesn't change afterwards."""
 
     def touches(self) -> list[Touch]:
-        """What the plant saw since the last call."""
+        """The holes that the plant saw begun since the last call."""
 
     def lost(self) -> int:
         """The fault that took the ticker away (kmd.Fault), or 0."""
 
     def trace(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
-        """The record of the run, where one was kept. Called once, at the end."""
+        """The trace of the run, under this header; None where none was kept. To be called once, at the end."""
 
     def notices(self) -> list[str]:
-        """Sentences about how the run is paced, for the operator."""
+        """Sentences for the operator about how the run is paced."""
 
     def close(self) -> None:
-        """The outputs are safe, and whatever was started has ended."""
+        """Makes the outputs safe, ends what was started and gives the port back."""
 
 
 @dataclass
 class LocalLink:
-    """A ticker in this process, running free: a turn is as many ticks as the queue is sure to last for, and on to the
-    end of the command in execution, in which the queue can't run dry. A request has a turn of a single tick: who asked
-    sees what came of it before a short job is over.
+    """A Link to a ticker in this process, which runs free.
+
+    A turn is as many ticks as the queue is sure to last for, and on to the end of the command in execution, so that the
+    queue never runs empty. After a request it is a single tick, so that the caller sees its effect before a short job
+    is over.
     """
 
     ticker: Ticker
 
-    @classmethod
-    def simulated(cls, machine: Machine, port: "OpenPort | None" = None, traced: bool = False, derived: bool = False
-                  ) -> "LocalLink":  # fmt: skip
-        """The machine on a simulated card; ``port`` may put another driver in front of that."""
-        plant = IdealPlant(machine)
-        card: Driver = SimulatedCard(plant)
-        return cls(Ticker(machine, port(card) if port else card, plant, traced, derived))
-
     @property
     def measured(self) -> bool:
-        """True where there is a plant."""
+        """Whether the ticker has a plant."""
         return self.ticker.plant is not None
 
     @property
     def plant_lanes(self) -> Sequence[str]:
-        """The plant's."""
+        """The lanes of the ticker's plant."""
         return self.ticker.plant.lanes if self.ticker.plant else ()
 
     @property
     def plant_header(self) -> Header:
-        """Of the ticker's plant."""
+        """The header lines of the ticker's plant."""
         return header_of(self.ticker.plant)
 
     @property
     def queue(self) -> CommandQueue:
-        """The ticker's own."""
+        """The queue that the ticker takes from."""
         return self.ticker.queue
 
     @property
     def gate(self) -> TickGate:
-        """The ticker's own."""
+        """The gate that the ticker asks."""
         return self.ticker.gate
 
     def post(self, request: Request) -> None:
-        """Into the ticker's mailbox."""
+        """Puts a request into the ticker's mailbox."""
         self.ticker.requests.post(request)
 
     def set_output(self, bit: int, value: int) -> bool:
-        """Into the ticker's mailbox."""
+        """Puts OUTPUT into the ticker's mailbox."""
         return self.ticker.requests.set_output(bit, value)
 
     def set_rate(self, tick_hz: int) -> bool:
-        """Into the ticker's mailbox."""
+        """Puts PACE into the ticker's mailbox."""
         return self.ticker.requests.set_rate(tick_hz)
 
     def load(self, text: str) -> str:
-        """Between two ticks."""
+        """Loads edited tables between two ticks."""
         reason = take_tables(self.ticker, text)
         if not reason:
             self.ticker.requests.post(Request.LOAD)
         return reason
 
     def turn(self) -> None:
-        """As far as the queue is sure to last, or for a moment."""
+        """Runs ticks: one after a request, else as far as the queue is sure to last, or MOMENT_TICKS."""
         if self.ticker.requests.waiting:
             self.ticker.advance(1)
             return
@@ -161,32 +154,29 @@ class LocalLink:
             self.ticker.advance(MOMENT_TICKS, lambda: not self.ticker.controller.busy)
 
     def status(self) -> np.void:
-        """Written now; a copy, so that it stays what it was."""
+        """A copy of the status record, written now."""
         return self.ticker.report().copy()
 
     def touches(self) -> list[Touch]:
-        """Handed over once."""
+        """The holes seen since the last call."""
         seen, self.ticker.touched = self.ticker.touched, []
         return [Touch(*touch) for touch in seen]
 
     def lost(self) -> int:
-        """A ticker in this process can't be lost without us."""
+        """Always 0: a ticker in this process isn't lost without the desk."""
         return 0
 
     def trace(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
-        """As the sampler kept it."""
+        """The trace that the ticker kept."""
         return self.ticker.record(header)
 
     def notices(self) -> list[str]:
-        """Nothing is paced."""
+        """Always empty: a free run is not paced."""
         return []
 
     def close(self) -> None:
-        """Gives the port back."""
+        """Closes the port, which makes the outputs safe."""
         self.ticker.port.close()
-
-
-OpenPort = Callable[[Driver], Driver]
 
 
 def is_over(status: np.void, last_sequence: int, first_epoch: int) -> bool:
@@ -200,5 +190,5 @@ def is_over(status: np.void, last_sequence: int, first_epoch: int) -> bool:
 
 
 def header_of(plant: Plant | None) -> Header:
-    """What a trace says of the plant behind its port; none behind a real one."""
+    """The header lines by which a trace names its plant; ``none`` on a real port."""
     return [("plant", plant.described if plant else "none"), ("seed", str(plant.seed if plant else 0))]

@@ -1,10 +1,7 @@
-"""A ticker in a process of its own, paced by the wall clock, with a guard beside it: the desk's end. Linux.
+"""The desk's end of a ticker in a process of its own, paced by the wall clock, with a guard beside it. Linux.
 
-    desk  ──commands, requests──►  ticker        guard watches the ticker's heartbeat and holds the port too;
-          ◄──status, touches─────                the ticker watches the desk's, the desk the guard's.
-
-Rule: no thread anywhere; the port is opened before the forks, so that all three can make it safe. Every way out ends
-the children, by their ids, with the outputs safe.
+Rule: no threads; the port is opened before the forks, so that desk, ticker and guard can each make it safe. Every way
+out ends both children, by their ids, with the outputs safe. ticker/__init__.py has a picture of the three.
 """
 
 import os
@@ -20,12 +17,12 @@ from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequest
 from drillctl.machine import Machine
 from drillctl.plant import Plant
 from drillctl.ports import Driver
+from drillctl.ticker.child_process import ChildProcess
+from drillctl.ticker.edited_tables import TableSlot
 from drillctl.ticker.guard_process import SILENCE_NS, run_guard
 from drillctl.ticker.link import Touch, header_of
-from drillctl.ticker.paced_ticker import DESK_IDLE_NS, TOUCH, PacedTicker
-from drillctl.ticker.processes import Child
 from drillctl.ticker.sampler import signals
-from drillctl.ticker.table_loading import TableSlot
+from drillctl.ticker.ticker_process import DESK_IDLE_NS, TOUCH, TickerProcess
 from drillctl.trace import Trace
 from drillctl.trace.ring import CHANGE, RingRecorder
 
@@ -40,7 +37,9 @@ UNGUARDED = "the guard's process was lost; the job was stopped"
 class PacedLink:
     """A Link (link.Link) to a ticker in its own process. Raises OSError where it can't be started.
 
-    keeper  takes the record in place of ``trace``; whoever made it empties it
+    file     the mapped file between the processes, made here
+    keeper   a ring that takes the changes of all signals in place of ``trace``; whoever made it empties it
+    idle_ns  how long the ticker tolerates the desk's silence at rest, without a job
     """
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, file: Path,
@@ -64,34 +63,34 @@ class PacedLink:
         self._channel["tick_ns"] = 1_000_000_000 // machine.tick_hz
         now_ns = self._beat()
         self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
-        self._guard = Child(lambda: run_guard(self._channel, port))
+        self._guard = ChildProcess(lambda: run_guard(self._channel, port))
         self._touched, touch_end = os.pipe()
         self._notices, notice_end = os.pipe()
         for end in (self._touched, self._notices):
             os.set_blocking(end, False)
         ring, derived = keeper or self._ring, derived or keeper is not None
-        body = PacedTicker(
+        body = TickerProcess(
             machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end, idle_ns
         )
-        self._ticker = Child(body.run)
+        self._ticker = ChildProcess(body.run)
         self._channel["ticker_pid"] = self._ticker.pid
         os.close(touch_end)
         os.close(notice_end)
 
     def post(self, request: Request) -> None:
-        """Overtakes the queue."""
+        """Makes a request; the next tick serves it."""
         self._requests.post(request)
 
     def set_output(self, bit: int, value: int) -> bool:
-        """In line, overtaking the queue."""
+        """Makes the request OUTPUT; False where too many wait."""
         return self._requests.set_output(bit, value)
 
     def set_rate(self, tick_hz: int) -> bool:
-        """In line, overtaking the queue."""
+        """Makes the request PACE; False where too many wait."""
         return self._requests.set_rate(tick_hz)
 
     def load(self, text: str) -> str:
-        """Down to the ticker's process, which answers."""
+        """Hands edited tables to the ticker's process and waits for its answer, LOAD_S at most."""
         if not self._slot.offer(text):
             return "the tables are too long"
         until_s = time.monotonic() + LOAD_S
@@ -102,7 +101,9 @@ class PacedLink:
         return self._slot.reply()
 
     def turn(self) -> None:
-        """A moment of wall-clock time; says that the desk lives, and sees whether the children do."""
+        """Sleeps for TURN_S, beats the desk's heartbeat and checks on the guard. A lost guard stops the job; a ticker
+        that falls silent after that is killed here.
+        """
         time.sleep(TURN_S)
         now_ns = self._beat()
         self._drain()
@@ -114,13 +115,13 @@ class PacedLink:
             self._ticker.end(patience_s=0)  # in the guard's place; close makes the outputs safe
 
     def status(self) -> np.void:
-        """Whole, or the last that was whole."""
+        """The newest status record; the one before while the newest is being written."""
         with suppress(OSError):
             self._status = self._channel.status()
         return self._status
 
     def touches(self) -> list[Touch]:
-        """From the pipe, as many as have come."""
+        """The holes that have come through the pipe since the last call."""
         found = []
         with suppress(BlockingIOError):
             while data := os.read(self._touched, TOUCH.size):
@@ -133,7 +134,7 @@ class PacedLink:
         return Fault.TICKER_LOST if self._ticker.gone and not self.status()["fault"] else Fault.NONE
 
     def trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
-        """What came through the ring, as far as the status goes. A trace with a hole says so, and replay refuses it."""
+        """The trace from the changes that came through the ring. Where some are missing it says so."""
         if self._ring is None or self._signals is None:
             return None
         self._drain()
@@ -146,23 +147,23 @@ class PacedLink:
         return Trace.of_changes([*header, *overrun], self._signals, *columns, int(status["tick"]), trailer)
 
     def notices(self) -> list[str]:
-        """What the ticker has said: before its first tick what was refused of real-time running; why a port is lost."""
+        """What the ticker has sent: measures for real time that were refused, why a port was lost; and a lost guard."""
         with suppress(BlockingIOError):
             self._noticed += os.read(self._notices, 4096).decode().splitlines()
         return [*self._noticed, *([UNGUARDED] if self._unguarded else ())]
 
     def close(self) -> None:
-        """Asks the ticker to leave; ends it where it does not; the guard follows it. The port is given back."""
+        """Asks the ticker to leave and kills it if it doesn't; the guard ends after it. Then closes the port."""
         self._channel["leave"] = 1
         for child in (self._ticker, self._guard):
             child.end(LEAVE_S, meanwhile=self._beat)
-        with suppress(OSError):  # a port that was lost; the outcome has told of it
+        with suppress(OSError):  # a port that was lost; the outcome says so
             self._port.close()
         os.close(self._touched)
         os.close(self._notices)
 
     def _guard_is_lost(self, now_ns: int) -> bool:
-        """It ends when the ticker has ended, and not before."""
+        """Whether the guard has gone or fallen silent while the ticker runs."""
         silent = now_ns - self._channel["guard_beat_ns"] > GUARD_SILENCE_NS
         return (silent or self._guard.gone) and not self._channel["guarded"]
 

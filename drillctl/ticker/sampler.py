@@ -1,7 +1,6 @@
-"""What of a run is recorded. Looks at the controller after each tick and writes changes into a trace.
+"""What of a run is recorded: looks at the controller after each tick and writes changes into a recorder.
 
 Rule: tick() knows no trace; this module alone knows which number becomes which signal (docs/SPEC.md, section 3).
-Called by ticker after each tick, and by replay.
 """
 
 from collections.abc import Sequence
@@ -35,14 +34,14 @@ _COMMAND_WORDS = tuple(BY_OP[Op(op)].name if op else "-" for op in range(len(Op)
 
 
 class Keeper(Protocol):
-    """What a sampler writes to: a Recorder, or a ring that another process empties."""
+    """What a sampler writes to: a trace.Recorder, or a ring that another process empties."""
 
     def set(self, index: int, tick: int, value: int) -> None:
-        """Signal ``index`` has ``value`` in ``tick``; kept if that is news."""
+        """Notes that signal ``index`` has ``value`` in ``tick``, if that is a change."""
 
 
 class Sampler:
-    """Fills a Recorder from one controller; with ``derived`` also columns, positions, states and rotors."""
+    """Fills a recorder from one controller; with ``derived`` also with columns, positions, states and plant lanes."""
 
     def __init__(self, controller: Controller, plant: Plant | None, derived: bool, recorder: Keeper | None = None):
         self._m = controller
@@ -53,11 +52,11 @@ class Sampler:
         self.recorder = Recorder(self.signals) if recorder is None else recorder
 
     def follow(self, controller: Controller) -> None:
-        """From now on this one, of the same axes and wires."""
+        """Samples this controller from now on, which has the same axes and wires."""
         self._m = controller
 
     def sample(self) -> None:
-        """After a tick: its index is one below the controller's count."""
+        """Samples the tick that was run last; its index is one below the controller's count."""
         m, put = self._m, self.recorder.set
         tick = m.tick - 1
         index = 0

@@ -1,7 +1,6 @@
-"""Wiring of layers 3 and 4: runs the ticks of one machine on one port, and watches what the plant sees.
+"""Runs the ticks of one machine on one port; between them it samples, counts holes and writes the status record.
 
-Rule: no decision about motion is taken here; between ticks it samples, counts holes and writes the status record.
-Created by desk for a job and by the tests.
+Rule: no decision about motion is taken here; layer 3 (execution) takes them all within ``tick``.
 """
 
 from collections.abc import Callable, Iterable
@@ -23,8 +22,14 @@ NEVER = 1 << 62  # a tick that doesn't come
 
 @dataclass
 class Ticker:
-    """One machine on one port. ``touched`` grows by a hole when the plant's bit first meets the board there:
-    (tool, tag of the hole begun, place in steps from machine zero by axis, lost steps taken off)."""
+    """One machine on one port.
+
+    plant    what stands behind a simulated card; None on a real port
+    traced   the run is recorded; ``derived``: with columns, positions, states and what the plant has
+    keeper   takes the record in place of a Recorder made here
+    touched  grows by a hole when the plant's bit first meets the board there: (tool, tag of the hole, place in steps
+             from machine zero by axis, lost steps taken off)
+    """
 
     machine: Machine
     port: Driver
@@ -52,7 +57,7 @@ class Ticker:
         return cls(machine, SimulatedCard(plant), plant, traced, derived)
 
     def run(self, ticks: int, until: Callable[[], bool] | None = None) -> int:
-        """Runs up to so many wakes, fewer when ``until`` says so after one; returns how many ticks came of them."""
+        """Runs up to so many wakes, fewer where ``until`` is true after one; returns how many of them were ticks."""
         m, plant, sampler = self.controller, self.plant, self.sampler
         first = m.tick
         for _ in range(ticks):
@@ -70,7 +75,7 @@ class Ticker:
         return m.tick - first
 
     def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:
-        """``run`` as far as the gate lets; where it is shut the inputs alone are looked at."""
+        """As ``run``, as far as the gate lets; while it is shut only the inputs are read."""
         if not self.gate.paused:
             return self.run(wakes, until)
         if self.waits:
@@ -81,43 +86,43 @@ class Ticker:
         return ticks
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
-        """As many ticks as the queue is sure to last for (a tick takes one command at most), up to tick ``before``."""
+        """Runs the ticks that the queue is sure to last for (each takes one command at most) or to tick ``before``."""
         return self.advance(min(max(1, len(self.queue)), before - self.controller.tick), until)
 
     @property
     def waits(self) -> bool:
-        """The gate is shut. What was asked, a machine that brakes or returns, and what would burn don't wait for it."""
+        """Whether ticks wait for the gate. Requests, a machine that brakes or returns, and hot windings don't wait."""
         shut = self.gate.paused and not self.gate.left
         waits = shut and not self.requests.waiting and self.controller.condition == Condition.READY
         return waits and not self.controller.hot_until
 
     @property
     def resting(self) -> bool:
-        """Outside a job, nothing moves and no command waits."""
+        """Whether the machine is outside a job, nothing moves and no command waits."""
         m = self.controller
         return m.condition == Condition.READY and not (m.busy or m.job or m.moving) and len(self.queue) == 0
 
     def load(self, machine: Machine) -> None:
-        """The same machine with other phase and ramp tables (ticker/table_loading.py checks that), at rest."""
+        """Takes the same machine with other phase and ramp tables (edited_tables.py has checked that), at rest."""
         self.machine, self.controller = machine, loaded(machine, self.controller)
         if self.sampler is not None:
             self.sampler.follow(self.controller)
 
     def follow_rate(self) -> None:
-        """The controller has another tick rate (PACE): so has everything that counts its ticks as time."""
+        """Takes over the controller's tick rate after a PACE, for everything that counts ticks as time."""
         self.machine = self.controller.machine = self.machine.at_rate(self.controller.tick_hz)
         if self.plant is not None:
             self.plant.set_rate(self.machine.tick_hz)
 
     def over(self) -> bool:
-        """The job has ended, and everything rests: at KMD_KONIEC, by a stop, or latched by a fault."""
+        """Whether the job has ended (at KMD_KONIEC, by a stop, or latched by a fault) and everything rests."""
         m = self.controller
         if m.condition == Condition.LATCHED:
             return not m.moving
         return m.condition == Condition.READY and not m.job and not m.moving
 
     def report(self) -> np.void:
-        """The status record, written anew; what the plant has lost is told while everything rests."""
+        """The status record, written anew; the lost steps of the plant are measured only while everything rests."""
         report(self.controller, self.status)
         if self.plant is not None and not self.controller.moving:
             lost = self.lost_steps()
@@ -125,7 +130,7 @@ class Ticker:
         return self.status
 
     def late(self, count: int, worst_ns: int) -> None:
-        """How punctual the ticks were so far, for the status record."""
+        """Notes for the status record how many ticks were late so far, and the worst."""
         self.status["late"], self.status["late_worst_ns"] = count, worst_ns
 
     def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
@@ -133,24 +138,24 @@ class Ticker:
         return self.finished_trace(header)
 
     def finished_trace(self, header: Iterable[tuple[str, str]]) -> Trace | None:
-        """The record of the run so far, where it is kept in this process."""
+        """The trace of the run so far; None where it is kept elsewhere, or not at all."""
         if self.sampler is None or not isinstance(self.sampler.recorder, Recorder):
             return None
         return self.sampler.recorder.finish(self.controller.tick, header)
 
     def touch(self, tool: int, tag: int, places: tuple[float, ...]) -> None:
-        """The bit meets the board; a hole that is come to again (a peck after a peck) is counted once."""
+        """Counts a hole as the bit meets the board; one that is met again (pecks) counts once."""
         if tag == 0 or tag not in self._tags:
             self._tags.add(tag)
             self.touched.append((tool, tag, places))
 
     def lost_steps(self) -> tuple[float, ...]:
-        """By axis: how far the plant is behind the controller, in steps. Needs a plant."""
+        """How far each axis of the plant is behind the controller, in steps. Needs a plant."""
         assert self.plant is not None
         return tuple(self.plant.lost_steps(i, axis.travelled) for i, axis in enumerate(self.controller.axes))
 
     def places(self) -> tuple[float, ...]:
-        """By axis: where the plant stands, in the controller's steps from machine zero. Needs a plant."""
+        """Where each axis of the plant stands, in the controller's steps from machine zero. Needs a plant."""
         assert self.plant is not None
         axes = enumerate(self.controller.axes)
         return tuple(axis.position - self.plant.behind_steps(i, axis.travelled) for i, axis in axes)

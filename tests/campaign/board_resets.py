@@ -25,8 +25,8 @@ from drillctl.portio.firmata_pins import MEGA, Pins
 from drillctl.portio.firmata_protocol import Decoder, Firmware, Message
 from drillctl.portio.firmata_watch import Watch
 from drillctl.ports import PortLost
-from drillctl.ticker.confirmed_status import VouchedStatus
-from drillctl.ticker.launch import wiring_of
+from drillctl.ticker.confirmed_status import ConfirmedStatus
+from drillctl.ticker.launch import port_layout
 from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
 from drillctl.viewmodel import Outcome
@@ -151,13 +151,13 @@ class ResettingLink(LocalLink):
 
     def __init__(self, machine: Machine, reset: Reset):
         self.line, self.reset, self.woken, self.told_after = BoardLine(IdealPlant(machine)), reset, 0, 0
-        line, wiring = cast(FirmataLine, self.line), wiring_of(machine)
+        line, wiring = cast(FirmataLine, self.line), port_layout(machine)
         pins = Pins(MEGA, wiring, self.line.name)
         pins.prepare(line)
         watch = Watch(self.line.name, pins.witnesses(), BYTE_S, 1 / machine.tick_hz, self.line.now_s)
         card = FirmataCard(line, pins, Firmware((2, 5), "StandIn"), watch)
         super().__init__(Ticker(machine, card))
-        self._vouched = VouchedStatus(card)
+        self._vouched = ConfirmedStatus(card)
         self._status = self.ticker.report().copy()
 
     def turn(self) -> None:

@@ -70,16 +70,16 @@ def test_before_anything_runs(number: int, code: int, started: Started, folder: 
 
 @pytest.fixture
 def tickers(monkeypatch: pytest.MonkeyPatch) -> list[Ticker]:
-    """Every ticker that a link in this process makes, so that its card can be looked at afterwards."""
+    """Every ticker that is made in this process, so that its card can be looked at afterwards."""
     made: list[Ticker] = []
-    simulated = LocalLink.simulated.__func__
+    simulated = Ticker.simulated.__func__
 
-    def spy(cls: type[LocalLink], /, *args: object, **named: object) -> LocalLink:
-        link: LocalLink = simulated(cls, *args, **named)
-        made.append(link.ticker)
-        return link
+    def spy(cls: type[Ticker], /, *args: object, **named: object) -> Ticker:
+        ticker: Ticker = simulated(cls, *args, **named)
+        made.append(ticker)
+        return ticker
 
-    monkeypatch.setattr(LocalLink, "simulated", classmethod(spy))
+    monkeypatch.setattr(Ticker, "simulated", classmethod(spy))
     return made
 
 
@@ -87,7 +87,7 @@ def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> JobResu
     (folder / "q.kmd").write_text(text)
     machine = Library((shipped_tables(),)).machine("pcb-drill")
     job = load_job(folder / "q.kmd", machine, Wishes())
-    with closing(LocalLink.simulated(machine)) as link:
+    with closing(LocalLink(Ticker.simulated(machine))) as link:
         return JobRunner(job, link, watcher).run()
 
 

@@ -76,7 +76,7 @@ def test_a_trace_tells_its_plant_and_replays_without_it(drillctl: Drillctl, fold
 
 def test_a_golden_of_the_dynamic_plant_is_recorded_again_on_it(drillctl: Drillctl, folder: Path) -> None:
     from drillctl.machine import Library
-    from drillctl.replay.replay import record_again
+    from drillctl.replay.compare import record_again
 
     drillctl("run", "hole.kmd", *DYNAMIC, "--fault", "dirty.z_bottom=0.1", "--seed", "3", "--trace", "t.trace")
     before = (folder / "t.trace").read_bytes()

@@ -29,10 +29,10 @@ def made(machine: str = "pcb-drill") -> MachineConsole:
 
 
 @pytest.fixture
-def station() -> Iterator[MachineConsole]:
-    station = made()
-    yield station
-    station.close()
+def console() -> Iterator[MachineConsole]:
+    console = made()
+    yield console
+    console.close()
 
 
 @pytest.fixture
@@ -41,54 +41,54 @@ def board(tmp_path: Path) -> Path:
     return tmp_path / "job.drl"
 
 
-def cut_off(station: MachineConsole, board: Path, holes: int, asked: Asked | None = None) -> None:
+def cut_off(console: MachineConsole, board: Path, holes: int, asked: Asked | None = None) -> None:
     """The board is drilled as far as so many holes, and stopped."""
-    assert station.load(str(board), asked or Asked()) == ()
-    assert station.start(dry=False) == ()
-    until(station, lambda: (told := station.progress()) is not None and told.holes_done >= holes)
-    station.stop()
-    settle(station)
+    assert console.load(str(board), asked or Asked()) == ()
+    assert console.start(dry=False) == ()
+    until(console, lambda: (told := console.progress()) is not None and told.holes_done >= holes)
+    console.stop()
+    settle(console)
 
 
-def test_a_board_is_drilled_with_its_journal(station: MachineConsole, board: Path) -> None:
-    assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
-    assert station.unfinished() == []  # what runs is not offered
-    settle(station)
+def test_a_board_is_drilled_with_its_journal(console: MachineConsole, board: Path) -> None:
+    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    assert console.unfinished() == []  # what runs is not offered
+    settle(console)
     account = read_journal(default_journal(board))
-    assert account.done == {1, 2, 3, 4} and account.ended == "done" and station.unfinished() == []
-    assert station.start(dry=False) == ()  # and once more
-    settle(station)
-    assert station.view().fault is None
+    assert account.done == {1, 2, 3, 4} and account.ended == "done" and console.unfinished() == []
+    assert console.start(dry=False) == ()  # and once more
+    settle(console)
+    assert console.view().fault is None
 
 
-def test_a_dry_run_leaves_no_journal(station: MachineConsole, board: Path) -> None:
-    station.load(str(board), Asked())
-    assert station.start(dry=True) == ()
-    settle(station)
+def test_a_dry_run_leaves_no_journal(console: MachineConsole, board: Path) -> None:
+    console.load(str(board), Asked())
+    assert console.start(dry=True) == ()
+    settle(console)
     assert not default_journal(board).exists()
 
 
-def test_an_interrupted_job_is_offered_and_exactly_its_rest_is_drilled(station: MachineConsole, board: Path) -> None:
-    cut_off(station, board, 2)
-    (job,) = station.unfinished()
+def test_an_interrupted_job_is_offered_and_exactly_its_rest_is_drilled(console: MachineConsole, board: Path) -> None:
+    cut_off(console, board, 2)
+    (job,) = console.unfinished()
     assert 1 <= job.holes_done < 4 and (job.file, job.machine, job.holes_total) == (str(board), "pcb-drill", 4)
-    assert station.start(dry=False)[0].endswith("or delete the file to begin anew")
-    assert station.go_on(job.journal) == ()
-    settle(station)
-    told = station.progress()
+    assert console.start(dry=False)[0].endswith("or delete the file to begin anew")
+    assert console.go_on(job.journal) == ()
+    settle(console)
+    told = console.progress()
     assert told is not None and (told.holes_done, told.holes_total) == (4, 4)
-    assert read_journal(default_journal(board)).done == {1, 2, 3, 4} and station.unfinished() == []
-    assert station.start(dry=False) == ()  # the whole board is on the desk again
-    settle(station)
-    told = station.progress()
+    assert read_journal(default_journal(board)).done == {1, 2, 3, 4} and console.unfinished() == []
+    assert console.start(dry=False) == ()  # the whole board is on the desk again
+    settle(console)
+    told = console.progress()
     assert told is not None and told.holes_done == 4
 
 
-def test_another_program_goes_on_where_one_was_killed(station: MachineConsole, board: Path) -> None:
-    station.load(str(board), Asked(rotate_deg=90.0, peck_mm=1.0, skip_tools=(2,)))
-    station.start(dry=False)
-    until(station, lambda: (told := station.progress()) is not None and told.holes_done >= 1)
-    station.close()
+def test_another_program_goes_on_where_one_was_killed(console: MachineConsole, board: Path) -> None:
+    console.load(str(board), Asked(rotate_deg=90.0, peck_mm=1.0, skip_tools=(2,)))
+    console.start(dry=False)
+    until(console, lambda: (told := console.progress()) is not None and told.holes_done >= 1)
+    console.close()
     other = made()
     try:
         (job,) = other.unfinished()
@@ -101,30 +101,30 @@ def test_another_program_goes_on_where_one_was_killed(station: MachineConsole, b
 
 
 def test_the_command_line_goes_on_with_what_the_screen_began(
-    station: MachineConsole, board: Path, capsys: pytest.CaptureFixture[str]
+    console: MachineConsole, board: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    cut_off(station, board, 1, Asked(mirror="x", panel=PanelOf(2, 1, 6.0, 0.0)))
-    assert main(["resume", station.unfinished()[0].journal, "--json"]) == 0
+    cut_off(console, board, 1, Asked(mirror="x", panel=PanelOf(2, 1, 6.0, 0.0)))
+    assert main(["resume", console.unfinished()[0].journal, "--json"]) == 0
     outcome = json.loads(capsys.readouterr().out)
-    assert outcome["holes_done"] == outcome["holes_total"] == 8 and station.unfinished() == []
+    assert outcome["holes_done"] == outcome["holes_total"] == 8 and console.unfinished() == []
 
 
-def test_the_screen_goes_on_with_what_the_command_line_began(station: MachineConsole, board: Path) -> None:
+def test_the_screen_goes_on_with_what_the_command_line_began(console: MachineConsole, board: Path) -> None:
     journal = default_journal(board)
     assert main(["run", str(board), "--journal", str(journal), "--tick-hz", "5000", "--rotate", "90"]) == 0
     journal.write_text("".join(journal.read_text().splitlines(keepends=True)[:4]))
-    (job,) = station.unfinished()
+    (job,) = console.unfinished()
     assert (job.holes_done, job.again) == (1, (2,))
-    assert station.go_on(job.journal) == ()
-    settle(station)
+    assert console.go_on(job.journal) == ()
+    settle(console)
     assert read_journal(journal).done == {1, 2, 3, 4}
 
 
-def test_a_job_is_not_gone_on_with_where_something_is_another(station: MachineConsole, board: Path) -> None:
-    cut_off(station, board, 1)
-    (job,) = station.unfinished()
+def test_a_job_is_not_gone_on_with_where_something_is_another(console: MachineConsole, board: Path) -> None:
+    cut_off(console, board, 1)
+    (job,) = console.unfinished()
     board.write_text(BOARD.replace("X3.0Y4.0", "X3.0Y4.1"))
-    assert "has changed since the job was begun" in station.go_on(job.journal)[0]
+    assert "has changed since the job was begun" in console.go_on(job.journal)[0]
     board.write_text(BOARD)
     head, *lines = lines_of(Path(job.journal))
     for name, value, reason in (
@@ -134,92 +134,92 @@ def test_a_job_is_not_gone_on_with_where_something_is_another(station: MachineCo
         ("options", {**head["options"], "peck": "deep"}, "written by another version"),
     ):
         Path(job.journal).write_bytes(forged([{**head, name: value}, *lines]))
-        assert reason in station.go_on(job.journal)[0] and not station.at_work
+        assert reason in console.go_on(job.journal)[0] and not console.at_work
 
 
-def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(station: MachineConsole, board: Path) -> None:
+def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(console: MachineConsole, board: Path) -> None:
     """Begun on a real board, it would be simulated to its end."""
-    cut_off(station, board, 2)
-    (job,) = station.unfinished()
+    cut_off(console, board, 2)
+    (job,) = console.unfinished()
     assert job.ran == job.here == Site("simulated", "free", "ideal")
     real = Site("firmata:/dev/ttyACM0", "real", "none")
     head, *lines = lines_of(Path(job.journal))
     Path(job.journal).write_bytes(forged([{**head, "site": asdict(real)}, *lines]))
     before = Path(job.journal).read_bytes()
-    (job,) = station.unfinished()
+    (job,) = console.unfinished()
     assert (job.ran, job.here) == (real, Site("simulated", "free", "ideal"))
-    assert "the job ran with port firmata:/dev/ttyACM0, pace real; what port" in station.go_on(job.journal)[0]
-    assert not station.at_work and Path(job.journal).read_bytes() == before
-    assert station.go_on(job.journal, elsewhere=True) == ()
-    settle(station)
-    assert station.unfinished() == [] and read_journal(Path(job.journal)).site == job.here
+    assert "the job ran with port firmata:/dev/ttyACM0, pace real; what port" in console.go_on(job.journal)[0]
+    assert not console.at_work and Path(job.journal).read_bytes() == before
+    assert console.go_on(job.journal, elsewhere=True) == ()
+    settle(console)
+    assert console.unfinished() == [] and read_journal(Path(job.journal)).site == job.here
 
 
-def test_a_list_of_recent_jobs_may_hold_any_settings(station: MachineConsole, board: Path) -> None:
+def test_a_list_of_recent_jobs_may_hold_any_settings(console: MachineConsole, board: Path) -> None:
     for asked in (Asked(order="shortest"), Asked(mirror="z"), Asked(measured=(MeasuredHole(0, 0, 1e9, 0),) * 2)):
-        assert "it can't be opened with these settings" in station.load(str(board), asked)[0]
-    assert station.board() is None
+        assert "it can't be opened with these settings" in console.load(str(board), asked)[0]
+    assert console.board() is None
 
 
-def test_a_job_that_is_given_up_leaves_room_for_a_new_one(station: MachineConsole, board: Path) -> None:
-    cut_off(station, board, 1)
-    (job,) = station.unfinished()
-    assert station.give_up(job.journal) == () and station.unfinished() == []
-    assert "can't be taken away" in station.give_up(job.journal)[0]
-    assert station.start(dry=False) == ()
-    assert "still going on" in station.give_up(job.journal)[0]
-    settle(station)
+def test_a_job_that_is_given_up_leaves_room_for_a_new_one(console: MachineConsole, board: Path) -> None:
+    cut_off(console, board, 1)
+    (job,) = console.unfinished()
+    assert console.give_up(job.journal) == () and console.unfinished() == []
+    assert "can't be taken away" in console.give_up(job.journal)[0]
+    assert console.start(dry=False) == ()
+    assert "still going on" in console.give_up(job.journal)[0]
+    settle(console)
 
 
-def test_a_damaged_journal_is_not_offered_and_stops_nothing(station: MachineConsole, board: Path) -> None:
-    cut_off(station, board, 1)
-    journal = Path(station.unfinished()[0].journal)
+def test_a_damaged_journal_is_not_offered_and_stops_nothing(console: MachineConsole, board: Path) -> None:
+    cut_off(console, board, 1)
+    journal = Path(console.unfinished()[0].journal)
     journal.with_name("other.journal").write_text("nonsense\n")
     journal.with_name("folder.journal").mkdir()
-    assert [job.journal for job in station.unfinished()] == [str(journal)]
+    assert [job.journal for job in console.unfinished()] == [str(journal)]
 
 
-def test_a_board_is_drilled_from_the_base_that_was_set(station: MachineConsole, board: Path) -> None:
+def test_a_board_is_drilled_from_the_base_that_was_set(console: MachineConsole, board: Path) -> None:
     """Its program initialises, which leaves the base at machine zero, and takes the operator's base again."""
-    station.load(str(board), Asked())
-    station.initialise()
-    settle(station)
-    station.jog("x", 600)
-    settle(station)
-    station.set_base()
-    settle(station)
-    assert station.start(dry=False) == ()
-    settle(station)
-    x, y = station.view().axes[:2]
+    console.load(str(board), Asked())
+    console.initialise()
+    settle(console)
+    console.jog("x", 600)
+    settle(console)
+    console.set_base()
+    settle(console)
+    assert console.start(dry=False) == ()
+    settle(console)
+    x, y = console.view().axes[:2]
     assert (x.position_steps, x.position_mm, y.position_steps) == (600, 0.0, 0)
     assert read_journal(default_journal(board)).head.options["base"] == [600, 0]
 
 
-def test_what_was_cut_off_goes_on_from_its_own_base(station: MachineConsole, board: Path) -> None:
-    station.initialise()
-    settle(station)
-    station.jog("y", 240)
-    settle(station)
-    station.set_base()
-    settle(station)
-    cut_off(station, board, 1)
-    station.initialise()
-    settle(station)
-    assert station.go_on(station.unfinished()[0].journal) == ()
-    settle(station)
-    assert station.view().axes[1].position_steps == 240 and station.view().axes[1].position_mm == 0
+def test_what_was_cut_off_goes_on_from_its_own_base(console: MachineConsole, board: Path) -> None:
+    console.initialise()
+    settle(console)
+    console.jog("y", 240)
+    settle(console)
+    console.set_base()
+    settle(console)
+    cut_off(console, board, 1)
+    console.initialise()
+    settle(console)
+    assert console.go_on(console.unfinished()[0].journal) == ()
+    settle(console)
+    assert console.view().axes[1].position_steps == 240 and console.view().axes[1].position_mm == 0
 
 
-def test_a_base_from_which_the_board_is_out_of_reach_refuses_the_start(station: MachineConsole, board: Path) -> None:
-    station.load(str(board), Asked())
-    station.initialise()
-    settle(station)
-    high = station.machine.reach(0)[1]
-    station.jog("x", high - 20)
-    settle(station)
-    station.set_base()
-    settle(station)
-    assert "out of reach" in station.start(dry=False)[0] and not station.at_work
+def test_a_base_from_which_the_board_is_out_of_reach_refuses_the_start(console: MachineConsole, board: Path) -> None:
+    console.load(str(board), Asked())
+    console.initialise()
+    settle(console)
+    high = console.machine.reach(0)[1]
+    console.jog("x", high - 20)
+    settle(console)
+    console.set_base()
+    settle(console)
+    assert "out of reach" in console.start(dry=False)[0] and not console.at_work
 
 
 SHIFT = np.array([5.0, 3.0])
@@ -234,29 +234,29 @@ def measured(*places: tuple[float, float], off: float = 0.0) -> tuple[MeasuredHo
 CORNERS = ((1.0, 1.0), (3.0, 1.0), (1.0, 3.0), (3.0, 4.0))
 
 
-def test_measured_holes_place_the_board_whatever_the_base(station: MachineConsole, board: Path) -> None:
-    assert station.load(str(board), Asked(measured=measured(*CORNERS))) == ()
-    placed = station.board()
+def test_measured_holes_place_the_board_whatever_the_base(console: MachineConsole, board: Path) -> None:
+    assert console.load(str(board), Asked(measured=measured(*CORNERS))) == ()
+    placed = console.board()
     assert placed is not None
     np.testing.assert_allclose(placed.xy_mm, placed.file_xy_mm + SHIFT, atol=0.03)
-    station.initialise()
-    settle(station)
-    station.jog("x", 120)
-    settle(station)
-    station.set_base()
-    settle(station)
-    moved = station.board()
+    console.initialise()
+    settle(console)
+    console.jog("x", 120)
+    settle(console)
+    console.set_base()
+    settle(console)
+    moved = console.board()
     assert moved is not None
     np.testing.assert_allclose(moved.xy_mm - placed.xy_mm, np.tile([-2.54, 0.0], (4, 1)), atol=0.03)
 
 
-def test_measured_holes_are_judged(station: MachineConsole) -> None:
-    found, problems = station.align(measured(*CORNERS), False)
+def test_measured_holes_are_judged(console: MachineConsole) -> None:
+    found, problems = console.align(measured(*CORNERS), False)
     assert found is not None and not problems and not found.rejected and max(found.residual_mm) < 1e-9
     assert found.place_mm((10.0, 10.0)) == pytest.approx((15.0, 13.0))
-    off, _ = station.align(measured(*CORNERS, off=3.0), False)
+    off, _ = console.align(measured(*CORNERS, off=3.0), False)
     assert off is not None and off.rejected
-    none, problems = station.align(measured((1.0, 1.0), (1.0, 1.0)), False)
+    none, problems = console.align(measured((1.0, 1.0), (1.0, 1.0)), False)
     assert none is None and "the same place" in problems[0]
 
 
@@ -272,79 +272,59 @@ def test_measured_holes_are_judged(station: MachineConsole) -> None:
         (Asked(format="furlongs"), "bad-format"),
     ],
 )
-def test_what_cannot_be_done_changes_nothing(station: MachineConsole, board: Path, asked: Asked, reason: str) -> None:
-    assert station.load(str(board), Asked()) == ()
-    before = station.board()
-    assert reason in station.load(str(board), asked)[0]
-    assert station.board() is before and len(station.recent()) == 1
+def test_what_cannot_be_done_changes_nothing(console: MachineConsole, board: Path, asked: Asked, reason: str) -> None:
+    assert console.load(str(board), Asked()) == ()
+    before = console.board()
+    assert reason in console.load(str(board), asked)[0]
+    assert console.board() is before and len(console.recent()) == 1
 
 
-TAIL = "X1.0Y1.0\nX2.0Y2.0\n"  # behind M30
-
-
-@pytest.mark.parametrize(("choice", "holes"), [("ignore", 0), ("drill", 2)])
-def test_holes_behind_the_end_are_refused_unless_asked_for(
-    station: MachineConsole, board: Path, choice: str, holes: int
-) -> None:
-    assert station.load(str(board), Asked()) == ()
-    before = station.board()
-    assert before is not None
-    whole = board.read_text()
-    assert whole.rstrip().endswith("M30")
-    board.write_text(whole + "T1\n" + TAIL)
-    (reason,) = station.load(str(board), Asked())
-    assert "holes-after-end" in reason and station.board() is before
-    assert station.load(str(board), Asked(after_end=choice)) == ()
-    after = station.board()
-    assert after is not None and len(after.xy_mm) == len(before.xy_mm) + holes
-
-
-def test_a_panel_repeats_the_board(station: MachineConsole, board: Path) -> None:
-    assert station.load(str(board), Asked(panel=PanelOf(2, 2, 6.0, 7.0))) == ()
-    placed = station.board()
+def test_a_panel_repeats_the_board(console: MachineConsole, board: Path) -> None:
+    assert console.load(str(board), Asked(panel=PanelOf(2, 2, 6.0, 7.0))) == ()
+    placed = console.board()
     assert placed is not None and len(placed.xy_mm) == 16
     np.testing.assert_allclose(np.ptp(placed.xy_mm, axis=0), [8.0, 10.0], atol=0.03)
 
 
-def test_opened_boards_are_remembered(station: MachineConsole, board: Path) -> None:
-    station.load(str(board), Asked(mirror="x"))
-    station.load(str(BLINKER), Asked())
-    assert [(Path(job.file).name, job.asked.mirror) for job in station.recent()] == [
+def test_opened_boards_are_remembered(console: MachineConsole, board: Path) -> None:
+    console.load(str(board), Asked(mirror="x"))
+    console.load(str(BLINKER), Asked())
+    assert [(Path(job.file).name, job.asked.mirror) for job in console.recent()] == [
         ("blinker.drl", None), ("job.drl", "x"),
     ]  # fmt: skip
 
 
-def test_a_queue_is_no_board(station: MachineConsole) -> None:
-    assert "run from the queue editor" in station.load(str(BLINKER.with_name("square.kmd")), Asked())[0]
+def test_a_queue_is_no_board(console: MachineConsole) -> None:
+    assert "run from the queue editor" in console.load(str(BLINKER.with_name("square.kmd")), Asked())[0]
 
 
-def test_a_pipe_is_refused_at_once(station: MachineConsole, tmp_path: Path) -> None:
+def test_a_pipe_is_refused_at_once(console: MachineConsole, tmp_path: Path) -> None:
     """Opening one waits for whoever writes into it, and the screen with it."""
     os.mkfifo(tmp_path / "pipe.drl")
     refused = (f"{tmp_path / 'pipe.drl'}: can't be read: a pipe or a device, not a file",)
-    assert station.load(str(tmp_path / "pipe.drl"), Asked()) == refused
-    assert QueueFiles(lambda: station.machine).open_queue(str(tmp_path / "pipe.drl")) == ("", refused)
-    assert station.load(str(BLINKER), Asked(drills=str(tmp_path / "pipe.drl"))) == refused
+    assert console.load(str(tmp_path / "pipe.drl"), Asked()) == refused
+    assert QueueFiles(lambda: console.machine).open_queue(str(tmp_path / "pipe.drl")) == ("", refused)
+    assert console.load(str(BLINKER), Asked(drills=str(tmp_path / "pipe.drl"))) == refused
 
 
-def test_a_hole_is_done_when_the_head_is_up_again(station: MachineConsole, board: Path) -> None:
+def test_a_hole_is_done_when_the_head_is_up_again(console: MachineConsole, board: Path) -> None:
     def on_its_way_up() -> bool:
-        view = station.view()
+        view = console.view()
         return view.command.startswith("KMD_WIERTLO_GORA") and view.axes[2].position_steps > 20
 
-    assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
-    until(station, on_its_way_up)
-    told = station.progress()
+    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    until(console, on_its_way_up)
+    told = console.progress()
     assert told is not None and told.holes_done == 0
 
 
-def test_a_turn_takes_a_machine_that_runs_free_far(station: MachineConsole, board: Path) -> None:
+def test_a_turn_takes_a_machine_that_runs_free_far(console: MachineConsole, board: Path) -> None:
     """The screen turns it a few hundred times a second at most."""
-    assert station.turn() is False, "at rest there is nothing to hurry for"
-    assert station.load(str(board), Asked()) == () and station.start(dry=False) == ()
+    assert console.turn() is False, "at rest there is nothing to hurry for"
+    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
     turns = 1
-    while station.turn():
+    while console.turn():
         turns += 1
-    told = station.progress()
+    told = console.progress()
     assert told is not None and told.holes_done == told.holes_total and told.ticks > 40 * turns
     assert told.seconds_left is None

@@ -123,7 +123,7 @@ def test_fingers_never_make_a_long_move(pauses_s: list[float]) -> None:
 
 
 @pytest.fixture
-def station() -> Iterator[MachineConsole]:
+def console() -> Iterator[MachineConsole]:
     library = Library.standard()
     made = MachineConsole(library, library.machine("pcb-drill"), RunSettings(pace="real"))
     made.initialise()
@@ -132,33 +132,33 @@ def station() -> Iterator[MachineConsole]:
     made.close()
 
 
-def hold_key(station: MachineConsole, steps: int, for_s: float) -> None:
+def hold_key(console: MachineConsole, steps: int, for_s: float) -> None:
     """As a screen does: the console is turned, the key repeats."""
     until_s, due_s = time.monotonic() + for_s, 0.0
     while time.monotonic() < until_s:
-        station.turn()
+        console.turn()
         if time.monotonic() >= due_s:
             due_s = time.monotonic() + REPEATED_S
-            assert station.jog("x", steps) == ()
+            assert console.jog("x", steps) == ()
 
 
-def test_the_machine_runs_smoothly_while_the_key_is_held_and_rests_soon_after(station: MachineConsole) -> None:
-    hold_key(station, 12, 2.0)
-    view = station.view()
+def test_the_machine_runs_smoothly_while_the_key_is_held_and_rests_soon_after(console: MachineConsole) -> None:
+    hold_key(console, 12, 2.0)
+    view = console.view()
     assert view.axes[0].state == 3 and view.axes[0].target_steps > 16000, "at full speed, towards the end of the range"
     let_go = view.axes[0].position_steps
-    settle(station)
-    view = station.view()
+    settle(console)
+    view = console.view()
     assert 500 < let_go < view.axes[0].position_steps < let_go + 400
     assert view.position_known and view.condition == "ready" and view.lost_steps == (0, 0, 0)
 
 
-def test_a_jog_can_not_leave_the_reach(station: MachineConsole) -> None:
-    assert station.jog("x", -12) == ("the axis can't go so far: its reach ends before",)
-    assert station.jog("z", 300) == ()
-    settle(station)
-    assert station.jog("z", 600) == ("the axis can't go so far: its reach ends before",)
-    assert station.view().fault is None and station.view().axes[2].position_steps == 300
+def test_a_jog_can_not_leave_the_reach(console: MachineConsole) -> None:
+    assert console.jog("x", -12) == ("the axis can't go so far: its reach ends before",)
+    assert console.jog("z", 300) == ()
+    settle(console)
+    assert console.jog("z", 600) == ("the axis can't go so far: its reach ends before",)
+    assert console.view().fault is None and console.view().axes[2].position_steps == 300
 
 
 def test_a_jog_longer_than_the_axis_is_refused_before_its_place_is_known() -> None:

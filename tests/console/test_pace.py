@@ -19,85 +19,85 @@ PACES = ["free", pytest.param("real", marks=pytest.mark.skipif(sys.platform != "
 
 
 @pytest.fixture(params=PACES)
-def station(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[MachineConsole]:
+def console(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[MachineConsole]:
     library = Library((tmp_path, shipped_tables()))
     made = MachineConsole(library, library.machine("pcb-drill"), RunSettings(pace=request.param))
     yield made
     made.close()
 
 
-def test_the_rate_is_shown_once_it_is_in_force_and_the_position_stays(station: MachineConsole) -> None:
-    station.run_queue("KMD_RUCHd x=5\n")
-    settle(station)
-    before = station.view()
-    assert before.tick_hz == 500 and station.set_tick_hz(580) == ()
-    until(station, lambda: station.view().tick_hz == 580)
-    view = station.view()
+def test_the_rate_is_shown_once_it_is_in_force_and_the_position_stays(console: MachineConsole) -> None:
+    console.run_queue("KMD_RUCHd x=5\n")
+    settle(console)
+    before = console.view()
+    assert before.tick_hz == 500 and console.set_tick_hz(580) == ()
+    until(console, lambda: console.view().tick_hz == 580)
+    view = console.view()
     assert view.axes == before.axes and view.position_known == before.position_known and view.fault is None
     assert "the tick rate was set to 580 Hz; it was 500" in view.notices
-    assert station.machine.longest_drilling_ticks == (18 * 580)
+    assert console.machine.longest_drilling_ticks == (18 * 580)
 
 
-def test_at_work_it_is_refused_and_so_is_what_is_no_rate(station: MachineConsole) -> None:
+def test_at_work_it_is_refused_and_so_is_what_is_no_rate(console: MachineConsole) -> None:
     for hz in (0, -1, 100_001):
-        assert station.set_tick_hz(hz) == (f"the tick rate can be 1 to 100000 Hz, not {hz}",)
-    station.run_queue("KMD_CZEKAJ 1000000\n")
-    assert station.set_tick_hz(580) == ("the machine is at work; hold or stop it first",)
-    station.stop()
-    settle(station)
-    assert station.view().tick_hz == 500
+        assert console.set_tick_hz(hz) == (f"the tick rate can be 1 to 100000 Hz, not {hz}",)
+    console.run_queue("KMD_CZEKAJ 1000000\n")
+    assert console.set_tick_hz(580) == ("the machine is at work; hold or stop it first",)
+    console.stop()
+    settle(console)
+    assert console.view().tick_hz == 500
 
 
 def test_a_port_that_can_not_carry_it_refuses_with_the_rate_it_can(
-    station: MachineConsole, monkeypatch: pytest.MonkeyPatch
+    console: MachineConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    used = station.used
+    used = console.used
     used.running = RunSettings(port="firmata:/dev/ttyACM0", pace="real")  # not opened: the rate alone is looked at
-    (refusal,) = station.set_tick_hz(5000)
+    (refusal,) = console.set_tick_hz(5000)
     assert "5000 interrupts a second are too many for it with 3 axes moving; --tick-hz" in refusal
     used.running = RunSettings(pace="real")
     monkeypatch.setattr(machinery, "most_ticks_hz", lambda machine: 700)
-    (refusal,) = station.set_tick_hz(701)
+    (refusal,) = console.set_tick_hz(701)
     assert "701 ticks a second of pcb-drill are too many for this computer; --tick-hz 700 is the most" in refusal
 
 
-def test_a_board_on_the_desk_takes_its_time_by_the_new_rate(station: MachineConsole) -> None:
-    station.load(str(EXAMPLES / "blinker.drl"), Asked())
-    station.set_tick_hz(580)
-    until(station, lambda: station.view().tick_hz == 580)
-    board = station.board()
+def test_a_board_on_the_desk_takes_its_time_by_the_new_rate(console: MachineConsole) -> None:
+    console.load(str(EXAMPLES / "blinker.drl"), Asked())
+    console.set_tick_hz(580)
+    until(console, lambda: console.view().tick_hz == 580)
+    board = console.board()
     assert board is not None and board.estimate.tick_hz == 580
 
 
-def test_edited_tables_are_taken_at_the_rate_in_force(station: MachineConsole, tmp_path: Path) -> None:
-    station.run_queue("KMD_RUCHd x=5\n")
-    settle(station)
-    station.set_tick_hz(580)
-    until(station, lambda: station.view().tick_hz == 580)
-    table = station.machine.axes[0].phase
-    text = Path(next(file for file in station.machine.files if Path(file).stem == table.name)).read_text()
+def test_edited_tables_are_taken_at_the_rate_in_force(console: MachineConsole, tmp_path: Path) -> None:
+    console.run_queue("KMD_RUCHd x=5\n")
+    settle(console)
+    console.set_tick_hz(580)
+    until(console, lambda: console.view().tick_hz == 580)
+    table = console.machine.axes[0].phase
+    text = Path(next(file for file in console.machine.files if Path(file).stem == table.name)).read_text()
     (tmp_path / "phase").mkdir()
     (tmp_path / "phase" / f"{table.name}.toml").write_text(set_pattern(text, table.wires[0].name, "x" * 12))
-    assert station.choose_machine("pcb-drill") == ()
-    assert station.view().axes[0].position_steps == 5 and station.view().tick_hz == 580
+    assert console.choose_machine("pcb-drill") == ()
+    assert console.view().axes[0].position_steps == 5 and console.view().tick_hz == 580
 
 
-def test_another_rate_in_the_machines_file_starts_it_anew(station: MachineConsole, tmp_path: Path) -> None:
-    station.set_tick_hz(580)
-    until(station, lambda: station.view().tick_hz == 580)
-    text = Path(station.machine.file).read_text()
+def test_another_rate_in_the_machines_file_starts_it_anew(console: MachineConsole, tmp_path: Path) -> None:
+    console.set_tick_hz(580)
+    until(console, lambda: console.view().tick_hz == 580)
+    text = Path(console.machine.file).read_text()
     (tmp_path / "machines").mkdir()
     (tmp_path / "machines" / "pcb-drill.toml").write_text(set_value(text, ("tick_hz",), 400))
-    assert station.choose_machine("pcb-drill") == ()
-    assert station.view().tick_hz == 400
+    assert console.choose_machine("pcb-drill") == ()
+    assert console.view().tick_hz == 400
 
 
-def test_the_scope_says_where_the_rate_changed(station: MachineConsole) -> None:
-    station.run_queue("KMD_RUCHd x=5\n")
-    settle(station)
-    ticks = station.view().tick
-    station.set_tick_hz(580)
-    until(station, lambda: station.view().tick_hz == 580)
-    station.recording.turn()
-    notices = [(notice.lack, notice.value) for notice in station.recording.notices()]
-    assert notices == [("other rate", ticks)] and station.recording.tick_hz == 580
+def test_the_scope_says_where_the_rate_changed(console: MachineConsole) -> None:
+    console.run_queue("KMD_RUCHd x=5\n")
+    settle(console)
+    ticks = console.view().tick
+    console.set_tick_hz(580)
+    until(console, lambda: console.view().tick_hz == 580)
+    console.recording.turn()
+    notices = [(notice.lack, notice.value) for notice in console.recording.notices()]
+    assert notices == [("other rate", ticks)] and console.recording.tick_hz == 580

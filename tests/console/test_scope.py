@@ -11,8 +11,7 @@ import pytest
 from drillctl.cli import main
 from drillctl.console import scope
 from drillctl.console import scope_runs as tracefile
-from drillctl.console.machine_console import MachineConsole
-from drillctl.console.operating import BUSY
+from drillctl.console.machine_console import BUSY, MachineConsole
 from drillctl.console.scope import RunScope
 from drillctl.console.scope_layout import lanes_of
 from drillctl.console.scope_runs import ScopeRuns, TraceFile
@@ -21,12 +20,12 @@ from drillctl.kmd import parse_program
 from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Library
 from drillctl.plant import PlantChoice
-from drillctl.replay.stimuli import Player, playback
-from drillctl.replay.trace_files import read_trace
+from drillctl.replay.player import Player, playback
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.sampler import EVERY_LANE, signals
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Trace, TraceError, dense, read_text, write_text
+from drillctl.trace.files import read_trace
 from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, Notice, ScopeSignal
 from tests.support.operator import settle
 
@@ -268,16 +267,16 @@ def test_a_run_on_the_ideal_plant_has_no_lanes_of_one(file: Path) -> None:
 
 
 @pytest.fixture
-def station() -> Iterator[MachineConsole]:
+def console() -> Iterator[MachineConsole]:
     made = MachineConsole(LIBRARY, LIBRARY.machine("pcb-drill"), RunSettings(pace="free"))
     yield made
     made.close()
 
 
-def test_the_machines_run_is_recorded_as_the_sampler_sees_it(station: MachineConsole, truth: Trace) -> None:
-    station.run_queue(QUEUE)
-    settle(station)
-    recording = ScopeRuns(LIBRARY, station).running()
+def test_the_machines_run_is_recorded_as_the_sampler_sees_it(console: MachineConsole, truth: Trace) -> None:
+    console.run_queue(QUEUE)
+    settle(console)
+    recording = ScopeRuns(LIBRARY, console).running()
     recording.turn()
     assert recording.last_tick >= truth.end - 1 and recording.notices() == ()
     for axis in "xyz":
@@ -287,12 +286,12 @@ def test_the_machines_run_is_recorded_as_the_sampler_sees_it(station: MachineCon
         assert drawn(recording, index(recording, "plant", axis))[: truth.end] == dense(truth, f"plant.{axis}").tolist()
 
 
-def test_commands_are_shown_as_they_were_written_job_by_job(station: MachineConsole) -> None:
-    station.run_queue("KMD_RUCHd x=5\nKMD_CZEKAJ 3\n")
-    settle(station)
-    station.run_queue("KMD_RUCHd x=-5\n")
-    settle(station)
-    source = station.recording
+def test_commands_are_shown_as_they_were_written_job_by_job(console: MachineConsole) -> None:
+    console.run_queue("KMD_RUCHd x=5\nKMD_CZEKAJ 3\n")
+    settle(console)
+    console.run_queue("KMD_RUCHd x=-5\n")
+    settle(console)
+    source = console.recording
     source.turn()
     ticks = walk(source, "command", -1, FORWARDS, 0)
     texts = [source.at(tick).command for tick in ticks]
@@ -300,48 +299,48 @@ def test_commands_are_shown_as_they_were_written_job_by_job(station: MachineCons
 
 
 def test_a_long_recording_forgets_its_beginning_and_says_so(
-    station: MachineConsole, monkeypatch: pytest.MonkeyPatch
+    console: MachineConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(scope, "MOST_ROWS", 3000)
-    assert station.choose_machine("pcb-drill") == ()
-    station.run_queue("KMD_RUCHd x=900\nKMD_RUCHd x=-900\n")
-    settle(station)
-    source = station.recording
+    assert console.choose_machine("pcb-drill") == ()
+    console.run_queue("KMD_RUCHd x=900\nKMD_RUCHd x=-900\n")
+    settle(console)
+    source = console.recording
     source.turn()
     assert 0 < source.first_tick < source.last_tick and len(source.lanes) <= 3000
     assert source.notices() == (Notice("forgotten", source.first_tick),)
     assert source.at(source.first_tick).axes and not source.at(source.first_tick - 1).axes
 
 
-def test_another_machine_has_a_recording_of_its_own(station: MachineConsole) -> None:
-    before = station.recording
-    assert station.choose_machine("eight-axis") == ()
-    after = ScopeRuns(LIBRARY, station).running()
+def test_another_machine_has_a_recording_of_its_own(console: MachineConsole) -> None:
+    before = console.recording
+    assert console.choose_machine("eight-axis") == ()
+    after = ScopeRuns(LIBRARY, console).running()
     assert after is not before and after.last_tick < after.first_tick
     assert ScopeSignal("c", "position", "count") in after.signals() or len(after.machine.axes) == 8
 
 
-def test_a_file_is_refused_with_the_reason_and_not_while_the_machine_works(station: MachineConsole, file: Path) -> None:
-    bench = ScopeRuns(LIBRARY, station)
+def test_a_file_is_refused_with_the_reason_and_not_while_the_machine_works(console: MachineConsole, file: Path) -> None:
+    bench = ScopeRuns(LIBRARY, console)
     source, problems = bench.open_trace(str(file))
     assert problems == () and source is not None and source.name == "job.trace (pcb-drill)"
     (file.parent / "bad.trace").write_text("hello\n")
     source, problems = bench.open_trace(str(file.parent / "bad.trace"))
     assert source is None and "bad.trace:1: not a trace" in problems[0]
     assert "can't be read" in bench.open_trace("/nowhere.trace")[1][0]
-    station.jog("x", 300)
+    console.jog("x", 300)
     assert bench.open_trace(str(file)) == (None, (BUSY,))
 
 
-def test_a_shipped_queue_is_the_same_in_file_and_machine(station: MachineConsole, tmp_path: Path) -> None:
+def test_a_shipped_queue_is_the_same_in_file_and_machine(console: MachineConsole, tmp_path: Path) -> None:
     square = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
     assert main(["run", str(square), "--trace", str(tmp_path / "square.trace")]) == 0
     source = TraceFile(tmp_path / "square.trace", LIBRARY)
     assert source.last_tick + 1 == read_text(tmp_path / "square.trace").end
-    station.run_queue(square.read_text())
-    settle(station)
-    station.recording.turn()
+    console.run_queue(square.read_text())
+    settle(console)
+    console.recording.turn()
     for signal in ("1a", "24b"):
         row = index(source, "x", signal)
-        mine, theirs = drawn(source, row), drawn(station.recording, index(station.recording, "x", signal))
+        mine, theirs = drawn(source, row), drawn(console.recording, index(console.recording, "x", signal))
         assert mine == theirs[: len(mine)]

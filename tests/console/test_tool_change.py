@@ -16,7 +16,7 @@ TWO_TOOLS = "M48\nMETRIC\nT1C0.800\nT2C1.000\n%\nT1\nX10.0Y10.0\nT2\nX12.0Y10.0\
 
 
 @pytest.fixture
-def station(tmp_path: Path) -> Iterator[MachineConsole]:
+def console(tmp_path: Path) -> Iterator[MachineConsole]:
     library = Library.standard()
     made = MachineConsole(library, library.machine("pcb-drill").at_rate(5000), RunSettings(pace="free"), tools="ask")
     (tmp_path / "two.drl").write_text(TWO_TOOLS)
@@ -25,77 +25,77 @@ def station(tmp_path: Path) -> Iterator[MachineConsole]:
     made.close()
 
 
-def wanted(station: MachineConsole) -> ToolWanted | None:
-    return station.view().tool_wanted
+def wanted(console: MachineConsole) -> ToolWanted | None:
+    return console.view().tool_wanted
 
 
-def test_each_tool_is_waited_for_and_the_job_ends_with_all_holes(station: MachineConsole) -> None:
-    assert station.tool_changed() == ("no tool is waited for",)
-    assert station.start(dry=False) == ()
-    until(station, lambda: wanted(station) == ToolWanted(1, 0.8))
-    view = station.view()
-    assert not view.moving and view.position_known and station.at_work
+def test_each_tool_is_waited_for_and_the_job_ends_with_all_holes(console: MachineConsole) -> None:
+    assert console.tool_changed() == ("no tool is waited for",)
+    assert console.start(dry=False) == ()
+    until(console, lambda: wanted(console) == ToolWanted(1, 0.8))
+    view = console.view()
+    assert not view.moving and view.position_known and console.at_work
     tick = view.tick
     for _ in range(30):
-        station.turn()
-    assert station.view().tick == tick, "a wait for the operator is no tick"
-    assert station.tool_changed() == ()
-    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
-    progress = station.progress()
+        console.turn()
+    assert console.view().tick == tick, "a wait for the operator is no tick"
+    assert console.tool_changed() == ()
+    until(console, lambda: wanted(console) == ToolWanted(2, 1.0))
+    progress = console.progress()
     assert progress is not None and progress.holes_done == 1
-    assert station.tool_changed() == ()
-    until(station, lambda: not station.at_work)
-    progress = station.progress()
-    assert progress is not None and progress.holes_done == 2 and wanted(station) is None
-    assert station.view().fault is None
+    assert console.tool_changed() == ()
+    until(console, lambda: not console.at_work)
+    progress = console.progress()
+    assert progress is not None and progress.holes_done == 2 and wanted(console) is None
+    assert console.view().fault is None
 
 
-def test_a_hold_and_a_stop_are_served_while_a_tool_is_waited_for(station: MachineConsole) -> None:
-    station.start(dry=False)
-    until(station, lambda: wanted(station) is not None)
-    assert station.hold() == ()
-    until(station, lambda: station.view().condition == "held")
-    assert station.tool_changed() == ()
+def test_a_hold_and_a_stop_are_served_while_a_tool_is_waited_for(console: MachineConsole) -> None:
+    console.start(dry=False)
+    until(console, lambda: wanted(console) is not None)
+    assert console.hold() == ()
+    until(console, lambda: console.view().condition == "held")
+    assert console.tool_changed() == ()
     for _ in range(30):
-        station.turn()
-    assert not station.view().moving, "held: the tool is in, and nothing moves yet"
-    assert station.resume() == ()
-    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
-    assert station.stop() == ()
-    until(station, lambda: not station.at_work)
-    view, progress = station.view(), station.progress()
+        console.turn()
+    assert not console.view().moving, "held: the tool is in, and nothing moves yet"
+    assert console.resume() == ()
+    until(console, lambda: wanted(console) == ToolWanted(2, 1.0))
+    assert console.stop() == ()
+    until(console, lambda: not console.at_work)
+    view, progress = console.view(), console.progress()
     assert view.tool_wanted is None and view.position_known and view.condition == "ready"
     assert progress is not None and progress.holes_done == 1
 
 
-def test_a_hole_that_waits_for_its_tool_has_not_begun(station: MachineConsole) -> None:
-    station.start(dry=False)
-    until(station, lambda: wanted(station) is not None)
-    station.stop()
-    until(station, lambda: not station.at_work)
-    assert not station.unfinished(), "nothing was drilled, nothing is left over"
-    station.start(dry=False)
-    until(station, lambda: wanted(station) is not None)
-    station.tool_changed()
-    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
-    station.stop()
-    until(station, lambda: not station.at_work)
-    (job,) = station.unfinished()
+def test_a_hole_that_waits_for_its_tool_has_not_begun(console: MachineConsole) -> None:
+    console.start(dry=False)
+    until(console, lambda: wanted(console) is not None)
+    console.stop()
+    until(console, lambda: not console.at_work)
+    assert not console.unfinished(), "nothing was drilled, nothing is left over"
+    console.start(dry=False)
+    until(console, lambda: wanted(console) is not None)
+    console.tool_changed()
+    until(console, lambda: wanted(console) == ToolWanted(2, 1.0))
+    console.stop()
+    until(console, lambda: not console.at_work)
+    (job,) = console.unfinished()
     assert job.holes_done == 1 and job.again == ()
 
 
-def test_an_emergency_stop_ends_the_wait(station: MachineConsole) -> None:
-    station.start(dry=False)
-    until(station, lambda: wanted(station) is not None)
-    station.emergency_stop()
-    until(station, lambda: not station.at_work)
-    assert station.view().condition == "latched" and wanted(station) is None
+def test_an_emergency_stop_ends_the_wait(console: MachineConsole) -> None:
+    console.start(dry=False)
+    until(console, lambda: wanted(console) is not None)
+    console.emergency_stop()
+    until(console, lambda: not console.at_work)
+    assert console.view().condition == "latched" and wanted(console) is None
 
 
-def test_a_dry_run_asks_for_no_tool(station: MachineConsole) -> None:
-    assert station.start(dry=True) == ()
-    until(station, lambda: not station.at_work)
-    progress = station.progress()
+def test_a_dry_run_asks_for_no_tool(console: MachineConsole) -> None:
+    assert console.start(dry=True) == ()
+    until(console, lambda: not console.at_work)
+    progress = console.progress()
     assert progress is not None and progress.holes_done == 2
 
 
@@ -116,18 +116,18 @@ def test_the_machine_s_file_decides_and_the_option_wins(
     assert asks_for_tools(Library.standard().machine(machine), simulated, wish) == asks
 
 
-def test_the_time_left_is_exact_though_the_job_starts_elsewhere_and_waits(station: MachineConsole) -> None:
+def test_the_time_left_is_exact_though_the_job_starts_elsewhere_and_waits(console: MachineConsole) -> None:
     """Compared at the second tool: what was left there is what the rest then takes, a poll of the status apart."""
-    station.initialise()
-    until(station, lambda: not station.at_work)
-    station.start(dry=False)
-    until(station, lambda: wanted(station) is not None)
-    station.tool_changed()
-    until(station, lambda: wanted(station) == ToolWanted(2, 1.0))
-    before = station.progress()
-    station.tool_changed()
-    until(station, lambda: not station.at_work)
-    after = station.progress()
+    console.initialise()
+    until(console, lambda: not console.at_work)
+    console.start(dry=False)
+    until(console, lambda: wanted(console) is not None)
+    console.tool_changed()
+    until(console, lambda: wanted(console) == ToolWanted(2, 1.0))
+    before = console.progress()
+    console.tool_changed()
+    until(console, lambda: not console.at_work)
+    after = console.progress()
     assert before is not None and after is not None and before.seconds_left is not None
     assert after.seconds_left is None, "nothing of a job that is over is left"
     taken_s = after.machine_seconds - before.machine_seconds

@@ -15,7 +15,7 @@ import pytest
 
 from drillctl.machine import Library, shipped_tables
 from drillctl.plant import IdealPlant
-from drillctl.replay.replay import replay
+from drillctl.replay.compare import replay
 from drillctl.trace import Trace, dense, read_text
 from tests.firmware import board as boards
 from tests.firmware.board import SimulatedBoard

@@ -21,16 +21,17 @@ import signal, sys, time
 from drillctl.jobs.keys import TerminalKeys
 held = False
 with TerminalKeys(sys.stdin) as keys:
-    keys.requests()
+    keys.requests(held)
     print("ready", flush=True)
     while True:
-        for request in keys.requests():
+        for request in keys.requests(held):
+            if request.name in ("HOLD", "RESUME"):
+                held = request.name == "HOLD"
+                print("held" if held else "not held", flush=True)
+                continue
             print(request.name, flush=True)
             if request.name == "ESTOP":
                 raise RuntimeError("as an error of ours")
-        if keys.held != held:
-            held = keys.held
-            print("held" if held else "not held", flush=True)
         if keys.entered():
             print("entered", flush=True)
 """

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from drillctl.kmd import CAPACITY, RECORD, STATUS, Command, Gate, Queue, Request, Requests
 from drillctl.kmd.channel import CHANNEL, Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.kmd.queue import MOST_HANDS, bit_and_value, hand_of
-from drillctl.ticker.processes import Child
+from drillctl.ticker.child_process import ChildProcess
 
 PUBLISHED, SEEN = 2_000_000, 300  # at the most, and enough
 ASKED = [request for request in Request if request not in (Request.NONE, Request.OUTPUT)]
@@ -132,7 +132,7 @@ def test_no_status_is_ever_torn(channel: Channel) -> None:
             if channel["ended"]:
                 return
 
-    writer = Child(write)
+    writer = ChildProcess(write)
     seen = set()
     while not writer.gone:
         with suppress(OSError):  # a reader that is always too late gives up, as PacedLink then keeps its last one
@@ -182,6 +182,6 @@ def test_a_disk_without_room_is_named(tmp_path: Path) -> None:
         except OSError as error:
             (tmp_path / "told").write_text(f"{error.filename}")
 
-    Child(make).end(patience_s=10)
+    ChildProcess(make).end(patience_s=10)
     assert (tmp_path / "told").read_text() == str(tmp_path / "c")
     assert [file.name for file in tmp_path.iterdir()] == ["told"]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from drillctl.cli import main
-from drillctl.lab.dynamic_rerun import watch
+from drillctl.lab.dynamic_rerun import rerun_axis
 from drillctl.lab.errors import LabError
 from drillctl.lab.moves import move
 from drillctl.lab.pictures import PICTURES, Window, greatest_torque_nm, pull_out
@@ -40,23 +40,23 @@ def recorded(tmp_path: Path) -> Recording:
 def test_holes_are_as_far_off_as_they_were_in_the_run(recorded: Recording) -> None:
     """Faults and seed are the run's: play in the belt shows, and is told by nobody but the plant."""
     trace = recorded("--plant", "dynamic", "--fault", "loose.x=0.3", "--seed", "5")
-    watched = watch(trace, LIBRARY)
+    run = rerun_axis(trace, LIBRARY)
     with trace.with_suffix(".csv").open(newline="") as stream:
         in_run = [(float(row["x_mm"]), float(row["y_mm"])) for row in csv.DictReader(stream)]
-    wanted = np.array(SENT) / [axis.steps_per_mm for axis in watched.machine.axes[:2]]
-    assert watched.as_run
-    assert watched.drilled_mm - watched.sent_mm == pytest.approx(np.array(in_run) - wanted, abs=1e-4)
-    assert np.abs(watched.drilled_mm - watched.sent_mm)[:, 0].max() > 0.1
+    wanted = np.array(SENT) / [axis.steps_per_mm for axis in run.machine.axes[:2]]
+    assert run.as_run
+    assert run.drilled_mm - run.sent_mm == pytest.approx(np.array(in_run) - wanted, abs=1e-4)
+    assert np.abs(run.drilled_mm - run.sent_mm)[:, 0].max() > 0.1
 
 
 @pytest.mark.parametrize("machine", ["pcb-drill", "pcb-drill-ramp-lab"])
 def test_the_rotor_follows_the_columns(machine: str, recorded: Recording) -> None:
     """Of a run on the ideal plant: what motors with inertia make of it. Nothing is lost at 500 Hz."""
-    watched = watch(recorded("--machine", machine), LIBRARY, "y")
-    behind = (watched.commanded - watched.rotor.columns) * 4 / 12
-    assert not watched.as_run and len(behind) == len(watched.rotor.currents)
+    run = rerun_axis(recorded("--machine", machine), LIBRARY, "y")
+    behind = (run.commanded - run.rotor.columns) * 4 / 12
+    assert not run.as_run and len(behind) == len(run.rotor.currents)
     assert np.abs(behind).max() < 2.5 and abs(behind[-1]) < 1
-    assert np.ptp(watched.commanded) >= 95 * watched.table.columns_per_step
+    assert np.ptp(run.commanded) >= 95 * run.table.columns_per_step
 
 
 def test_an_axis_the_other_way_about(recorded: Recording, tmp_path: Path) -> None:
@@ -65,9 +65,9 @@ def test_an_axis_the_other_way_about(recorded: Recording, tmp_path: Path) -> Non
     (tmp_path / "machines").mkdir()
     text = text.replace('name = "x"\n', 'name = "x"\ninvert = true\n', 1)
     (tmp_path / "machines" / "pcb-drill.toml").write_text(text)
-    plain = watch(recorded("--plant", "dynamic"), LIBRARY, "x")
+    plain = rerun_axis(recorded("--plant", "dynamic"), LIBRARY, "x")
     inverted = ("--tables", str(tmp_path), "--machine", "pcb-drill", "--plant", "dynamic")
-    turned = watch(recorded(*inverted), Library((tmp_path, shipped_tables())), "x")
+    turned = rerun_axis(recorded(*inverted), Library((tmp_path, shipped_tables())), "x")
     assert turned.table.invert
     assert turned.sent_mm == pytest.approx(plain.sent_mm, abs=0.1)
     assert turned.columns_per_mm == -plain.columns_per_mm
@@ -77,45 +77,45 @@ def test_an_axis_the_other_way_about(recorded: Recording, tmp_path: Path) -> Non
 
 
 def test_pictures_say_what_the_run_did(recorded: Recording) -> None:
-    watched = watch(recorded("--plant", "dynamic"), LIBRARY, "x")
-    seen = {what: draw(watched, Window()) for what, draw in PICTURES.items() if what != "pull-out"}
-    cruise = 500 / abs(watched.columns_per_mm)
+    run = rerun_axis(recorded("--plant", "dynamic"), LIBRARY, "x")
+    seen = {what: draw(run, Window()) for what, draw in PICTURES.items() if what != "pull-out"}
+    cruise = 500 / abs(run.columns_per_mm)
     commanded = seen["speed"].charts[0].curves[1]
     assert np.abs(commanded.y).max() == pytest.approx(cruise)
     assert np.unique(np.abs(commanded.y))[[0, -2, -1]] == pytest.approx([0, cruise / 2, cruise])
-    assert seen["lag"].charts[1].curves[0].y == pytest.approx((watched.commanded - watched.rotor.columns) / 3)
+    assert seen["lag"].charts[1].curves[0].y == pytest.approx((run.commanded - run.rotor.columns) / 3)
     windings = [curve.label for chart in seen["currents"].charts for curve in chart.curves]
     assert windings == ["1a", "1b", "2b", "2a"] or windings == ["1a", "1b", "2a", "2b"]
     holes = seen["board"].charts[0].curves[0]
-    assert holes.x.tolist() == watched.sent_mm[:, 0].tolist() and "2 holes" in seen["board"].notes[0]
+    assert holes.x.tolist() == run.sent_mm[:, 0].tolist() and "2 holes" in seen["board"].notes[0]
 
 
 def test_a_window_cuts_out_its_ticks(recorded: Recording) -> None:
-    watched = watch(recorded(), LIBRARY, "x")
-    found = PICTURES["lag"](watched, Window(100, 150)).charts[1].curves[0]
+    run = rerun_axis(recorded(), LIBRARY, "x")
+    found = PICTURES["lag"](run, Window(100, 150)).charts[1].curves[0]
     assert found.x.tolist() == [(tick + 1) / 500 for tick in range(100, 150)]
     with pytest.raises(LabError, match="no ticks from 900000"):
-        PICTURES["lag"](watched, Window(900_000))
+        PICTURES["lag"](run, Window(900_000))
 
 
 def test_what_can_not_be_watched_is_refused(recorded: Recording, tmp_path: Path) -> None:
     trace = recorded()
     with pytest.raises(LabError, match="no axis 'q'; it has x, y, z"):
-        watch(trace, LIBRARY, "q")
+        rerun_axis(trace, LIBRARY, "q")
     text = trace.read_text()
     digest = next(line for line in text.splitlines() if line.startswith("digest"))
     trace.write_text(text.replace(digest, "digest 0123456789abcdef"))
     with pytest.raises(LabError, match="other tables"):
-        watch(trace, LIBRARY)
+        rerun_axis(trace, LIBRARY)
     with pytest.raises(LabError, match="no dynamics for"):
-        watch(recorded("--machine", "mega-28byj48", queue="KMD_RUCHd x=20\n"), LIBRARY)
+        rerun_axis(recorded("--machine", "mega-28byj48", queue="KMD_RUCHd x=20\n"), LIBRARY)
 
 
 def test_a_board_without_holes_is_no_picture(recorded: Recording) -> None:
-    watched = watch(recorded(queue="KMD_RUCHd x=20\n"), LIBRARY)
-    assert watched.table.name == "x"
+    run = rerun_axis(recorded(queue="KMD_RUCHd x=20\n"), LIBRARY)
+    assert run.table.name == "x"
     with pytest.raises(LabError, match="no hole"):
-        PICTURES["board"](watched, Window())
+        PICTURES["board"](run, Window())
 
 
 def test_the_pull_out_curve_is_where_steps_begin_to_be_lost() -> None:

@@ -14,7 +14,7 @@ import pytest
 
 from drillctl.lab import latency
 from drillctl.lab.latency import MOST_PROCESSORS, LatencyError, measure
-from drillctl.lab.wakeups import WakeLog
+from drillctl.lab.wakeups import WakeupLog
 from drillctl.machine import Library, Machine
 from drillctl.ticker.ticker import Ticker
 from drillctl.ui.terminal.reports import latency_lines
@@ -190,11 +190,11 @@ def test_the_children_of_a_killed_one_end_by_themselves() -> None:
 @pytest.fixture
 def told(machine: Machine) -> LatencyReport:
     """As the lab reports it, from made-up wakes: 98 punctual ones, one late alone, one with the canary."""
-    log = WakeLog()
+    log = WakeupLog()
     for second, late_ns in enumerate([20_000] * 98 + [11_000_000, 30_000_000], 1):
         log.add(second * 1_000_000_000 + late_ns, late_ns, PERIOD_NS)
     log.record["from_ns"], log.record["to_ns"], log.record["cpu_ns"] = 0, 200_000_000_000, 1_000_000_000
-    canary = WakeLog()
+    canary = WakeupLog()
     canary.add(100_020_000_000, 10_000_000, PERIOD_NS)
     log.record["refused"] = b"real-time scheduling: no (grant it)"
     return latency._report(machine, log, [canary], interrupted=True)

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.lab.wakeups import LONGEST_US, MOST_LATE, WakeLog, bars, covered_ns, lateness, overlapping, quantile_us
+from drillctl.lab.wakeups import LONGEST_US, MOST_LATE, WakeupLog, bars, covered_ns, lateness, overlapping, quantile_us
 
 PERIOD_NS = 2_000_000
 
 
-def log_of(late_ns: list[int]) -> WakeLog:
-    log = WakeLog()
+def log_of(late_ns: list[int]) -> WakeupLog:
+    log = WakeupLog()
     for number, late in enumerate(late_ns):
         log.add((number + 1) * 1_000_000_000 + late, late, PERIOD_NS)
     return log
@@ -47,16 +47,16 @@ def test_what_is_later_than_all_bins_is_counted_and_its_greatest_kept() -> None:
     assert lateness([log]).max_us == LONGEST_US + 5 and log.record["counts"][-1] == 1
 
 
-def test_late_wakes_beyond_the_room_are_counted() -> None:
-    log = WakeLog()
-    log.record["late_wakes"] = MOST_LATE - 1
+def test_late_wakeups_beyond_the_room_are_counted() -> None:
+    log = WakeupLog()
+    log.record["late_wakeups"] = MOST_LATE - 1
     for _ in range(3):
         log.add(9_000_000_000, 3 * PERIOD_NS, PERIOD_NS)
-    assert log.record["late_wakes"] == MOST_LATE + 2 and len(log.late_spans()) == MOST_LATE
+    assert log.record["late_wakeups"] == MOST_LATE + 2 and len(log.late_spans()) == MOST_LATE
 
 
 def test_nothing_was_logged() -> None:
-    assert lateness([WakeLog()]).p999_us == 0 and bars(WakeLog().record["counts"]) == ()
+    assert lateness([WakeupLog()]).p999_us == 0 and bars(WakeupLog().record["counts"]) == ()
 
 
 @given(st.lists(st.integers(0, 3 * LONGEST_US), min_size=1, max_size=50))

@@ -14,7 +14,7 @@ from drillctl.portio.mapped import MappedCard
 from drillctl.portio.registry import PORTS, open_port, select
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import PortLayout, PortRefused, bits_of
-from drillctl.ticker.launch import wiring_of
+from drillctl.ticker.launch import port_layout
 from tests.portio.conformance import WIRING, StandInPlant
 
 LIBRARY = Library((shipped_tables(),))
@@ -70,7 +70,7 @@ def test_a_rate_that_a_line_cannot_carry_is_refused_with_the_one_it_can(tick_hz:
 @pytest.mark.parametrize("name", LIBRARY.machine_names())
 def test_a_machines_wiring_is_its_bits(name: str) -> None:
     machine = LIBRARY.machine(name)
-    wiring = wiring_of(machine)
+    wiring = port_layout(machine)
     wires = [bit for axis in machine.axes for bit in axis.wire_bits]
     assert bits_of(wiring.outputs) == sorted([*wires, *(bit for _, bit in machine.outputs)])
     assert bits_of(wiring.inputs) == sorted(sensor.bit for sensor in machine.sensors)
@@ -79,7 +79,7 @@ def test_a_machines_wiring_is_its_bits(name: str) -> None:
 
 @pytest.mark.parametrize(("board", "name"), [(MEGA, "mega-28byj48"), (MEGA, "pcb-drill"), (UNO, "cnc-shield")])
 def test_a_shipped_machine_fits_its_board_at_its_own_rate(board: Board, name: str) -> None:
-    wiring = wiring_of(LIBRARY.machine(name))
+    wiring = port_layout(LIBRARY.machine(name))
     Pins(board, wiring, "firmata")
     most_hz = max_tick_hz(board, "", wiring, range(len(wiring.axis_outputs)))
     assert most_hz is not None and wiring.tick_hz <= most_hz

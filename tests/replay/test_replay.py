@@ -6,7 +6,7 @@ import pytest
 
 from drillctl.cli import main
 from drillctl.machine import Library
-from drillctl.replay.replay import record_again, replay
+from drillctl.replay.compare import record_again, replay
 from drillctl.trace import TraceError, read_text
 
 QUEUE = "KMD_INICJALIZACJA\nKMD_GOTO_X_Y 60 40\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA\nKMD_LINIAd x=30 y=-7\n"

@@ -10,8 +10,8 @@ from drillctl.generation.readers import load_job
 from drillctl.generation.wishes import Wishes
 from drillctl.kmd import Request, parse_program
 from drillctl.machine import Library, shipped_tables
-from drillctl.replay.replay import replay
-from drillctl.replay.stimuli import trace_header
+from drillctl.replay.compare import replay
+from drillctl.replay.header import trace_header
 from drillctl.ticker.link import header_of
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import write_text

@@ -1,7 +1,7 @@
-"""Somebody at a station, who turns it until something holds.
+"""Somebody at a console, who turns it until something holds.
 
 Rule: every wait ends. A hold for a gap in time is gone on from, as a person would: on a busy computer a paced machine
-meets such gaps, and no test here is about them. Used by tests/station.
+meets such gaps, and no test here is about them. Used by tests/console.
 """
 
 import time
@@ -12,19 +12,19 @@ from drillctl.console.machine_console import MachineConsole
 PATIENCE_S = 60.0
 
 
-def until(station: MachineConsole, holds: Callable[[], object]) -> None:
-    """Turns the station until it holds; fails with what is seen of the machine."""
+def until(console: MachineConsole, holds: Callable[[], object]) -> None:
+    """Turns the console until it holds; fails with what is seen of the machine."""
     until_s = time.monotonic() + PATIENCE_S
-    view = station.view()
+    view = console.view()
     while not holds():
         assert time.monotonic() < until_s, view
         if view.condition == "held" and not view.paused:
-            station.resume()
-        station.turn()
-        view = station.view()  # before it is asked: a hold that is waited for is not gone on from
+            console.resume()
+        console.turn()
+        view = console.view()  # before it is asked: a hold that is waited for is not gone on from
 
 
-def settle(station: MachineConsole) -> None:
-    """Until nothing runs any more. A station is turned once at the least: an emergency stop at rest begins no job."""
-    station.turn()
-    until(station, lambda: not station.at_work)
+def settle(console: MachineConsole) -> None:
+    """Until nothing runs any more. A console is turned once at the least: an emergency stop at rest begins no job."""
+    console.turn()
+    until(console, lambda: not console.at_work)

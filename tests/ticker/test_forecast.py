@@ -18,8 +18,9 @@ from drillctl.jobs.estimate import estimate
 from drillctl.jobs.runner import JobRunner
 from drillctl.kmd import parse_program
 from drillctl.machine import Library
-from drillctl.ticker import forecast
+from drillctl.ticker.forecast import forecast
 from drillctl.ticker.link import LocalLink
+from drillctl.ticker.ticker import Ticker
 
 LIBRARY = Library.standard()
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -69,7 +70,7 @@ def check_forecast(machine: str, holes_mm: list[tuple[float, float]], wish: Wish
     """The run is ticked, the forecast is not."""
     tools = data.draw(st.lists(st.sampled_from([1, 2]), min_size=len(holes_mm), max_size=len(holes_mm)))
     job = board_job(holes_mm, tools, wish, machine)
-    outcome = JobRunner(job, LocalLink.simulated(job.machine), silent).run().outcome
+    outcome = JobRunner(job, LocalLink(Ticker.simulated(job.machine)), silent).run().outcome
     told = estimate(job)
     assert outcome.fault is None and outcome.holes_done == job.holes_total
     assert told.ticks == outcome.ticks
@@ -81,7 +82,7 @@ def check_forecast(machine: str, holes_mm: list[tuple[float, float]], wish: Wish
 @pytest.mark.parametrize("name", ["short-moves.kmd"])
 def test_a_queues_forecast_is_its_run(machine: str, name: str) -> None:
     job = load_job(EXAMPLES / name, LIBRARY.machine(machine), Wishes())
-    assert estimate(job).ticks == JobRunner(job, LocalLink.simulated(job.machine), silent).run().outcome.ticks
+    assert estimate(job).ticks == JobRunner(job, LocalLink(Ticker.simulated(job.machine)), silent).run().outcome.ticks
 
 
 def test_each_command_has_its_own_ticks() -> None:

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from drillctl.kmd.channel import Channel
+from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.guard_process import run_guard
-from drillctl.ticker.processes import Child
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the guard needs Linux")
 SILENCE_NS = 300_000_000
@@ -64,11 +64,11 @@ class Rig:
     def __init__(self, folder: Path):
         self.channel, self.port = Channel(folder / "c", create=True), StandInPort()
         self.channel["ticker_beat_ns"] = time.monotonic_ns()
-        self.ticker = Child(lambda: beating(self.channel))
+        self.ticker = ChildProcess(lambda: beating(self.channel))
         self.port.ticker = self.ticker.pid
 
-    def guard(self) -> Child:
-        return Child(lambda: run_guard(self.channel, self.port, SILENCE_NS))
+    def guard(self) -> ChildProcess:
+        return ChildProcess(lambda: run_guard(self.channel, self.port, SILENCE_NS))
 
     def name_ticker(self) -> None:
         self.channel["ticker_pid"] = self.ticker.pid
@@ -81,7 +81,7 @@ def rig(tmp_path: Path) -> Iterator[Rig]:
     made.ticker.end(patience_s=0)
 
 
-def ended(guard: Child) -> bool:
+def ended(guard: ChildProcess) -> bool:
     until_s = time.monotonic() + WITHIN_S
     while not guard.gone and time.monotonic() < until_s:
         time.sleep(0.01)
@@ -136,7 +136,7 @@ def test_a_guard_whose_desk_died_before_it_had_a_ticker_makes_the_port_safe(rig:
         rig.guard()
         time.sleep(0.3)
 
-    desk = Child(begin_and_die)
+    desk = ChildProcess(begin_and_die)
     time.sleep(0.15)
     assert rig.port.memory[SAFE] == 0
     until_s = time.monotonic() + WITHIN_S

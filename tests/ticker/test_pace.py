@@ -12,14 +12,14 @@ import pytest
 from drillctl.execution.clock import PacedClock
 from drillctl.generation.job import names_of
 from drillctl.kmd import parse_program, to_text
-from drillctl.lab.dynamic_rerun import watch
+from drillctl.lab.dynamic_rerun import rerun_axis
 from drillctl.lab.errors import LabError
 from drillctl.machine import Library, shipped_tables
 from drillctl.plant import IDEAL_PLANT, PlantChoice
 from drillctl.plant.dynamic.coefficients import coefficients
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.replay.replay import replay, taped_again
+from drillctl.replay.compare import replay, taped_again
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.link import Link, LocalLink
 from drillctl.ticker.paced_link import PacedLink
@@ -134,7 +134,7 @@ def test_every_tick_stands_at_its_time_in_a_vcd(tmp_path: Path) -> None:
 def test_a_picture_with_one_scale_of_time_refuses(tmp_path: Path) -> None:
     file = recorded(LocalLink(Ticker.simulated(MACHINE, traced=True)), tmp_path)
     with pytest.raises(LabError, match="PACE"):
-        watch(file, LIBRARY)
+        rerun_axis(file, LIBRARY)
 
 
 def test_the_dynamic_plant_has_ticks_of_the_new_length() -> None:

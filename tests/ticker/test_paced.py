@@ -17,7 +17,7 @@ import pytest
 from drillctl.kmd.channel import Channel
 from drillctl.machine import Library, shipped_tables
 from drillctl.portio.mapped import read_map
-from drillctl.replay.replay import replay
+from drillctl.replay.compare import replay
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
 

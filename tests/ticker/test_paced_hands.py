@@ -13,9 +13,9 @@ from drillctl.generation.job import names_of
 from drillctl.kmd import Condition, Fault, Request, parse_program, to_text
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.ports import PortSlow
-from drillctl.replay.replay import replay
+from drillctl.replay.compare import replay
 from drillctl.ticker.paced_link import PacedLink
-from drillctl.ticker.paced_ticker import DESK_IDLE_NS, DESK_SAFE_NS
+from drillctl.ticker.ticker_process import DESK_IDLE_NS, DESK_SAFE_NS
 from drillctl.trace import Trace, write_text
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")

@@ -9,11 +9,11 @@ import pytest
 from drillctl.cli import main
 from drillctl.kmd import RECORD, Op
 from drillctl.machine import Library, shipped_tables
-from drillctl.replay.replay import replay
-from drillctl.replay.trace_files import read_trace
-from drillctl.ticker import forecast
+from drillctl.replay.compare import replay
 from drillctl.ticker.fast_ticker import FastTicker
+from drillctl.ticker.forecast import forecast
 from drillctl.trace import Segments, read_segments, segment_bytes
+from drillctl.trace.files import read_trace
 
 ROOT = Path(__file__).resolve().parents[2]
 LIBRARY = Library((shipped_tables(),))
@@ -110,7 +110,7 @@ def test_more_changes_than_there_is_room_for_are_refused_and_a_part_is_made(
     """The command that the refusal names works, and what it makes can be replayed."""
     file, whole, part = tmp_path / "a.seg", tmp_path / "a.trace", tmp_path / "part.trace"
     run(SQUARE, "--trace", str(file))
-    monkeypatch.setattr("drillctl.replay.trace_files.MOST_CHANGES", 1000)
+    monkeypatch.setattr("drillctl.trace.files.MOST_CHANGES", 1000)
     assert main(["convert", str(file), "--to", str(whole)]) == main(["scope", str(file)]) == 2
     told = capsys.readouterr().err
     assert not whole.exists() and "changes in" in told and "there is room for 1000" in told

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from drillctl.cli import main
-from drillctl.ticker.processes import Child
+from drillctl.ticker.child_process import ChildProcess
 from drillctl.trace import Recorder, Signal
 from drillctl.trace.ring import CAPACITY, RingRecorder
 
@@ -41,7 +41,7 @@ def test_a_reader_in_another_process_misses_nothing() -> None:
                 pass
             ring.set(0, tick, tick)
 
-    writer, came = Child(write), []
+    writer, came = ChildProcess(write), []
     while not writer.gone:
         came.append(ring.drain())
     came.append(ring.drain())

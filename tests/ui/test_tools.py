@@ -13,6 +13,7 @@ from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library
 from drillctl.ticker.link import LocalLink
+from drillctl.ticker.ticker import Ticker
 from drillctl.ui.terminal.progress import ToolPrompt
 from drillctl.viewmodel import Progress
 
@@ -41,7 +42,7 @@ def board() -> Job:
 def test_each_tool_is_asked_for_before_its_first_hole() -> None:
     job = board()
     asked: list[tuple[int, float | None, int]] = []
-    with closing(LocalLink.simulated(job.machine)) as link:
+    with closing(LocalLink(Ticker.simulated(job.machine))) as link:
 
         def change(tool: int, diameter_mm: float | None) -> bool:
             asked.append((tool, diameter_mm, int(link.status()["holes_done"])))
@@ -64,9 +65,9 @@ def test_waiting_for_the_operator_costs_no_tick() -> None:
             calls += 1
             return calls % patience == 0
 
-        with closing(LocalLink.simulated(job.machine)) as link:
+        with closing(LocalLink(Ticker.simulated(job.machine))) as link:
             ticks.append(JobRunner(job, link, silent, tool_change=change).run().outcome.ticks)
-    with closing(LocalLink.simulated(job.machine)) as link:
+    with closing(LocalLink(Ticker.simulated(job.machine))) as link:
         assert {JobRunner(job, link, silent).run().outcome.ticks} == set(ticks)
 
 

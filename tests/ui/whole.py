@@ -101,8 +101,8 @@ class WatchedHands(handbench.MachineSignals):
     """An output that is switched by hand is noted as well."""
 
     def set_output(self, bit: int, on: bool) -> Problems:
-        assert isinstance(self._station, Watched)
-        return self._station.noted("set_output", super().set_output(bit, on))
+        assert isinstance(self._console, Watched)
+        return self._console.noted("set_output", super().set_output(bit, on))
 
 
 class Whole:

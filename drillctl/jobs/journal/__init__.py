@@ -7,7 +7,7 @@
     folder.py   a folder of journals: the jobs in it that were cut off, and giving one of them up
 
 Rule: append-only and never rewritten. A torn last line (the power went) is left out and said; any other damage, and a
-line out of its place, refuses the journal. Called by desk, session, station and the verbs run and resume.
+line out of its place, refuses the journal.
 """
 
 from drillctl.jobs.journal.account import Account, Head

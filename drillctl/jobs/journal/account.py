@@ -1,7 +1,7 @@
 """What a journal says: its first line, and the lines after it, each checked for its place.
 
 Rule: holes are begun and done one after the other, in drilling order; a run ends once, and what follows its end is a
-resumption. A line that comes where it can't is refused. Called by reader and, for its own lines, by writer.
+resumption. A line that comes where it can't is refused, whether it was read or is about to be written.
 """
 
 from collections.abc import Callable, Mapping
@@ -19,7 +19,7 @@ DONE = "done"
 
 
 class OutOfPlace(ValueError):
-    """A line that can't stand where it stands. ``str()`` is the reason."""
+    """Raised for a line that can't come at this place. ``str()`` is the reason."""
 
 
 @dataclass(frozen=True)
@@ -70,17 +70,17 @@ class Account:
 
     @property
     def done(self) -> set[int]:
-        """Holes that are done, by their number from 1."""
+        """The numbers, from 1, of the holes that are done."""
         return set(range(1, self.holes_done + 1))
 
     @property
     def begun(self) -> set[int]:
-        """Holes that were begun, done or not."""
+        """The numbers of the holes that were begun, done or not."""
         return set(range(1, self.holes_begun + 1))
 
     @property
     def open(self) -> list[int]:
-        """Holes that were cut off in the middle: one at most."""
+        """The numbers of the holes that were begun and not done: one at most."""
         return list(range(self.holes_done + 1, self.holes_begun + 1))
 
     @property
@@ -100,16 +100,16 @@ class Account:
 
     @property
     def complete(self) -> bool:
-        """All is done."""
+        """Whether all holes are done."""
         return self.holes_done == self.head.holes
 
     @property
     def unfinished(self) -> bool:
-        """Something was begun, or may have been, and not all is done."""
+        """Whether a hole was begun, or may have been, and not all are done."""
         return bool(self.holes_begun or self.doubtful) and not self.complete
 
     def with_line(self, line: Mapping[str, Any]) -> "Account":
-        """With a further line. Raises OutOfPlace."""
+        """The account after a further line. Raises OutOfPlace."""
         names = tuple(line)
         if names not in PLACES:
             raise OutOfPlace(f"{', '.join(names)[:60]!r} is nothing that a journal holds")
@@ -155,19 +155,19 @@ PLACES: dict[tuple[str, ...], Callable[..., Account]] = {
 }
 
 
-def site_of_line(told: object) -> Site:
-    """From a line of a journal. Raises OutOfPlace."""
+def site_of_line(line: object) -> Site:
+    """The site in a line of a journal. Raises OutOfPlace."""
     try:
-        return Site(**msgspec.structs.asdict(msgspec.convert(told, SiteLine)))
+        return Site(**msgspec.structs.asdict(msgspec.convert(line, SiteLine)))
     except msgspec.ValidationError as error:
         raise OutOfPlace(f"no port, pace and plant: {error}") from error
 
 
-def head_of_line(told: Mapping[str, Any]) -> Head:
-    """From the first line of a journal, its version and site taken out. Raises OutOfPlace."""
-    if set(told) != {field.name for field in fields(Head)}:
+def head_of_line(line: Mapping[str, Any]) -> Head:
+    """The head in the first line of a journal, whose version and site were taken out. Raises OutOfPlace."""
+    if set(line) != {field.name for field in fields(Head)}:
         raise OutOfPlace("its first line is not whole")
     try:
-        return msgspec.convert(told, Head)
+        return msgspec.convert(line, Head)
     except msgspec.ValidationError as error:
         raise OutOfPlace(f"its first line is not whole: {error}") from error

@@ -2,7 +2,7 @@
 checksum of the line before it.
 
 Rule: a line that was altered, removed, doubled or moved breaks the chain there, and nothing behind it is believed. The
-checksum guards against accidents, not against somebody who means to forge a journal. Called by reader and writer.
+checksum guards against accidents, not against somebody who means to forge a journal.
 """
 
 import hashlib
@@ -23,18 +23,18 @@ class JournalError(Exception):
 
 
 class Damaged(ValueError):
-    """Bytes that are no line of this chain."""
+    """Raised for bytes that are no line of this chain."""
 
 
 def sealed(line: Mapping[str, Any], before: str) -> tuple[bytes, str]:
-    """A line as it stands in the file, its end included, and its seal; ``before`` is that of the line before it."""
+    """A line as bytes for the file, newline included, and its seal; ``before`` is the seal of the line before it."""
     body = json.dumps(line).encode().removesuffix(b"}")
     seal = _seal(body, before)
     return body + f', "chain": "{seal}"}}\n'.encode(), seal
 
 
 def unsealed(data: bytes, before: str) -> tuple[dict[str, Any], str]:
-    """A line from the file, without its end: what it says, and its seal. Raises Damaged."""
+    """Reads a line of the file, without its newline: its keys and values, and its seal. Raises Damaged."""
     found = SEALED.fullmatch(data)
     if found is None or found[2].decode() != _seal(found[1], before):
         raise Damaged

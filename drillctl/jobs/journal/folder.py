@@ -1,7 +1,6 @@
 """A folder of journals: the jobs in it that were cut off, and giving one of them up.
 
-Rule: a journal that a run still writes belongs to that run; it is neither offered nor taken away. Called by station
-and by the resume verb.
+Rule: a journal that a run still writes belongs to that run; it is neither offered nor taken away.
 """
 
 import fcntl
@@ -19,11 +18,11 @@ MOST_LOOKED_AT = 20
 
 
 class JournalInUse(JournalError):
-    """One that a run still writes."""
+    """Raised for a journal that a run still writes."""
 
 
 def unfinished(folder: Path) -> list[tuple[Path, Account]]:
-    """Those that can be gone on with, the newest first; damaged ones and those in use are passed over."""
+    """The journals that can be gone on with, the newest first; damaged ones and those in use are left out."""
     found = []
     for file in _newest(folder):
         try:
@@ -35,8 +34,8 @@ def unfinished(folder: Path) -> list[tuple[Path, Account]]:
 
 
 def newest_unfinished(folder: Path) -> tuple[Path, Account] | None:
-    """The one to go on with where none is named. Raises JournalError for a newer one that can't be read: it may be the
-    one that is meant. Those in use are passed over.
+    """The journal to go on with where none is named; those in use are left out. Raises JournalError for a newer one
+    that can't be read: it may be the one that is meant.
     """
     for file in _newest(folder):
         try:
@@ -50,7 +49,7 @@ def newest_unfinished(folder: Path) -> tuple[Path, Account] | None:
 
 
 def give_up(file: Path) -> None:
-    """The job is not gone on with: its journal goes. Raises JournalError."""
+    """Deletes the journal of a job that is not to be gone on with. Raises JournalError."""
     try:
         with _alone(file):
             file.unlink()
@@ -68,7 +67,9 @@ def _newest(folder: Path) -> list[Path]:
 
 
 def _unfinished(file: Path) -> Account | None:
-    """What it says; None for a finished one, and one in which nothing was begun. Raises JournalError."""
+    """The account of an unfinished journal; None for one that is finished, or in which nothing was begun. Raises
+    JournalError.
+    """
     try:
         if _ended_well(file):
             return None
@@ -80,7 +81,7 @@ def _unfinished(file: Path) -> Account | None:
 
 
 def _ended_well(file: Path) -> bool:
-    """Told by its end alone, so that finished journals cost nothing."""
+    """Whether it is finished, by its last bytes alone, so that finished journals cost no time."""
     with opened(file) as stream:
         stream.seek(max(0, os.fstat(stream.fileno()).st_size - LAST_LINE_BYTES))
         return ended_well(stream.read(LAST_LINE_BYTES))
@@ -88,7 +89,7 @@ def _ended_well(file: Path) -> bool:
 
 @contextmanager
 def _alone(file: Path) -> Iterator[None]:
-    """As long as nobody writes it; lets go of it afterwards. Raises JournalInUse, OSError."""
+    """Within it the journal is locked, so that no run can write it. Raises JournalInUse, OSError."""
     with opened(file) as stream:
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,4 +1,7 @@
-"""A journal file read: every line in its chain and its place, or nothing. Called by writer, folder, session and cli."""
+"""Reads a journal file, and makes the first line of a new one.
+
+Rule: every line must be in its chain and its place, or the journal is refused.
+"""
 
 import hashlib
 import re
@@ -23,12 +26,12 @@ LARGEST_JOURNAL_BYTES = 256 * 1024 * 1024
 
 
 def read_journal(file: Path) -> Account:
-    """What a journal says. Raises JournalError; nothing is guessed."""
+    """Reads a journal. Raises JournalError for one that is damaged anywhere but in a torn last line."""
     return account_of(bytes_of(file), file)
 
 
 def account_of(data: bytes, file: Path) -> Account:
-    """What the bytes of a journal say; ``file`` is named in what is refused. Raises JournalError."""
+    """Reads the bytes of a journal; ``file`` is named in errors. Raises JournalError."""
     lines = BytesIO(data)  # one after the other: a list of many short ones would take many times the file
     first = lines.readline()
     account = _begun(first[:-1] if first.endswith(b"\n") else b"", file)
@@ -36,8 +39,8 @@ def account_of(data: bytes, file: Path) -> Account:
         if not line.endswith(b"\n"):
             return replace(account, torn=True)
         try:
-            told, seal = unsealed(line[:-1], account.seal)
-            account = replace(account.with_line(told), seal=seal)
+            content, seal = unsealed(line[:-1], account.seal)
+            account = replace(account.with_line(content), seal=seal)
         except Damaged as error:
             raise JournalError(f"{file}:{number}: damaged: not what was written behind the line above") from error
         except OutOfPlace as error:
@@ -46,7 +49,7 @@ def account_of(data: bytes, file: Path) -> Account:
 
 
 def whole_bytes(data: bytes) -> int:
-    """Up to the end of the last line that is whole. A beginning of ours that was cut off in its first line is none."""
+    """How many bytes the whole lines have; 0 for a journal that was cut off in its first line."""
     whole = data.rfind(b"\n") + 1
     return whole if whole or data.startswith(MAGIC) else len(data)
 
@@ -57,7 +60,7 @@ def ended_well(data: bytes) -> bool:
 
 
 def bytes_of(file: Path) -> bytes:
-    """All of it. Raises JournalError."""
+    """The bytes of a journal file. Raises JournalError where it can't be read."""
     try:
         return read_bytes(file, LARGEST_JOURNAL_BYTES, "a journal")
     except OSError as error:
@@ -91,7 +94,7 @@ def check_same(journal: Path, then: Head, now: Head) -> None:
 
 
 def _begun(line: bytes, file: Path) -> Account:
-    """From the first line."""
+    """The account of a journal that has only this first line. Raises JournalError."""
     version = VERSION.match(line)
     if version is None:
         raise JournalError(f"{file}: not a journal of this program")
@@ -101,9 +104,9 @@ def _begun(line: bytes, file: Path) -> Account:
             "go on with the drillctl that wrote it, or delete the file to begin the board anew"
         )
     try:
-        told, seal = unsealed(line, NO_SEAL)
-        del told[NAME]
-        return Account(site=site_of_line(told.pop("site", None)), head=head_of_line(told), seal=seal)
+        content, seal = unsealed(line, NO_SEAL)
+        del content[NAME]
+        return Account(site=site_of_line(content.pop("site", None)), head=head_of_line(content), seal=seal)
     except Damaged as error:
         raise JournalError(f"{file}:1: damaged: its first line is not the one that was written") from error
     except OutOfPlace as error:

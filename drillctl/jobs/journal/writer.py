@@ -1,7 +1,6 @@
-"""A journal that is open: a run writes into it what it is about to do, and what was done.
+"""An open journal: a run writes into it what it is about to do, and what was done.
 
-Rule: each line is on the disk before what it announces may happen, and is checked as a reader will check it. Called by
-desk and session.
+Rule: each line is on the disk before what it announces may happen, and is checked as a reader will check it.
 """
 
 import fcntl
@@ -31,42 +30,45 @@ class Journal:
     it returns. Raises JournalError; a file that holds anything worth keeping is left as it is then.
     """
 
-    def __init__(self, file: Path, known: Head | Account, site: Site):
+    def __init__(self, file: Path, start_from: Head | Account, site: Site):
         """A Head begins a new journal, where there is none or one that is finished; an Account goes on with the one
-        it was read from. That it is gone on with, and where, is written with the first line that follows: a run that
-        never came to move leaves the journal as it was.
+        it was read from. The line that says so, and where, is written together with the first line that follows: a run
+        that never came to move leaves the journal as it was.
         """
         self.file = file
         self._resumption: dict[str, Any] | None = None
         self._broken = False
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
-            flags = os.O_RDWR | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT if isinstance(known, Head) else 0)
+            flags = os.O_RDWR | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT if isinstance(start_from, Head) else 0)
             self._handle = os.open(file, flags, 0o644)
         except OSError as error:
             raise JournalError(f"{file}: can't be written: {error.strerror}") from error
         try:
             self._lock()
-            self._account = self._go_on(known, site) if isinstance(known, Account) else self._begin(known, site)
+            if isinstance(start_from, Account):
+                self._account = self._go_on(start_from, site)
+            else:
+                self._account = self._begin(start_from, site)
         except BaseException:
             self.close()
             raise
 
     def begun(self, hole: int) -> None:
-        """Before the head may come down at a hole."""
-        self._tell({"begun": hole})
+        """Writes that a hole is begun; to be called before the head may come down there."""
+        self._write({"begun": hole})
 
     def done(self, holes: list[int]) -> None:
-        """Execution has confirmed these."""
+        """Writes that holes are done; to be called after execution has confirmed them."""
         for hole in holes:
-            self._tell({"done": hole})
+            self._write({"done": hole})
 
     def ended(self, how: str) -> None:
-        """The run is over: ``done``, ``stopped`` or a fault's name."""
-        self._tell({"ended": how})
+        """Writes how the run ended: ``done``, ``stopped`` or the name of a fault."""
+        self._write({"ended": how})
 
     def close(self) -> None:
-        """Nothing more is written; the lock goes with it."""
+        """Closes the file and gives its lock up."""
         os.close(self._handle)
 
     def _begin(self, head: Head, site: Site) -> Account:
@@ -77,28 +79,28 @@ class Journal:
         return Account(head, site, seal=seal)
 
     def _go_on(self, account: Account, site: Site) -> Account:
-        """What was read before the lock was had must still hold."""
+        """Goes on with a journal. Raises JournalError where another run has written to it since it was read."""
         if read_journal(self.file) != account:
             raise JournalError(f"{self.file}: another run has gone on with it meanwhile; resume again")
         self._resumption = {"resumed": asdict(site), "again": account.again}
         return replace(account, torn=False)
 
     def _lock(self) -> None:
-        """The children of a paced run inherit it: it lasts until the last of them has ended."""
+        """Locks the file. The child processes of a paced run inherit the lock, which lasts until the last has ended."""
         try:
             fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             raise JournalError(f"{self.file}: is being written by a run that is still going on") from error
 
-    def _tell(self, line: Mapping[str, Any]) -> None:
-        """The first one of a run that goes on has its resumption before it, in place of a torn line."""
+    def _write(self, line: Mapping[str, Any]) -> None:
+        """Writes a line; before the first of a resumed run the line of its resumption, in place of a torn one."""
         if self._resumption is not None:
             self._cut(whole_bytes(bytes_of(self.file)))
-            self._tell_one(self._resumption)
+            self._write_one(self._resumption)
             self._resumption = None
-        self._tell_one(line)
+        self._write_one(line)
 
-    def _tell_one(self, line: Mapping[str, Any]) -> None:
+    def _write_one(self, line: Mapping[str, Any]) -> None:
         try:
             account = self._account.with_line(line)
         except OutOfPlace as error:
@@ -106,8 +108,8 @@ class Journal:
         self._account = replace(account, seal=self._append(line, self._account.seal))
 
     def _append(self, line: Mapping[str, Any], before: str) -> str:
-        """Returns the line's seal. A line that is not on the disk whole is taken back, so that the journal ends as it
-        did; where that can't be, nothing more is written.
+        """Appends a line and returns its seal. A line that is not on the disk whole is taken off again; where that
+        fails too, nothing more is written.
         """
         if self._broken:
             raise JournalError(f"{self.file}: can't be written: its last line is torn")
@@ -148,7 +150,7 @@ def _check_finished(file: Path) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """A new file's name is on the disk only when its folder is."""
+    """Makes sure that the name of a new file is on the disk."""
     handle = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
     try:
         os.fsync(handle)

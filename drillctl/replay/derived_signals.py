@@ -1,8 +1,8 @@
 """What a trace leaves out (columns, positions and states of the axes), found by running it again.
 
-Rule: where the ideal plant gives the inputs that were recorded, whole commands are taken at once; as soon as it
-doesn't, the recorded inputs are ticked through. Both find the same. A plant that is to be watched is driven by what is
-put out once more, tick by tick, and its sensors are not asked. Called by the scope and by the lab.
+Rule: while the ideal plant gives the inputs that were recorded, whole commands are run at once; as soon as it doesn't,
+every tick is run on the recorded inputs. Both find the same. A plant to be watched is driven by the outputs once more,
+tick by tick; its sensors are not read.
 """
 
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Machine
 from drillctl.plant import Plant
 from drillctl.portio.simulated import WatchedCard
-from drillctl.replay.stimuli import Player, playback
+from drillctl.replay.player import Player, playback
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.sampler import signals
 from drillctl.ticker.ticker import Ticker
@@ -25,9 +25,9 @@ from drillctl.trace.values import Values
 
 
 class Stretch(NamedTuple):
-    """Rows (n,) of a run up to tick ``end``, ticks rising within each signal; a value may be that of the row before.
+    """The changes (n,) of a part of a run, up to tick ``end``: ticks rise within each signal, and a value may repeat.
 
-    signal  indexes into ``sampler.signals`` of the machine, with the lanes of the watched plant, derived ones too
+    signal  index into ``sampler.signals`` of the machine, derived ones and the lanes of the watched plant included
     """
 
     end: int
@@ -37,7 +37,7 @@ class Stretch(NamedTuple):
 
 
 class AxisState(NamedTuple):
-    """An axis at a tick: its column counts from 1."""
+    """An axis in a tick: column from 1, position in steps, state of its ramp."""
 
     column: int
     position: int
@@ -45,9 +45,8 @@ class AxisState(NamedTuple):
 
 
 def rerun(recorded: Trace, machine: Machine, file: Path, watched: Plant | None = None) -> Iterator[Stretch]:
-    """Runs a trace again a little at a time; ``watched``: a new plant of the kind that it was made on.
-
-    Raises TraceError before the first stretch.
+    """Runs a trace again and yields it stretch by stretch, derived signals included. ``watched``: a new plant of the
+    kind that the run was made on, whose lanes are wanted too. Raises TraceError before the first stretch.
     """
     card = playback(recorded, machine, file)
     recorder = Recorder(signals(machine, watched.lanes if watched else (), derived=True))
@@ -56,24 +55,24 @@ def rerun(recorded: Trace, machine: Machine, file: Path, watched: Plant | None =
         seen = Ticker(machine, beside, watched, traced=True, derived=True, keeper=recorder)
         yield from _stretches(seen, recorder, recorded, machine, file)
         return
-    foreseen = FastTicker.ideal(machine, traced=True, capacity=CAPACITY, keeper=recorder)
-    known, inputs = 0, _Inputs(recorded, machine)
-    for stretch in _stretches(foreseen, recorder, recorded, machine, file):
+    fast = FastTicker.ideal(machine, traced=True, capacity=CAPACITY, keeper=recorder)
+    agreed_to, inputs = 0, _Inputs(recorded, machine)
+    for stretch in _stretches(fast, recorder, recorded, machine, file):
         if not inputs.agree(stretch):
             break
-        known = stretch.end
+        agreed_to = stretch.end
         yield stretch
     else:
         return
     recorder = Recorder(recorder.signals)
     ticker = Ticker(machine, card, traced=True, derived=True, keeper=recorder)
     for stretch in _stretches(ticker, recorder, recorded, machine, file):
-        if stretch.end > known:
-            yield _since(stretch, known)
+        if stretch.end > agreed_to:
+            yield _since(stretch, agreed_to)
 
 
 def with_columns(recorded: Trace, machine: Machine, file: Path) -> Trace:
-    """The whole run with its derived signals, under an empty header. Raises TraceError."""
+    """The whole run as a trace with its derived signals and an empty header. Raises TraceError."""
     whole = Recorder(signals(machine, (), derived=True))
     end = 0
     for stretch in rerun(recorded, machine, file):
@@ -83,9 +82,8 @@ def with_columns(recorded: Trace, machine: Machine, file: Path) -> Trace:
 
 
 class Jumps:
-    """The axes at any tick of a run, without the ticks before it: whole commands are passed on the way.
-
-    Raises TraceError for a trace that can't be run.
+    """Finds the axes in any tick of a run quickly: whole commands are run on the way there. Raises TraceError for a
+    trace that can't be run.
     """
 
     _agrees: bool
@@ -97,7 +95,7 @@ class Jumps:
         self._begin()
 
     def at(self, tick: int) -> tuple[AxisState, ...]:
-        """By axis; none where only ticking can tell, since the inputs are not those of the ideal plant."""
+        """The axes in a tick; empty where every tick must be run, as the inputs are not those of the ideal plant."""
         if tick < self._ticker.controller.tick - 1:
             self._begin()
         for end in self._player.up_to(tick + 1):
@@ -115,7 +113,7 @@ class Jumps:
 
 
 class _Inputs:
-    """Holds a run that is made again against the recorded inputs, stretch after stretch."""
+    """Compares the inputs of a repeated run with the recorded ones, stretch after stretch."""
 
     def __init__(self, recorded: Trace, machine: Machine):
         numbers = {signal.name: number for number, signal in enumerate(signals(machine, (), False))}
@@ -125,7 +123,7 @@ class _Inputs:
         self._until = 0
 
     def agree(self, stretch: Stretch) -> bool:
-        """Whether every input changes in the same ticks to the same word."""
+        """Whether every input word changes in the same ticks to the same value as recorded."""
         since, self._until = self._until, stretch.end
         return all(self._agrees(card, stretch, since) for card in range(len(self._recorded)))
 
@@ -140,12 +138,12 @@ class _Inputs:
 
 
 def _stretches(ticker: Ticker, recorder: Recorder, recorded: Trace, machine: Machine, file: Path) -> Iterator[Stretch]:
-    """A recorded run on this ticker, which writes to the recorder."""
+    """Plays a recorded run to a ticker, which writes to the recorder; yields what was recorded."""
     for end in Player(ticker, recorded, machine, file).up_to(recorded.end):
         yield Stretch(end, *recorder.drain())
 
 
 def _since(stretch: Stretch, tick: int) -> Stretch:
-    """What is not before a tick."""
+    """The changes from a tick on."""
     rows = stretch.ticks >= tick
     return Stretch(stretch.end, stretch.ticks[rows], stretch.signal[rows], stretch.values[rows])

@@ -1,7 +1,7 @@
-"""A recorded run again, without plant, clock or process; and the plugin's re-recording.
+"""Runs a recorded run again, without plant, clock or process, and compares; or records it anew.
 
 Rule: inputs, requests and gaps in time come from the trace, everything else from the tables at hand; two traces are
-compared by what they put out. Called by the replay verb, by the pytest plugin, and where a trace changes its form.
+compared by what they put out.
 """
 
 from dataclasses import dataclass, replace
@@ -12,18 +12,22 @@ import numpy as np
 from drillctl.files.outputs import Output
 from drillctl.machine import Library, Machine
 from drillctl.plant import PlantChoice, PlantRefused
-from drillctl.replay.stimuli import Player, check_tick, header_value, machine_of, playback, same_tables
-from drillctl.replay.trace_files import read_record, read_trace, takes_segments, whole_trace, write_record
+from drillctl.replay.header import check_tick, header_value, machine_of, same_tables
+from drillctl.replay.player import Player, playback
 from drillctl.ticker.fast_ticker import TICK, FastTicker
 from drillctl.ticker.sampler import wire_names
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
+from drillctl.trace.files import read_record, read_trace, takes_segments, whole_trace, write_record
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a replay. ``same_tables``: the trace was recorded with the tables it was replayed with;
-    ``from_tick``: what came before was not judged.
+    """The result of a replay.
+
+    difference   the first one; None where there is none
+    same_tables  the trace was recorded with the tables it was replayed with
+    from_tick    the ticks before were not compared
     """
 
     machine: Machine
@@ -34,11 +38,11 @@ class Verdict:
     from_tick: int = 0
 
     def failed(self, same_tables_wanted: bool = False) -> bool:
-        """The behaviour differs, or (where that was asked for) the tables do."""
+        """Whether the behaviour differs or, where that is wanted, the tables do."""
         return self.difference is not None or (same_tables_wanted and not self.same_tables)
 
     def headline(self) -> str:
-        """What is wrong, in a line: where the runs part, in which command; or that the tables are others."""
+        """One line: the first tick that differs and its command; or that the tables differ."""
         found = self.difference
         if found is None:
             return "recorded with other tables"
@@ -46,22 +50,22 @@ class Verdict:
         return f"differs at tick {found.tick}, " + (f"in command {command}" if command else "between commands")
 
     def remark(self) -> str:
-        """How many ticks, on what, from where on, and whether the tables were others."""
+        """One line: how many ticks on which machine, from where compared, and whether the tables differ."""
         since = f", judged from tick {self.from_tick} on" if self.from_tick else ""
         others = "" if self.same_tables else "; recorded with other tables, judged by behaviour"
         return f"{self.recorded.end} ticks on {self.machine.name}{since}{others}"
 
     def message(self) -> str:
-        """The first difference, in a dozen lines."""
+        """About a dozen lines that show the first difference."""
         if self.difference is None:
             return "the tables are not those of the recording (--same-tables)"
         return render(self.difference, wire_names(self.machine))
 
 
 def replay(file: Path, library: Library, engine: str | None = None, from_tick: int = 0) -> Verdict:
-    """Runs a trace again, by this engine (None: fast where it can), and judges it from a tick on; on the ideal plant
-    what comes before is passed in whole commands, whatever the engine. Raises TraceError for a file that is no trace,
-    can't be run or is shorter, TableError for its machine.
+    """Runs a trace again by an engine (None: fast where possible) and compares it from a tick on. On the ideal plant
+    the ticks before are run in whole commands by either engine. Raises TraceError for a file that is no trace,
+    can't be run or is shorter; TableError for its machine.
     """
     kept = read_record(file)
     head = kept.rest if isinstance(kept, Segments) else kept
@@ -76,7 +80,7 @@ def replay(file: Path, library: Library, engine: str | None = None, from_tick: i
 
 
 def in_form_of(file: Path, trace: Trace, machine: Machine) -> Trace | Segments:
-    """A trace as a file of this name keeps it: as few segments as may be, where it asks for segments."""
+    """A trace in the form of a file of this name; in the segment form with as few segments as possible."""
     if not takes_segments(file, machine.cards):
         return trace
     taped = taped_again(trace, machine, file)
@@ -84,7 +88,7 @@ def in_form_of(file: Path, trace: Trace, machine: Machine) -> Trace | Segments:
 
 
 def taped_again(recorded: Trace, machine: Machine, file: Path) -> Segments:
-    """A run's commands, requests and gaps on the ideal plant, in the segment form. Raises TraceError."""
+    """Runs a trace again on the ideal plant and returns the record in the segment form. Raises TraceError."""
     ticker = FastTicker.ideal(machine, taped=True)
     _run(Player(ticker, recorded, machine, file), recorded.end)
     segments = ticker.record(recorded.header)
@@ -108,15 +112,15 @@ def record_again(file: Path, library: Library) -> None:
 
 
 def _actual(recorded: Trace, machine: Machine, file: Path, engine: str | None, from_tick: int) -> Trace:
-    """What the tables at hand make of the recorded inputs. Where the ideal plant gives just these, it may answer."""
+    """The run by the tables at hand. Where the ideal plant gives just the recorded inputs, the fast engine runs it."""
     ticker = Ticker(machine, playback(recorded, machine, file), traced=True)
     if engine != TICK or from_tick:
-        foreseen = FastTicker.ideal(machine, traced=True)
-        player = Player(foreseen, recorded, machine, file)
+        fast = FastTicker.ideal(machine, traced=True)
+        player = Player(fast, recorded, machine, file)
         _run(player, from_tick)
-        foreseen.foresees = engine != TICK
+        fast.in_batches = engine != TICK
         _run(player, recorded.end)
-        actual = _trace_of(foreseen, recorded)
+        actual = _trace_of(fast, recorded)
         if all(_same_changes(recorded, actual, f"in.{number}") for number in range(machine.cards)):
             return actual
     _run(Player(ticker, recorded, machine, file), recorded.end)
@@ -124,7 +128,7 @@ def _actual(recorded: Trace, machine: Machine, file: Path, engine: str | None, f
 
 
 def _command_line(recorded: Trace, shown: str) -> str:
-    """A command as its trace shows it (``6:KMD_GOTOdXdY``) with its arguments: ``6 KMD_GOTOdXdY 30 0``; none: empty."""
+    """A command shown as ``6:KMD_GOTOdXdY`` with its arguments: ``6 KMD_GOTOdXdY 30 0``; an empty text for none."""
     number, _, name = shown.partition(":")
     lines = (value for key, value in recorded.header if key == "command")
     return next((line for line in lines if line.startswith(f"{number} ")), f"{number} {name}" if name else "")
@@ -140,7 +144,7 @@ def _run(player: Player, end: int) -> None:
 
 
 def _trace_of(ticker: Ticker, recorded: Trace) -> Trace:
-    """What came of it, under the header of the recorded run."""
+    """The trace that a ticker made, under the header of the recorded run."""
     trace = ticker.finished_trace(recorded.header)
     assert trace is not None
     return trace

@@ -1,7 +1,7 @@
-"""Processes of ours beside the one that was started: forked, watched and ended by their ids.
+"""A forked process: started, watched, and ended by its id.
 
-Rule: a child runs its body and nothing else of this program, in a session of its own: what a terminal sends to
-everybody (Ctrl-C, Ctrl-\\, Ctrl-Z) reaches its parent alone, who decides. Called by paced and lab/latency.
+Rule: a child runs its body and nothing else of this program, in a session of its own: the signals of a terminal
+(Ctrl-C, Ctrl-\\, Ctrl-Z) reach the parent alone, which decides what comes of them.
 """
 
 import os
@@ -14,8 +14,8 @@ from collections.abc import Callable
 LOOK_EVERY_S = 0.002
 
 
-class Child:
-    """A process of ours, begun here. Raises OSError where the system gives no more."""
+class ChildProcess:
+    """A process that runs ``body``, started when this is made. Raises OSError where the system grants no more."""
 
     def __init__(self, body: Callable[[], None]):
         sys.stdout.flush()
@@ -23,17 +23,17 @@ class Child:
         self.pid = os.fork()
         self._gone = False
         if self.pid == 0:
-            _be(body)
+            _run(body)
 
     @property
     def gone(self) -> bool:
-        """Whether it has ended; collects it then."""
+        """Whether the process has ended; then also reaps it."""
         if not self._gone:
             self._gone = os.waitpid(self.pid, os.WNOHANG) != (0, 0)
         return self._gone
 
     def end(self, patience_s: float, meanwhile: Callable[[], object] = lambda: None) -> None:
-        """Waits until it has ended, doing ``meanwhile`` now and then; kills it when that takes too long."""
+        """Waits until it has ended, calling ``meanwhile`` over and over; kills it after ``patience_s``."""
         until_s = time.monotonic() + patience_s
         while not self.gone:
             if time.monotonic() > until_s:
@@ -42,8 +42,8 @@ class Child:
             time.sleep(LOOK_EVERY_S)
 
 
-def _be(body: Callable[[], None]) -> None:
-    """The child's whole life."""
+def _run(body: Callable[[], None]) -> None:
+    """What the child does from the fork to its exit."""
     code = 1
     try:
         os.setsid()

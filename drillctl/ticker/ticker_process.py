@@ -1,8 +1,8 @@
-"""What the ticker's process runs: the tick, paced by the clock, with a beat, a status and an eye on the desk.
+"""What the ticker's process runs: ticks paced by the clock; it publishes heartbeat and status, and watches the desk.
 
 Rule: a tick is run where there is something to do; else the inputs are looked at now and then, which is no tick. Every
-wake publishes a beat. Whatever this process does to the machine of its own accord, it asks for as a request, so that
-the trace has it. Forked by paced.
+wake publishes a heartbeat. Whatever this process does to the machine of its own accord is made as a request, so that
+the trace has it. Forked by paced_link.py.
 """
 
 import os
@@ -20,23 +20,27 @@ from drillctl.kmd.commands import MOST_AXES
 from drillctl.machine import Machine
 from drillctl.plant import Plant
 from drillctl.ports import Driver, PortSlow
-from drillctl.ticker.confirmed_status import VouchedStatus
+from drillctl.ticker.confirmed_status import ConfirmedStatus
+from drillctl.ticker.edited_tables import TableSlot, take_tables
 from drillctl.ticker.realtime import become_punctual
-from drillctl.ticker.table_loading import TableSlot, take_tables
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace.ring import RingRecorder
 
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
-LOOK_NS = 20_000_000  # at rest the sensors are looked at so often
+LOOK_NS = 20_000_000  # at rest the sensors are read so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
 LONGEST_NOTICE = 1000  # characters; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
 
 
-class PacedTicker:
-    """The body of the ticker's process. Made by the desk, its parent; ``touches`` and ``notices`` are pipes' ends."""
+class TickerProcess:
+    """The body of the ticker's process, made by its parent, the desk, before the fork.
+
+    touches, notices  file descriptors: ends of pipes to the desk
+    idle_ns           how long the desk may be silent at rest, without a job
+    """
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, channel: Channel, slot: TableSlot,
                  ring: RingRecorder | None, derived: bool, touches: int, notices: int, idle_ns: int):  # fmt: skip
@@ -49,13 +53,13 @@ class PacedTicker:
             machine, port, plant, ring is not None, derived,
             queue=self.queue, requests=self.requests, gate=self.gate, keeper=ring,
         )  # fmt: skip
-        self.vouched = VouchedStatus(port)
+        self.vouched = ConfirmedStatus(port)
         self.looked_ns = 0
         self.spared = False  # a real machine's clock stands still, and its forcing was taken off
         self.desk = os.getpid()
 
     def run(self) -> None:
-        """Until the desk gives leave, dies, or the port is lost. The outputs are safe afterwards."""
+        """Ticks until the desk says leave or is lost, or the port is lost. Makes the outputs safe on every way out."""
         for number in IGNORED:
             signal.signal(number, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda number, frame: self.requests.own.post(Request.STOP))
@@ -93,11 +97,13 @@ class PacedTicker:
             self._publish()
 
     def _notice(self, *sentences: str) -> None:
-        """For the operator, beside the status."""
+        """Sends sentences for the operator."""
         os.write(self.notice_end, "".join(f"{sentence}\n" for sentence in sentences).encode())
 
     def _stand(self, now_ns: int) -> None:
-        """A wake that is no tick: the inputs are looked at now and then. The time of real motors can't be stopped."""
+        """A wake that is no tick: reads the inputs every LOOK_NS. While the clock of a real machine is stopped, its
+        forcing is taken off, since its windings heat all the same.
+        """
         if self.ticker.waits and self.ticker.plant is None and not self.spared:
             self.spared = True
             drop_forcing(self.ticker.controller)
@@ -106,7 +112,7 @@ class PacedTicker:
             look(self.ticker.controller)
 
     def _is_wanted(self) -> bool:
-        """At rest, with nothing to do, the current is held and no tick is counted. What is latched takes no command."""
+        """Whether this wake is to be a tick: there is a command, a request, a move, or a winding to be cooled."""
         if self.ticker.waits:
             return False
         takes = self.ticker.controller.condition != Condition.LATCHED
@@ -114,21 +120,21 @@ class PacedTicker:
         return not self.ticker.over() or asked or (takes and len(self.queue) > 0)
 
     def _follow_rate(self, clock: PacedClock) -> None:
-        """After a PACE. Whoever watches the beat knows of a longer period before it is waited for."""
+        """Paces by the rate in force after a PACE. The period is published, as the guard's patience depends on it."""
         period_ns = clock.period_ns
         clock.set_rate(self.ticker.machine.tick_hz)
         if clock.period_ns != period_ns:
             self.channel["tick_ns"] = clock.period_ns
 
     def _load(self) -> None:
-        """Edited tables; the next tick, which has nothing else to do, tells the trace of them."""
+        """Takes edited tables and answers the desk; a request in the next tick marks them in the trace."""
         reason = take_tables(self.ticker, self.slot.text())
         if not reason:
             self.requests.own.post(Request.LOAD)
         self.slot.answer(reason)
 
     def _go_on(self) -> None:
-        """A clock that stood still goes on."""
+        """After a stopped clock, notes in the trace that real motors have stood still."""
         if self.spared:
             self.spared = False
             self.requests.own.post(Request.PAUSE)
@@ -146,7 +152,9 @@ class PacedTicker:
         self.ticker.touched.clear()
 
     def _desk_is_lost(self) -> bool:
-        """Holds a moving machine first; True when the outputs must go off: of a dead desk as soon as nothing moves."""
+        """Whether the outputs must go off: the desk was silent for too long, or is dead and nothing moves any more.
+        Holds the job before it comes to that.
+        """
         m = self.ticker.controller
         silent_ns = time.monotonic_ns() - self.channel["desk_beat_ns"]
         dead = os.getppid() != self.desk
@@ -159,7 +167,7 @@ class PacedTicker:
         return True
 
     def _end_by(self, fault: Fault) -> None:
-        """A fault from beside the tick, which then has no further turn; the outputs go off in ``run``."""
+        """Raises a fault outside a tick, and publishes it as the last status; the outputs go off in ``run``."""
         raise_fault(self.ticker.controller, fault)
         self.channel.publish(self.vouched.last(self.ticker.report()))
         self._tell_touches()

@@ -14,10 +14,10 @@ from drillctl.machine.bundle import bundle, unbundle
 from drillctl.machine.edit import set_pattern, set_state_row
 from drillctl.plant import IDEAL_PLANT
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.replay.replay import replay
+from drillctl.replay.compare import replay
+from drillctl.ticker.edited_tables import AT_WORK, OTHER_MACHINE, differs_in_tables_alone
 from drillctl.ticker.link import Link, LocalLink
 from drillctl.ticker.paced_link import PacedLink
-from drillctl.ticker.table_loading import AT_WORK, OTHER_MACHINE, same_but_tables
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import TraceError, write_text
 
@@ -144,7 +144,7 @@ def test_what_else_has_changed_is_seen() -> None:
     def changed(**fields: object) -> Machine:
         return MACHINE.__class__(**{**{name: getattr(MACHINE, name) for name in MACHINE.__slots__}, **fields})
 
-    assert same_but_tables(unbundle(edited(ramp_file(), slower)).at_rate(1000), MACHINE)
-    assert not same_but_tables(changed(homing=()), MACHINE)
-    assert not same_but_tables(MACHINE.at_rate(500), MACHINE)
-    assert not same_but_tables(LIBRARY.machine("eight-axis"), MACHINE)
+    assert differs_in_tables_alone(unbundle(edited(ramp_file(), slower)).at_rate(1000), MACHINE)
+    assert not differs_in_tables_alone(changed(homing=()), MACHINE)
+    assert not differs_in_tables_alone(MACHINE.at_rate(500), MACHINE)
+    assert not differs_in_tables_alone(LIBRARY.machine("eight-axis"), MACHINE)

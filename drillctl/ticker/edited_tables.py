@@ -1,7 +1,6 @@
 """Edited tables on their way into a running ticker (LOAD), as text, in memory that two processes share.
 
 Rule: checked by machine/ in the process that ticks, taken at rest and whole, or refused with nothing changed.
-Made by paced; the links of both kinds take tables by ``take_tables``.
 """
 
 import mmap
@@ -30,13 +29,13 @@ AT_WORK = "the machine is at work; tables are taken at rest"
 
 
 class TableSlot:
-    """Room for one text and its answer. Inherited over a fork: desk offers, the ticker answers."""
+    """Shared memory for one text and its answer, inherited over a fork: the desk offers, the ticker answers."""
 
     def __init__(self) -> None:
         self._fields = np.frombuffer(mmap.mmap(-1, SLOT.itemsize), SLOT, 1)
 
     def offer(self, text: str) -> bool:
-        """False, and nothing offered, for a text that is too long."""
+        """Offers a text to the ticker; False, and nothing offered, where it is too long."""
         data = text.encode()
         if len(data) > MOST_BYTES:
             return False
@@ -47,32 +46,32 @@ class TableSlot:
 
     @property
     def waiting(self) -> bool:
-        """A text was offered and not answered yet."""
+        """Whether a text was offered and not answered yet."""
         return bool(self._fields["offered"][0] != self._fields["answered"][0])
 
     def text(self) -> str:
-        """What was offered."""
+        """The text that was offered last."""
         return bytes(self._fields["text"][0, : int(self._fields["length"][0])]).decode()
 
     def answer(self, reason: str) -> None:
-        """Empty: it was taken."""
+        """Answers the text: the reason why it was refused; empty where it was taken."""
         data = reason.encode("utf-8", "backslashreplace")[:MOST_REPLY_BYTES]
         self._fields["reply"][0, : len(data)] = np.frombuffer(data, np.uint8)
         self._fields["reply_length"] = len(data)
         self._fields["answered"] = self._fields["offered"]
 
     def reply(self) -> str:
-        """Why the last text was not taken; empty where it was."""
+        """The answer to the last text: why it was refused; empty where it was taken."""
         return bytes(self._fields["reply"][0, : int(self._fields["reply_length"][0])]).decode("utf-8", "replace")
 
 
 def take_tables(ticker: Ticker, text: str) -> str:
-    """Loads the machine of a bundle in place of the one that runs; the reason where it is refused."""
+    """Loads the machine of a bundle in place of the one that runs; returns why not, or an empty text."""
     try:
         machine = unbundle(text).at_rate(ticker.machine.tick_hz)
     except TableError as error:
         return str(error)
-    if not same_but_tables(machine, ticker.machine):
+    if not differs_in_tables_alone(machine, ticker.machine):
         return OTHER_MACHINE
     if not ticker.resting:
         return AT_WORK
@@ -80,16 +79,16 @@ def take_tables(ticker: Ticker, text: str) -> str:
     return ""
 
 
-def same_but_tables(machine: Machine, other: Machine) -> bool:
-    """Whether two machines differ in nothing but patterns and ramps: same wires on same bits, same rate."""
+def differs_in_tables_alone(machine: Machine, other: Machine) -> bool:
+    """Whether two machines differ in phase tables and ramps alone: the same wires on the same bits, the same rate."""
     wires = [axis.phase.wire_names() for axis in other.axes]
     if [axis.phase.wire_names() for axis in machine.axes] != wires:
         return False
     pairs = zip(machine.axes, other.axes, strict=True)
     axes = tuple(replace(axis, phase=like.phase, ramp=like.ramp) for axis, like in pairs)
-    return _bare(replace(machine, axes=axes)) == _bare(other)
+    return _without_source(replace(machine, axes=axes)) == _without_source(other)
 
 
-def _bare(machine: Machine) -> Machine:
-    """Without where it was read from."""
+def _without_source(machine: Machine) -> Machine:
+    """The machine without what says where it was read from."""
     return replace(machine, files=(), shipped=False, description="")
