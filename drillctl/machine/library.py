@@ -167,8 +167,10 @@ def _same_as_shipped(files: tuple[str, ...]) -> bool:
 
 
 def _is_shipped(file: Path) -> bool:
-    """Returns whether the file is the shipped table of its kind and name, or equal to it."""
-    return _same_bytes(file, shipped_tables() / file.parent.name / file.name)
+    """Returns whether the file is the shipped table of its kind and name, or equal to it; a text that is not saved yet
+    is not.
+    """
+    return file.is_file() and _same_bytes(file, shipped_tables() / file.parent.name / file.name)
 
 
 def _same_bytes(file: Path, other: Path) -> bool:

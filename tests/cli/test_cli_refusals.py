@@ -137,7 +137,7 @@ OBJECTS = [
     (["run", "hole.kmd", "--plant", "dynamik"], "usage", None),
     (["run", "hole.kmd", "--plan", "dynamic", "--fualt", "blunt=1"], "usage", None),
     (["run"], "usage", None),
-    (["resume", "hole.kmd"], "journal", 1),
+    (["resume", "hole.kmd"], "journal", None),
     (["estimate", "empty.kmd"], "job", 1),
     (["estimate", "kicad.drl", "--offset", "1"], "usage", None),
     (["inspect", "empty.drl"], "empty-file", None),

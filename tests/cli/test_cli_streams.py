@@ -15,7 +15,10 @@ from tests.support.terminal import Terminal
 
 needs_full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 needs_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
-OFTEN = "from drillctl.cli import main; from drillctl.ui import progress; progress.PLAIN_EVERY_S = 0.1; exit(main())"
+OFTEN = (
+    "from drillctl.cli import main; from drillctl.ui.terminal import progress; "
+    "progress.PLAIN_EVERY_S = 0.1; exit(main())"
+)
 PACED = ("--pace", "real", "--tick-hz", "4000", "--journal", "j")
 
 

@@ -199,7 +199,12 @@ def test_a_worn_drill_is_warned_about(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("text", "reason"),
-    [("", "drill"), ("[[drill]]\ndiameter_mm = -1\n", "diameter_mm"), ("drill = 3", "drill"), ("= 3", "line 1")],
+    [
+        ("", "drill"),
+        ("[[drill]]\ndiameter_mm = -1\n", "diameter_mm"),
+        ("drill = 3", "drill"),
+        ("= 3", "drills.toml:1: not TOML"),
+    ],
 )
 def test_a_bad_drill_table_is_refused(tmp_path: Path, text: str, reason: str) -> None:
     with pytest.raises(JobError, match=reason):

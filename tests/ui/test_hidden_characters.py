@@ -25,12 +25,13 @@ from drillctl.ui.terminal.charts import COLOURS, NO_COLOUR, ChartLook, picture_l
 from drillctl.ui.terminal.image_file import picture_bytes
 from drillctl.ui.widgets import texts
 from drillctl.ui.widgets.dialogs import Field
-from drillctl.viewmodel.jobs import Asked, RecentJob, UnfinishedJob
+from drillctl.viewmodel.jobs import Asked, RecentJob, Site, UnfinishedJob
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
 from tests.ui.whole import BLINKER, SCREENS, at_home
 
 NASTY = "n\x1b[31m\x07\x9b2J\r\u202e\u200b\udcff"
+THERE = Site(NASTY, NASTY, NASTY)
 PAINT = re.compile("|".join(map(re.escape, (*COLOURS, NO_COLOUR))))
 KEPT = {"condition", "reason_code", "kept"}  # words of a table, not of a person
 PLAIN_HANDS = handbench.MachineSignals  # before ``at_home`` puts one that takes notes in its place
@@ -59,7 +60,7 @@ def test_whatever_the_console_says() -> None:
     view = nasty(replace(VIEW, notices=("a", "b"), command="KMD_BAZA"))
     console = FakeConsole(view, nasty(BOARD), answer=(NASTY, NASTY))
     console.recent_jobs = [RecentJob(NASTY, Asked())]
-    console.unfinished_jobs = [UnfinishedJob(NASTY, NASTY, NASTY, 1, 4, (2,), True, True)]
+    console.unfinished_jobs = [UnfinishedJob(NASTY, NASTY, NASTY, 1, 4, (2,), True, True, None, THERE, THERE)]
     program = Program(console)
     for keys in ((), ("i",), ("esc",), ("f1",), ("esc",), ("f9", "down"), ("esc",), ("f2",), ("e",), ("esc",)):
         program.press(*keys)

@@ -18,7 +18,7 @@ def outcome(**changes: Any) -> Outcome:
     told: dict[str, Any] = {
         "machine": "m", "holes_done": 3, "holes_total": 4, "ticks": 1000, "tick_hz": 500,
         "steps": {"x": 7, "y": 8}, "position": {"x": -1, "y": 2}, "position_known": True,
-        "lost_steps": {"x": 0, "y": 0}, "starved": 0, "fault": None,
+        "lost_steps": {"x": 0, "y": 0}, "underruns": 0, "fault": None,
     }  # fmt: skip
     return Outcome(**{**told, **changes})
 
