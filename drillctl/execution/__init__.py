@@ -4,15 +4,16 @@
     controller.py  all that a tick works on, allocated once
     axis.py        one motor: the automaton over its ramp, the columns of its phase table
     line.py        axes linked in a straight line
+    conditions.py  what the machine does on each request and fault, and at rest: one table
+    stops.py       the actions of that table: hold, stop, drop, freeze, outputs by hand
     commands.py    how each KMD command starts and ends
     heads.py       the same for those of the drilling heads
     homing.py      initialisation, by the machine's table of steps
-    guard.py       sensors, ranges, times
-    stops.py       requests and faults: hold, stop, emergency stop, return
+    limit_checks.py  sensors, ranges, times
     hot.py         what was switched on by hand and would burn a winding goes off
     report.py      writes the status record
-    late.py        what a gap in time does
-    loading.py     edited tables for a machine that rests
+    clock.py       the paced clock, and what a gap in time does
+    table_loading.py  edited tables for a machine that rests
 
 May import kmd, ports and machine.
 """

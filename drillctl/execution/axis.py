@@ -23,7 +23,7 @@ from drillctl.machine.hazards import opposite_halves
 from drillctl.ports import with_bits
 
 
-class Motion(IntEnum):
+class AxisMotion(IntEnum):
     """What an axis is about. From MOVING on it counts."""
 
     REST = 0
@@ -37,7 +37,7 @@ class Motion(IntEnum):
 
 
 # Plain integers: a tick compares them for each axis.
-REST, SETTLING, FOLLOWER_SETTLING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING = (motion.value for motion in Motion)
+REST, SETTLING, FOLLOWER_SETTLING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING = (each.value for each in AxisMotion)
 COOLED = (REST, REST, FOLLOWING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING)  # by motion: once the forcing is off
 
 

@@ -93,7 +93,7 @@ def serve(m: Controller) -> None:
 
 
 def _no_action(m: Controller) -> None:
-    """Only the stage changes."""
+    """Does nothing: only the stage changes."""
 
 
 def _carry_home(m: Controller) -> None:

@@ -88,7 +88,7 @@ class Controller:
         self.done = self.hole_begun = self.holes_done = self.tool = 0
 
     def enter(self, stage: Stage) -> None:
-        """Goes to another stage."""
+        """Goes to this stage, and keeps condition and job in step with it."""
         self.stage: int = stage.value
         self.condition: int = CONDITIONS[stage]
         self.job = stage in (Stage.RUNNING, Stage.HOLDING)

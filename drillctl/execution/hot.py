@@ -1,8 +1,7 @@
 """What was switched on by hand and would burn a winding is on for a second: 24 V at rest, both halves of a winding.
 
 Rule: counted in ticks, so a trace has it and replays; whoever paces counts ticks while it lasts, though nothing moves.
-A column that a phase table puts out is never touched. Called by stops when an output was set or the tick rate, by tick
-while something is hot.
+A column that a phase table puts out is never touched.
 """
 
 from drillctl.execution.axis import Axis

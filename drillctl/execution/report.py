@@ -1,4 +1,4 @@
-"""Writes the status record. Called by the wiring between ticks, never by tick itself."""
+"""Writes the status record. Between ticks, never in one."""
 
 import numpy as np
 

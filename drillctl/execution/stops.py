@@ -61,7 +61,7 @@ def arrive_home(m: Controller) -> None:
 
 
 def acknowledge(m: Controller) -> None:
-    """Forgets the fault."""
+    """Forgets the fault, so that the next one is the first again."""
     m.fault = Fault.NONE
     m.fault_kept = False
 

@@ -1,4 +1,4 @@
-"""LOAD: edited phase and ramp tables for a machine that rests. Called by the wiring between ticks, never by tick.
+"""LOAD: edited phase and ramp tables for a machine that rests. Between ticks, never in one.
 
 Rule: what was counted goes on being counted; where the machine stands is unknown from here on (docs/SPEC.md, 1.19).
 """

@@ -31,10 +31,10 @@ def tick(m: Controller) -> None:
     if m.stage != LATCHED:
         guard(m)
     command_missing = False
-    if m.stage <= RUNNING and not m.busy:
+    if not m.busy and m.stage <= RUNNING:
         command_missing = not start_next(m)
     for axis in m.axes:
-        if REST < axis.motion < FOLLOWING:
+        if FOLLOWING > axis.motion > REST:
             axis.cool()
     if command_missing and m.job:
         m.underruns += 1

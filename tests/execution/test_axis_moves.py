@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from drillctl.execution.axis import Axis, Motion
+from drillctl.execution.axis import Axis, AxisMotion
 from drillctl.machine import travel_ticks
 from tests.support.axes import RAMPS, Step, lone_axis, next_step, steps_to_rest
 from tests.support.paper import INTERVALS
@@ -47,7 +47,7 @@ def place(axis: Axis, node: Node, case: Case) -> None:
     axis.state = node.state * case.direction
     axis.direction, axis.min_interval, axis.count = case.direction, case.floor, 0
     axis.wait = max(axis.interval[axis.state], case.floor)
-    axis.motion = Motion.BRAKING if node.braked else Motion.MOVING
+    axis.motion = AxisMotion.BRAKING if node.braked else AxisMotion.MOVING
 
 
 def check_step(axis: Axis, node: Node, case: Case, step: Step) -> None:
@@ -76,7 +76,7 @@ def ticks_of_every_distance(case: Case, longest: int) -> list[int]:
             step = next_step(axis)
             check_step(axis, node, case, step)
             path.append((node, step.ticks))
-            node = Node(abs(axis.state), axis.motion == Motion.BRAKING, node.to_go - 1) if axis.counting else None
+            node = Node(abs(axis.state), axis.motion == AxisMotion.BRAKING, node.to_go - 1) if axis.counting else None
         total = ticks_from[node] if node is not None else 0
         for passed, ticks in reversed(path):
             total += ticks

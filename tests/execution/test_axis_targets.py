@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from drillctl.execution.axis import Axis, Motion
+from drillctl.execution.axis import Axis, AxisMotion
 from tests.support.axes import RAMPS, lone_axis, next_step, steps_to_rest
 
 MOVE_STEPS = {"seven-state": 12, "even-interval": 20, "drive-servo": 24}  # through every state and down again
@@ -173,7 +173,7 @@ def test_counting_starts_anew_when_a_hold_in_state_0_is_lifted() -> None:
 
 def test_a_new_target_lifts_the_ban_on_accelerating() -> None:
     axis = started("seven-state", 1)
-    while axis.motion != Motion.BRAKING:
+    while axis.motion != AxisMotion.BRAKING:
         next_step(axis)
     state = axis.state
     axis.set_target(axis.position + 50, 0)

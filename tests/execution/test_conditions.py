@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from drillctl.execution.axis import Motion
+from drillctl.execution.axis import AxisMotion
 from drillctl.execution.conditions import TABLE, Event, raise_fault
 from drillctl.execution.controller import CONDITIONS, Stage
 from drillctl.kmd import Fault, Request
@@ -132,7 +132,7 @@ def test_every_request_at_every_stage(stage: Stage, event: Event) -> None:
     else:
         b.checked(400)
     holds = event == Event.HOLD and stage == Stage.RUNNING
-    assert not holds or ([axis.motion for axis in b.m.axes] == [Motion.REST] * 3 and b.m.axes[0].target == 200)
+    assert not holds or ([axis.motion for axis in b.m.axes] == [AxisMotion.REST] * 3 and b.m.axes[0].target == 200)
 
 
 @pytest.mark.parametrize("event", FAULTS, **NAMED)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from drillctl.execution.axis import Motion
+from drillctl.execution.axis import AxisMotion
 from drillctl.kmd import Fault, Op
 from drillctl.machine import travel_ticks
 from tests.support.bench import MACHINES, Bench, shipped
@@ -119,8 +119,8 @@ def test_nothing_that_the_card_shows_after_the_latch_is_seen_in_that_tick() -> N
     b.until(lambda: bool(b.card.plant.inputs & b.input_bit("z_bottom")))
     z = b.m.axes[2]
     at_edge = z.position
-    assert (z.motion == Motion.STOPPING, z.state) == (False, 3)
+    assert (z.motion == AxisMotion.STOPPING, z.state) == (False, 3)
     b.tick()
-    assert z.motion == Motion.STOPPING
+    assert z.motion == AxisMotion.STOPPING
     b.finish()
     assert z.position == at_edge + 3

@@ -3,13 +3,13 @@
     engine.py   looks at what waits in the queue, foresees as much of it as it can, and leaves the machine as if ticked
     batch.py   commands that were foreseen: ticks, holes, inputs; and what each axis puts out, as tapes
     axis_batch.py  where one axis is before and after each command
-    profile.py   moves of one axis in one direction: ticks by distance, and the strips of images
+    move_profile.py  moves of one axis in one direction: ticks by distance, and the strips of images
     strokes.py  what ends on a sensor: run by tick once, then known
     plan.py     how many of the commands that wait can be foreseen
     world.py    what the engine must know of the plant
 
 Rule: tick is the law. Nothing is decided here: what can't be foreseen to the byte (homing, faults, requests, a sensor
-in the way) is left to tick, and it finds the machine as if it had ticked all along. ImagePool and tapes are those of
+in the way) is left to tick, and it finds the machine as if it had ticked all along. Image pool and tapes are those of
 trace/tapes.
 """
 

@@ -1,7 +1,7 @@
 """Where one axis is before and after each of many commands, and what it puts out meanwhile.
 
 Rule: an axis that nobody sends anywhere rests, its forcing off; one that is sent moves at once and then rests until the
-command ends. Made by engine.py for every axis; strokes that end on a sensor are laid over it by batch.py.
+command ends. Strokes that end on a sensor are not in it: batch.py has them.
 """
 
 from collections.abc import Callable
@@ -98,8 +98,8 @@ class AxisBatch:
         way = np.sign(self.steps[rows])[:, None]
         column = (self.column[rows][:, None] + way * self.axis.direction_sign * columns) % self.axis.length
         position = self.position[rows][:, None] + way * made
-        told = (starts[rows][:, None] + ticks, column, position, np.broadcast_to(states, column.shape))
-        return np.stack([each.ravel() for each in told])
+        moved = (starts[rows][:, None] + ticks, column, position, np.broadcast_to(states, column.shape))
+        return np.stack([each.ravel() for each in moved])
 
     def _rests(self, pool: ImagePool) -> tuple[Count, Count]:
         """Where the image lies that stands before a command's first column, and after its last one: (n,) each."""

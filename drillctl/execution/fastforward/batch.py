@@ -135,8 +135,8 @@ class Batch:
                 for head, place in zip(self.stroked.heads, head_places, strict=True):
                     places[head] = np.full(len(rows), place)
                 by_row = zip(*(each.tolist() for each in places if each is not None), strict=True)
-                told = zip(begins, tools, holes, by_row, strict=True)
-                found += [(begin + offset, (tool, hole, where)) for begin, tool, hole, where in told]
+                touched = zip(begins, tools, holes, by_row, strict=True)
+                found += [(begin + offset, (tool, hole, where)) for begin, tool, hole, where in touched]
         found.sort(key=lambda touch: touch[0])
         return [touch for _, touch in found]
 

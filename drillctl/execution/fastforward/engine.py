@@ -1,7 +1,7 @@
 """Takes the machine through commands that can be foreseen, and leaves it as if it had ticked through them.
 
-Rule: the caller takes the commands out of the queue, and lets tick do what ``batch`` doesn't. A stroke of the heads
-that tick does for the first time is recorded.
+Rule: the caller takes the commands out of the queue, and lets tick do what ``foresee`` doesn't have. A stroke of the
+heads that tick does for the first time is recorded.
 """
 
 import numpy as np
@@ -87,7 +87,7 @@ class Engine:
             m.image |= axis.bits
 
     def recording(self, command: NDArray[np.void]) -> Recording | None:
-        """To be told of the ticks of a command, dtype RECORD (1,), where it is a stroke of the heads alone."""
+        """Returns what notes the ticks of a command, dtype RECORD (1,), if it is a stroke of the heads alone."""
         if not (self._m.position_known and is_stroke(command, self._strokes.heads).all()):
             return None
         return Recording(self._m, self._world, self._strokes, signatures(command)[0])

@@ -2,7 +2,7 @@
 
 Rule: the ramp's own walk says the intervals; beyond the distance from which head and tail of a move don't touch, one
 step more is one cruising step more in its middle. So a move is three slices of the pool: head, cruise, tail, for every
-column that it may begin at. Made by axis_batch.py, once for each axis, direction and least interval that a job has.
+column that it may begin at. There is one for each axis, direction and least interval that a job has.
 """
 
 import numpy as np

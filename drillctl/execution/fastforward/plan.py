@@ -1,7 +1,7 @@
 """How many of the commands that wait can be foreseen, and what batch they make.
 
 Rule: all are judged at once. The batch ends before a command that is of another kind, or would be refused, or moves an
-axis to where a sensor answers, or is a stroke that nobody has seen yet. Called by engine.py.
+axis to where a sensor answers, or is a stroke that nobody has seen yet.
 """
 
 from collections.abc import Callable, Sequence
@@ -109,7 +109,7 @@ def _clear(m: Controller, world: PlantFacts, index: int, axis_batch: AxisBatch) 
 
 
 def _in_reach(axis: Axis, axis_batch: AxisBatch) -> Rows:
-    """Axis.in_reach for every command."""
+    """Says for every command what Axis.in_reach says for one."""
     (low, high), before, target = axis.reach, axis_batch.position[:-1], axis_batch.position[1:]
     within: Rows = (np.minimum(low, before) <= target) & (target <= np.maximum(high, before))
     return within

@@ -30,7 +30,7 @@ class Stroke:
     touches  (tick, place of each head in steps) where the bit met the board
     motions  by head: tick and MOTION, changes only
     grown    by head, what it adds to the COUNTERS
-    last     by head, its Motion in the last tick, in which its forcing may still be on, and its bits then
+    last     by head, its AxisMotion in the last tick, in which its forcing may still be on, and its bits then
     after    the place it ends at
     """
 
