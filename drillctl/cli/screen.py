@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class ScreenError(Exception):
-    """There is no terminal to draw on."""
+    """The screen can't be shown: there is no terminal to draw on."""
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -23,7 +23,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 
 def add_options(verb: argparse.ArgumentParser) -> None:
-    """Which machine, how it is run, how it is drawn."""
+    """Adds the options of the verbs that show the screen: machine, port and pace, language, theme."""
     options.add_machine(verb)
     options.add_running(verb)
     options.add_tools(verb, "ask on a real port, and where the machine's file says MANUAL")
@@ -34,13 +34,13 @@ def add_options(verb: argparse.ArgumentParser) -> None:
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """Until the operator leaves."""
+    """Shows the screen until the operator leaves; returns the exit code."""
     check_terminal()
     return work(arguments)
 
 
 def check_terminal() -> None:
-    """Raises ScreenError where there is none."""
+    """Raises ScreenError where standard input or output is no terminal."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise ScreenError("the screen needs a terminal; for a pipe or a script there are verbs: drillctl --help")
 
@@ -95,7 +95,7 @@ class EditorScreens:
         self._library, self._console, self._plain, self._run = library, console, plain, run
 
     def makers(self) -> "dict[str, Maker]":
-        """By name."""
+        """The makers of the screens that every machine has, by the names that the menus use."""
         return {
             "phase_editor": self._tables("phase"),
             "ramp_editor": self._tables("ramp"),

@@ -1,7 +1,7 @@
 """What the machine says unasked, wherever the operator is: faults, and the tool that a job waits for.
 
 Rule: each is told once; a box whose matter is settled otherwise goes by itself. The first button of a question changes
-nothing, so that an Enter meant for something else moves nothing. Used by app.py at every turn.
+nothing, so that an Enter meant for something else moves nothing.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ from drillctl.viewmodel.records import FaultReport
 
 
 class Alerts:
-    """The boxes over whatever screen is on top."""
+    """Opens and closes the boxes on faults, tool changes and mode REAL, over whatever screen is on top."""
 
     def __init__(self, console: Console, layers: Layers):
         self._console, self._layers = console, layers
@@ -28,7 +28,7 @@ class Alerts:
         self._real_shown = ""
 
     def show(self, view: MachineView) -> None:
-        """What is new in the view; the fault last, so that it lies on top."""
+        """Opens a box for what is new in the view. The fault comes last, so that it lies on top."""
         self._show_tool(view.tool_wanted)
         self._show_real(view)
         fault = view.fault if view.condition != "returning" else None
@@ -87,7 +87,7 @@ def _fault_title(fault: FaultReport) -> str:
 
 
 def _fault_lines(fault: FaultReport, was_known: bool) -> list[str]:
-    """A position that was not known can't have been lost."""
+    """The text of a fault's box. ``was_known``: the position was known before it, so it can have been lost."""
     lost = _("position lost: initialise again") if was_known else _("position not known: initialise")
     position = _("position kept") if fault.position == "kept" else lost
     return [_("Cause: ") + _(fault.cause), "", _("Remedy: ") + _(fault.remedy), "", position]

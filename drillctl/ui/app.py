@@ -1,7 +1,7 @@
 """The program on the screen: one loop that lets the machine's news in, shows them, and hands keys to whom they concern.
 
 Rule: the emergency stop is looked for before any widget sees a key, so it works in dialogs, menus and fields. Nothing
-here blocks. Made and run by the screen verb, which closes the console on every way out.
+here blocks.
 """
 
 import sys
@@ -67,7 +67,7 @@ class App(Boxes):
         self.loop.run()
 
     def turn(self) -> None:
-        """The machine's news in, and what changed on the screen."""
+        """Lets the console get on for a moment, then redraws what changed in the machine."""
         began_s, for_s = time.monotonic(), TURNING_S
         while time.monotonic() < began_s + for_s:
             for_s = FREE_TURNING_S if self._console.turn() else TURNING_S
@@ -78,7 +78,7 @@ class App(Boxes):
         self._alerts.show(view)
 
     def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
-        """Before any widget: the emergency stop, and a new size of the terminal."""
+        """Looks for the emergency stop and for a new size of the terminal before any widget sees the keys."""
         stops = {*EMERGENCY.names} - ({TYPED_STOP} if TYPED_STOP in keys and self._typing_at_rest() else set())
         if "window resize" in keys:
             self.layers.restack()
@@ -96,12 +96,12 @@ class App(Boxes):
         return called(self, FRAME_KEYS, pressed)
 
     def open(self, screen: urwid.Widget) -> None:
-        """See Shell. A screen that is open already comes to the top."""
+        """Puts a screen on top; one that is open already comes to the top."""
         self.screens = [other for other in self.screens if other is not screen] + [screen]
         self._refresh_top()
 
     def back(self) -> None:
-        """See Shell. The first screen is not closed: it goes to the bottom again."""
+        """Closes the screen on top. The first screen is not closed: it goes to the bottom again."""
         if len(self.screens) > 1:
             top = self.screens.pop()
             if top is self._first:
@@ -118,29 +118,29 @@ class App(Boxes):
         return screen
 
     def emergency_stop(self) -> None:
-        """At once."""
+        """Stops the machine immediately; the outputs go off."""
         self._console.emergency_stop()
 
     def menu(self) -> None:
-        """The first one drops."""
+        """Opens the first menu of the bar."""
         self._drop(0)
 
     def help(self) -> None:
-        """The keys that work here."""
+        """Shows the keys that work on the screen on top."""
         screen = self.screens[-1]
         self.message(_("Keys"), help_lines([*screen_keys(screen), *FRAME_KEYS]))
 
     def notices(self) -> None:
-        """What the second line has no room for."""
+        """Shows all notices of the machine; the line on the machine has room for the last one only."""
         notices = self._console.view().notices
         self.message(_("Notices"), [translated(notice) for notice in notices] or [_("There is nothing to be said.")])
 
     def about(self) -> None:
-        """What this is."""
+        """Says what the program is."""
         self.message(_("About"), [_("drillctl drives and simulates stepper-motor drilling machines.")])
 
     def leave(self) -> None:
-        """At once from a machine at rest with nothing unsaved, else after a question."""
+        """Ends the program; asks first if the machine is at work or something is not saved."""
         view = self._console.view()
         reasons = [_("The machine is at work. Stop it and leave?")] if view.moving or view.at_work else []
         lost = {_(getattr(screen, "title", "")) for screen in [*self.screens, *self._made.values()] if unsaved(screen)}
@@ -152,17 +152,17 @@ class App(Boxes):
             _leave()
 
     def set_theme(self, theme: str) -> None:
-        """Another look."""
+        """Changes the colours to those of another theme."""
         self.loop.screen.register_palette(palette(theme))
         self.loop.screen.clear()
 
     def choose_machine(self) -> None:
-        """A menu of those there are."""
+        """Opens a menu of the machines that can be chosen."""
         items = [Item(name, "", "take_machine", name) for name, _description in self._console.machines()]
         self._pull(items, len(_("Machine")), 2)
 
     def take_machine(self, name: str) -> None:
-        """Another machine, from its start position."""
+        """Changes to another machine, at its start position, and to the screens of its family."""
         if problems := self._console.choose_machine(name):
             self.message(_("Refused"), [translated(problem) for problem in problems])
             return
@@ -180,13 +180,13 @@ class App(Boxes):
         self.frame.bar.show(family.menus)
 
     def _typing_at_rest(self) -> bool:
-        """A text field has the cursor, and nothing moves or is going to."""
+        """Whether a text field has the cursor while nothing moves or waits to be executed."""
         view = self._console.view()
         idle = not (view.moving or view.command or view.queued)
         return idle and self.layers.typing
 
     def _beat(self, loop: urwid.MainLoop, _data: object = None) -> None:
-        """The next one is due a beat after this one, not after its work."""
+        """Runs one turn of the loop; the next one is due a beat after this one began."""
         if self._interrupts:
             raise KeyboardInterrupt(self._interrupts[0])
         loop.set_alarm_in(BEAT_S, self._beat)
@@ -211,7 +211,7 @@ class App(Boxes):
         return row == 0 and self._drop(self.frame.bar.at(column))
 
     def _drop(self, index: int | None) -> bool:
-        """A menu of the bar, in place of any that is open."""
+        """Opens a menu of the bar in place of any that is open; False for no menu."""
         if index is None:
             return False
         self.layers.close_menus()
@@ -227,7 +227,7 @@ class App(Boxes):
     def _pull(
         self, items: Sequence[Item], left: int, top: int, sideways: Callable[[int], None] = lambda by: None
     ) -> None:
-        """A box of entries at a place; a further one lies a little below and to the right."""
+        """Opens a box of entries at a place; a further box lies a little below it and to the right."""
 
         def chosen(item: Item) -> None:
             if item.items:

@@ -55,29 +55,29 @@ class MenuBar(Text):
 
 
 class KeyLine(urwid.Widget):
-    """The keys with a short word, in as many lines as they need."""
+    """Shows the keys that have a short word, in as many lines as they need."""
 
     _sizing = frozenset([urwid.Sizing.FLOW])
     keys: Sequence[Key] = ()
 
     def show(self, keys: Sequence[Key]) -> None:
-        """Another screen's keys."""
+        """Replaces the keys by those of another screen."""
         self.keys = keys
         self._invalidate()
 
     def rows(self, size: tuple[int], focus: bool = False) -> int:
-        """By the width."""
+        """How many lines the keys need in this width."""
         return len(packed(key_parts(self.keys), size[0]))
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """All of them."""
+        """Draws the keys, as many a line as fit."""
         assert len(size) == 1
         lines = packed(key_parts(self.keys), size[0])
         return boxed(lines, size[0], len(lines))
 
 
 class MainFrame(urwid.Frame[Any, Any, Any]):
-    """Bar and machine above, a screen between, keys below."""
+    """The menu bar and the line on the machine above, a screen in the middle, the keys below."""
 
     def __init__(self) -> None:
         self.bar = MenuBar()
@@ -88,13 +88,13 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         super().__init__(urwid.SolidFill(), header=header, footer=self._keys)
 
     def show_screen(self, screen: urwid.Widget, lowest: bool = True) -> None:
-        """Another screen between, its keys below; from the ``lowest`` there is no way back."""
+        """Shows another screen and its keys. ``lowest``: no screen is below it, so Esc leads nowhere."""
         self.body = screen
         frame_keys = [key for key in FRAME_KEYS if key is not EMERGENCY and not (lowest and key.method == "back")]
         self._keys.show([EMERGENCY, *screen_keys(screen), *frame_keys])
 
     def show_machine(self, view: MachineView) -> None:
-        """The line on the machine."""
+        """Draws the line on the machine: condition, position, newest notice."""
         attribute, word = CONDITIONS[view.condition]
         if view.paused:
             attribute, word = PAUSED
@@ -113,5 +113,5 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
 
 
 def screen_keys(screen: urwid.Widget) -> Sequence[Key]:
-    """A screen's own table, where it has one."""
+    """The key table of a screen; an empty one for a screen without keys."""
     return getattr(screen, "keys", ())

@@ -1,7 +1,7 @@
 """The boxes over the frame: dialogs and menus, each over the ones before it.
 
 Rule: only the topmost gets keys. Where a box lies is worked out anew whenever one comes, goes, or the terminal's size
-changes. Used by app.py.
+changes.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,7 +33,7 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
 
     @property
     def top(self) -> urwid.Widget | None:
-        """The box that gets the keys; None where the screen does."""
+        """The box that gets the keys; None where the screen gets them."""
         return self._layers[-1].box if self._layers else None
 
     @property
@@ -45,30 +45,30 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         return widget is not None
 
     def push_dialog(self, dialog: dialogs.Dialog) -> None:
-        """In the middle."""
+        """Lays a dialog over everything, in the middle of the terminal."""
         self._push(Layer(dialog, lambda below, columns, rows: dialogs.over(dialog, below, columns, rows)))
 
     def push_menu(self, box: PullDown, left: int, top: int) -> None:
-        """With its corner here, as far as the terminal allows."""
+        """Lays a menu over everything, its corner at this place as far as the terminal has room."""
         self._push(Layer(box, lambda below, columns, rows: _placed(box, below, left, top, columns, rows)))
 
     def pop(self) -> None:
-        """Takes the topmost away."""
+        """Takes the topmost box away."""
         del self._layers[-1:]
         self.restack()
 
     def drop(self, box: urwid.Widget) -> None:
-        """Takes a box away wherever it lies; one that is gone already is none."""
+        """Takes a box away wherever it lies; does nothing if it is gone already."""
         self._layers = [layer for layer in self._layers if layer.box is not box]
         self.restack()
 
     def close_menus(self) -> None:
-        """Dialogs stay."""
+        """Takes all menus away; dialogs stay."""
         self._layers = [layer for layer in self._layers if not isinstance(layer.box, PullDown)]
         self.restack()
 
     def restack(self) -> None:
-        """Every layer over the ones below, for the terminal as it is now."""
+        """Lays every box over the ones below it anew, for the present size of the terminal."""
         widget = self._base
         for layer in self._layers:
             widget = layer.over(widget, *self._size())
@@ -80,7 +80,7 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
 
 
 def _within(widget: urwid.Widget) -> urwid.Widget | None:
-    """What of a widget has the focus, one layer deeper; None at the bottom."""
+    """The widget inside another one that has the focus; None at the innermost."""
     if isinstance(widget, urwid.WidgetWrap):
         return widget._w
     if isinstance(widget, urwid.WidgetDecoration):
@@ -89,38 +89,38 @@ def _within(widget: urwid.Widget) -> urwid.Widget | None:
 
 
 def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: int, rows: int) -> urwid.Widget:
-    """Within the terminal, whatever its size."""
+    """Lays a menu over what is below it, moved to the left so far that it is within the terminal."""
     width, height = min(box.columns, columns), min(box.rows_wanted, rows - top)
     shifted = max(0, min(left, columns - width))
     return urwid.Overlay(box, below, "left", width, "top", height, left=shifted, top=top)
 
 
 class Boxes:
-    """Lays its boxes on ``layers``."""
+    """The part of a Shell that opens dialogs: lays them on ``layers``."""
 
     def __init__(self, layers: Layers):
         self.layers = layers
 
     def message(self, title: str, lines: Sequence[str]) -> None:
-        """See Shell."""
+        """Opens a dialog that tells something."""
         self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop))
 
     def ask(self, question: str, yes: Callable[[], None]) -> None:
-        """See Shell."""
+        """Opens a dialog of yes and no."""
         self.layers.push_dialog(dialogs.question(question, yes, self.layers.pop))
 
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
-        """See Shell."""
+        """Opens a dialog with a line to type in."""
         self.layers.push_dialog(dialogs.entry(title, prompt, text, accept, self.layers.pop))
 
     def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
-        """See Shell."""
+        """Opens a dialog with several lines to type in."""
         self.layers.push_dialog(FieldsDialog(title, fields, accept, self.layers.pop))
 
     def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
-        """See Shell."""
+        """Opens a dialog with lines of which one is chosen."""
         self.layers.push_dialog(ChoiceDialog(title, lines, chosen, self.layers.pop))
 
     def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
-        """See Shell."""
+        """Opens a dialog with several buttons, the first of which does nothing."""
         self.layers.push_dialog(offer(title, lines, ways, self.layers.pop))

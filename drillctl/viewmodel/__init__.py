@@ -1,10 +1,13 @@
-"""The door between what a person sees and generation: progress and outcome up, with words for every code.
+"""The door of layer 1: what a person may see and ask, as records and protocols, with words for every fault code.
 
-    records.py   Estimate before a job, Progress while it runs, Outcome when it is over
-    jobs.py      what is asked of a board; recent and unfinished jobs
-    manual_control.py  signals, outputs by hand, single ticks    ports.py  the port in use and a test of it
-    fault_texts.py     cause and remedy of every fault
-    latency.py   LatencyReport: how punctual ticks are here
+    console.py     the machine and the board: MachineView, and the Console that screens ask
+    jobs.py        what is asked of a board; recent and unfinished jobs
+    records.py     Estimate before a job, Progress while it runs, Outcome when it is over
+    tables.py      tables and queues as their editors see them
+    signals.py     signals, outputs by hand, single ticks; the port and a test of it
+    scope.py       runs as the scope sees them
+    reports.py     how punctual ticks are here; pictures of numbers
+    fault_texts.py cause and remedy of every fault
 
 Rule: a screen is a function of these records. May import kmd (for its codes) only.
 """

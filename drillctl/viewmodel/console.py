@@ -75,7 +75,7 @@ class MachineView:
 
 @dataclass(frozen=True, slots=True)
 class ToolView:
-    """A tool of the board: number, diameter, holes."""
+    """A tool of the board: its number, diameter, and how many holes it drills."""
 
     number: int
     diameter_mm: float | None
@@ -107,39 +107,37 @@ class Console(Protocol):
     """The operator's desk, as screens use it. ``turn`` is called some twenty times a second."""
 
     def turn(self) -> bool:
-        """Lets the machine's news in: call it often; it returns at once. True: at work, and bound by no clock, it gets
-        on as often as it is called.
-        """
+        """Lets the machine's news in; returns at once. True: a machine that runs free is at work, so call again."""
 
     def view(self) -> MachineView:
-        """The machine now."""
+        """The machine as it is now."""
 
     def board(self) -> BoardView | None:
-        """The board that is loaded."""
+        """The board that is loaded; None for none."""
 
     def progress(self) -> Progress | None:
-        """The job that runs, or ran last."""
+        """The progress of the job that runs, or ran last; None before the first."""
 
     def machines(self) -> Sequence[tuple[str, str]]:
         """Name and description of every machine that can be chosen."""
 
     def choose_machine(self, name: str) -> Problems:
-        """Another machine, from its start position. Refused while something moves."""
+        """Changes to another machine, at its start position. Refused while something moves."""
 
     def go_real(self) -> Problems:
-        """The machine on the port that its file asks for. Refused while something moves."""
+        """Changes to the machine on the port that its file asks for. Refused while something moves."""
 
     def load(self, file: str, options: Asked) -> Problems:
         """Reads a drill file and plans it. Refused with its reasons; the board loaded before then stays."""
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
-        """What measured holes say of where the board lies; nothing is changed."""
+        """What measured holes say about where the board lies; changes nothing."""
 
     def recent(self) -> Sequence[RecentJob]:
         """The drill files opened last, with their settings; the newest first."""
 
     def unfinished(self) -> Sequence[UnfinishedJob]:
-        """Jobs that were cut off, the newest first. Looks on the disk."""
+        """Jobs that were interrupted, the newest first. Reads their journals from the disk."""
 
     def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
         """Initialises, goes to the same base and drills what is left. Refused where anything is not the same;
@@ -147,13 +145,13 @@ class Console(Protocol):
         """
 
     def give_up(self, journal: str) -> Problems:
-        """An unfinished job is not gone on with: its journal goes."""
+        """Gives an unfinished job up for good: its journal is removed."""
 
     def start(self, dry: bool) -> Problems:
-        """Drills the board; ``dry``: goes to every hole with the drill up."""
+        """Drills the board; ``dry``: goes to every hole with the drill raised."""
 
     def run_queue(self, text: str) -> Problems:
-        """Runs KMD commands."""
+        """Runs a queue of KMD commands, given as text."""
 
     def set_tick_hz(self, hz: int) -> Problems:
         """So many ticks a second, at rest; the position stays. ``view`` has the rate in force. Refused where the port
@@ -161,7 +159,7 @@ class Console(Protocol):
         """
 
     def initialise(self) -> Problems:
-        """Head up, then X=0, Y=0 by the limit sensors."""
+        """Raises the head, then moves to X=0, Y=0 by the limit sensors."""
 
     def jog(self, axis: str, steps: int) -> Problems:
         """So many steps from here, with ramps; one further step waits. Asked as fast as a key held down repeats, it
@@ -169,28 +167,28 @@ class Console(Protocol):
         """
 
     def go_to(self, x_mm: float, y_mm: float) -> Problems:
-        """To a place from the working base, the drill up."""
+        """Moves to a place in mm from the working base, the drill raised."""
 
     def set_base(self) -> Problems:
-        """This place is the working base."""
+        """Takes the position as the working base."""
 
     def tool_changed(self) -> Problems:
-        """The tool that the job waits for is in."""
+        """Confirms that the tool the job waits for is in."""
 
     def hold(self) -> Problems:
-        """Brakes; the job stays."""
+        """Brakes the machine; the job can be resumed."""
 
     def resume(self) -> Problems:
-        """Goes on after a hold."""
+        """Resumes the job after a hold."""
 
     def stop(self) -> Problems:
         """Ends the job; the position is kept."""
 
     def emergency_stop(self) -> Problems:
-        """At once. Never refused."""
+        """Stops the machine immediately, in mid-step, and switches the outputs off. Never refused."""
 
     def acknowledge(self) -> Problems:
-        """The operator has seen the fault."""
+        """Acknowledges the fault, so that the machine can be used again."""
 
     def close(self) -> None:
-        """The outputs are safe, and everything that was started has ended."""
+        """Makes the outputs safe and ends every process that was started."""

@@ -29,7 +29,7 @@ class FaultReport:
     position: str  # "kept" or "lost"
 
     def as_dict(self) -> dict[str, Any]:
-        """As it stands in JSON."""
+        """The fault as an object of the JSON output."""
         return asdict(self)
 
 
@@ -54,7 +54,7 @@ class Outcome:
 
     @property
     def machine_seconds(self) -> float:
-        """Machine time of the ticks run."""
+        """The machine time of the ticks that were run, in seconds."""
         return self.ticks / self.tick_hz
 
     def as_dict(self) -> dict[str, Any]:

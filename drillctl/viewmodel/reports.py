@@ -1,4 +1,7 @@
-"""How punctual a computer is, for a person: made by the lab, drawn by ui, printed as JSON. Microseconds throughout."""
+"""Reports as data, drawn by ui and printed as JSON: how punctual a computer is (microseconds), and pictures of numbers.
+
+Rule: a picture is data. A curve breaks where a value is not a number.
+"""
 
 from dataclasses import asdict, dataclass
 from enum import Enum
@@ -30,7 +33,7 @@ class Bar:
 
 @dataclass(frozen=True, slots=True)
 class Grade:
-    """``A`` to ``E``, what that is good for, and what to do about it."""
+    """A grade from ``A`` to ``E``, what a computer of this grade is good for, and what to do about it."""
 
     letter: str
     good_for: str
@@ -67,7 +70,7 @@ class LatencyReport:
 
     @property
     def period_us(self) -> float:
-        """Of a tick."""
+        """The period of a tick, in microseconds."""
         return 1e6 / self.tick_hz
 
     def as_dict(self) -> dict[str, Any]:
@@ -88,7 +91,7 @@ class Style(Enum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Curve:
-    """Points (n,), (n,) with a name for the legend."""
+    """A curve through points (n,), (n,), with a name for the legend."""
 
     label: str
     x: Floats
@@ -116,7 +119,7 @@ class Chart:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
-    """Charts one below the other, and what they show in sentences."""
+    """Charts one below the other, and sentences that say what they show."""
 
     title: str
     charts: tuple[Chart, ...]

@@ -71,7 +71,7 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """What a run lacks, and the number or reason that belongs to it."""
+    """Something that a run lacks, and the number or reason that belongs to it."""
 
     lack: Lack
     value: int | str = ""
@@ -82,35 +82,35 @@ class ScopeSource(Protocol):
 
     @property
     def name(self) -> str:
-        """What it is a run of."""
+        """The name of the machine or of the file."""
 
     @property
     def tick_hz(self) -> int:
-        """Ticks a second."""
+        """The tick rate, in ticks a second."""
 
     @property
     def first_tick(self) -> int:
-        """The earliest that is kept."""
+        """The earliest tick that is kept."""
 
     @property
     def last_tick(self) -> int:
-        """The latest; below ``first_tick`` while nothing has run."""
+        """The latest tick; below ``first_tick`` while nothing has run."""
 
     @property
     def opening_tick(self) -> int:
-        """Where a finished run is looked at first."""
+        """The tick at which a finished run is opened."""
 
     def turn(self) -> None:
-        """Lets what is new in; returns soon."""
+        """Reads what is new in the run; returns soon."""
 
     def notices(self) -> Sequence[Notice]:
-        """What is missing, and why."""
+        """What the run lacks, and why."""
 
     def signals(self) -> Sequence[ScopeSignal]:
         """The lanes from top to bottom; always the same ones."""
 
     def shown(self, signal: int, value: int, tick: int) -> str:
-        """A value as people read it, which the signal has in a tick."""
+        """The text for a value that the signal has in a tick."""
 
     def known_to(self, signal: int) -> int:
         """The first tick for which the signal is not known, or not yet."""
@@ -122,7 +122,7 @@ class ScopeSource(Protocol):
         """The stretches between rising ``edges``, (n+1,): as quick for a whole run as for a moment of it."""
 
     def at(self, tick: int) -> Moment:
-        """The machine at a tick, without running up to it."""
+        """The machine at a tick, found without running up to it."""
 
     def find(self, what: Find, tick: int, direction: int, signal: int) -> int | None:
         """The nearest tick after (or before) ``tick`` with such an event: ``change`` is one of the signal; ``step`` is
@@ -130,10 +130,10 @@ class ScopeSource(Protocol):
 
 
 class RunOpening(Protocol):
-    """Runs that can be looked at."""
+    """Opens runs for the scope."""
 
     def running(self) -> ScopeSource:
-        """The run of the machine at hand, from when it was chosen."""
+        """The run of the machine at hand, since it was chosen."""
 
     def open_trace(self, file: str) -> tuple[ScopeSource | None, Problems]:
-        """The run in a file, or why it can't be read."""
+        """The run in a trace file; None and the reason where it can't be read."""

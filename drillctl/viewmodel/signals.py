@@ -1,7 +1,7 @@
-"""What is done by hand on a running machine: every signal seen live, outputs set one by one, ticks let through singly.
+"""What can be done by hand on a running machine: signals seen live, outputs set singly, single ticks; its port tested.
 
-Rule: as console.py has it: nothing raises for what a person did, and asking never blocks. What changes the machine goes
-down as a request.
+Rule: as console.py has it: nothing raises for what a person did, and asking never blocks, but for a test of the port,
+which takes seconds and moves nothing. What changes the machine goes down as a request.
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ class SignalView:
 
     @property
     def on(self) -> bool:
-        """Whether it is active."""
+        """Whether the signal is active."""
         return self.level == self.active_level
 
     @property
@@ -44,25 +44,25 @@ class SignalView:
 
 
 class ManualControl(Protocol):
-    """The machine under a person's hands."""
+    """Control of a running machine by hand: signals, single outputs, single ticks."""
 
     def signals(self) -> Sequence[SignalView]:
-        """All of them: inputs, then outputs, then the coils axis by axis."""
+        """All signals: inputs, then outputs, then the coils axis by axis."""
 
     def real_port(self) -> str:
-        """The port, where a real machine hangs on it; empty for a simulated one."""
+        """The name of the port if a real machine is on it; empty for a simulated one."""
 
     def set_output(self, bit: int, on: bool) -> Problems:
-        """An output or a coil's wire, at rest and outside a job. A coil's costs the position."""
+        """Switches an output or a coil's wire, at rest and outside a job. A coil's costs the position."""
 
     def run_paused(self, text: str) -> Problems:
-        """Begins a queue of commands with the clock stopped: its ticks come as they are asked for."""
+        """Begins a queue of commands with the clock stopped; ``tick`` and ``go`` let it run."""
 
     def tick(self, ticks: int) -> Problems:
-        """So many ticks of what runs, then the clock waits. Refused where nothing runs."""
+        """Runs so many ticks, then stops the clock. Refused where nothing runs."""
 
     def go(self) -> Problems:
-        """The clock goes on by itself. Refused where it does."""
+        """Starts the clock again. Refused where it runs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,16 +91,16 @@ class PortView:
 
 
 class PortControl(Protocol):
-    """The port of the machine in use."""
+    """The port of the machine in use, and the change to another one."""
 
     def port(self) -> PortView:
-        """Which is in use, which is configured."""
+        """The port in use, and the configured one."""
 
     def test(self) -> PortReport:
-        """Opens the configured port, asks it, gives it back; the one in use is asked as it stands. Takes its time."""
+        """Opens the configured port, asks it and closes it; a port in use is asked as it is. Takes seconds."""
 
     def go_real(self) -> Problems:
         """Drives the machine on the configured port. Refused while something moves; then nothing changes."""
 
     def go_simulated(self) -> Problems:
-        """Back to the simulated machine."""
+        """Changes back to the simulated machine."""

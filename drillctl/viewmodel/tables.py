@@ -1,4 +1,4 @@
-"""What the table editors may see and ask: tables as text, and what can be drawn of them.
+"""What the editors of tables and queues may see and ask: texts, what is wrong with them, what can be drawn of them.
 
 Rule: as console.py has it: nothing raises for what a person did. A table is its text; an edit is a new text, and
 nothing reaches a file before ``save`` has found it sound. Edits go to the user's own folder, never to the shipped one.
@@ -42,7 +42,7 @@ class TextFinding:
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """Problems forbid saving; warnings are for a valid but dangerous table."""
+    """What a check found. Problems forbid saving; warnings are for a valid but dangerous table."""
 
     problems: tuple[TextFinding, ...] = ()
     warnings: tuple[TextFinding, ...] = ()
@@ -100,22 +100,22 @@ class TableEditing(Protocol):
         """The text that is in force; empty where the file can't be read, which ``check`` then tells."""
 
     def check(self, kind: TableKind, text: str) -> Checked:
-        """What is wrong, and what is dangerous."""
+        """Problems and warnings of a text."""
 
     def save(self, kind: TableKind, name: str, text: str) -> Problems:
-        """To the user's own copy, whole or not at all; an invalid text is refused."""
+        """Saves to the user's own copy, whole or not at all; an invalid text is refused."""
 
     def reset(self, kind: TableKind, name: str) -> Problems:
-        """The user's copy goes; the shipped table is in force again."""
+        """Removes the user's copy; the shipped table is in force again."""
 
     def delete(self, kind: TableKind, name: str) -> Problems:
-        """A table of the user's own that does not come with the program goes for good."""
+        """Deletes a table of the user's own that does not come with the program, for good."""
 
     def diff(self, kind: TableKind, name: str, text: str) -> tuple[str, ...]:
         """The lines of a unified difference from the shipped table to this text; none where they are the same."""
 
     def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
-        """A table of the user's own, under a name that is free."""
+        """Copies a table to one of the user's own, under a name that is free."""
 
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
         """The wires of a phase table; none for a text that is no phase table."""
@@ -141,12 +141,12 @@ class TableEditing(Protocol):
         """The output bit of every motor's wire in a machine's text; none for a text that is no machine."""
 
     def with_field(self, text: str, place: FieldPath, typed: str) -> tuple[str, Problems]:
-        """The text with what was typed at a place, or unchanged with the reason."""
+        """The text with what was typed at a place; the same text and the reason where it can't be."""
 
 
 @dataclass(frozen=True, slots=True)
 class CommandHelp:
-    """A command: its name, how its arguments are written, what it does."""
+    """A command: its name, how its arguments are written, and what it does."""
 
     name: str
     usage: str
@@ -154,7 +154,7 @@ class CommandHelp:
 
 
 class QueueEditing(Protocol):
-    """Queues of commands as text."""
+    """Reads, checks and saves queues of commands as text."""
 
     def commands(self) -> Sequence[CommandHelp]:
         """All commands, in the order of the reference."""
@@ -172,4 +172,4 @@ class QueueEditing(Protocol):
         """The text of a file; empty, with the reason, where it can't be read."""
 
     def save_queue(self, file: str, text: str) -> Problems:
-        """To a file, whole or not at all."""
+        """Saves a queue to a file, whole or not at all."""

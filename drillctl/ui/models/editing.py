@@ -1,4 +1,7 @@
-"""Undo and redo of any value. Rule: a new state after an undo ends what could be redone. Used by every editor."""
+"""What text editors share: undo and redo of any value, and what Tab makes of a half-written command.
+
+Rule: a new state after an undo ends what could be redone; a completion looks at what is left of the cursor only.
+"""
 
 from collections.abc import Sequence
 from itertools import takewhile
@@ -18,22 +21,22 @@ class History(Generic[StateT]):
 
     @property
     def now(self) -> StateT:
-        """The state that is shown."""
+        """The state that is shown at present."""
         return self._states[self._at]
 
     def do(self, state: StateT) -> None:
-        """A new state; the same one again is no step. The oldest is forgotten when there are too many."""
+        """Adds a new state; the same state again is no step. The oldest is forgotten when there are too many."""
         if state == self.now:
             return
         self._states = [*self._states[: self._at + 1], state][-MOST_STATES:]
         self._at = len(self._states) - 1
 
     def undo(self) -> bool:
-        """One state back; False at the first one."""
+        """Goes one state back; False at the first one."""
         return self._move(-1)
 
     def redo(self) -> bool:
-        """One state forward again; False at the last one."""
+        """Goes one state forward again; False at the last one."""
         return self._move(1)
 
     def _move(self, by: int) -> bool:
@@ -60,13 +63,13 @@ def completed(before: str, commands: Sequence[CommandHelp], words: Sequence[str]
 
 
 def _beginning(names: Sequence[str]) -> str:
-    """As far as all agree."""
+    """The letters with which all the names begin."""
     alike = takewhile(lambda letters: len(set(letters)) == 1, zip(*names, strict=False))
     return "".join(letters[0] for letters in alike)
 
 
 def usage(line: str, commands: Sequence[CommandHelp]) -> str:
-    """How the command of a line is written and what it does; empty for none."""
+    """How the command of a line is written and what it does; an empty text for no command."""
     name = line.split(maxsplit=1)[:1]
     found = next((command for command in commands if [command.name] == name), None)
     return f"{found.name} {found.usage}".strip() + f": {found.meaning}" if found else ""

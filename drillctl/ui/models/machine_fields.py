@@ -1,6 +1,6 @@
-"""A machine's fields being typed over: which are changed, which can't be taken, and the text that they would make.
+"""The fields of a machine's file: how they are called, counted and explained, and what is typed over them.
 
-Rule: the text is sound in every field or it is not offered for saving. Used by the configuration screen.
+Rule: the new text is sound in every field or it is not offered for saving.
 """
 
 from collections.abc import Mapping
@@ -25,11 +25,11 @@ class ConfigurationDraft:
         return bool(self.typed)
 
     def shown(self, field: FieldView) -> str:
-        """What stands in a field on the screen."""
+        """What stands in a field on the screen: what was typed, else the file's value."""
         return self.typed.get(field.place, field.value)
 
     def type(self, field: FieldView, typed: str) -> None:
-        """A field's new content; the old one again is no change."""
+        """Takes a field's new content; the file's value typed again counts as no change."""
         if typed == field.value:
             self.typed.pop(field.place, None)
         else:
@@ -40,7 +40,7 @@ class ConfigurationDraft:
         return " ".join(self.refusal(field, self.typed[field.place])) if field.place in self.typed else ""
 
     def refusal(self, field: FieldView, typed: str) -> Problems:
-        """Why a field would not take this."""
+        """The reasons why a field would not take this text; none where it would."""
         return self._tables.with_field(self._text, field.place, typed)[1]
 
     def candidate(self) -> tuple[str, Problems]:
@@ -115,6 +115,6 @@ FIELD_WORDS: Mapping[FieldPath, FieldWords] = {
 
 
 def words_of(field: FieldView) -> FieldWords:
-    """The words of a field; one without any is called what the file calls it."""
+    """Label, unit and meaning of a field; a field that has none is labelled with its key in the file."""
     place = field.place[2:] if field.axis else field.place
     return FIELD_WORDS.get(place, FieldWords(str(place[-1]), "", ""))

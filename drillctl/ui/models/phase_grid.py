@@ -1,6 +1,8 @@
-"""A phase table as a grid of cells: wires down, columns across, rows for motion backwards below where there are any.
+"""A phase table as a grid of cells: wires down, columns across, rows for motion backwards below where there are any;
+and the bits that switch its wires, for each motor of a machine that uses it (paper, Table 1).
 
-Rule: a grid never changes; every operation gives another one. Used by the phase editor, which keeps their history.
+Rule: a grid never changes; every operation gives another one. In the text of a machine's file that new bits give, no
+two wires share a bit.
 """
 
 from collections.abc import Callable
@@ -48,7 +50,7 @@ class PhaseGrid:
         return (*forward, *back)
 
     def toggle(self, line: int, column: int) -> "PhaseGrid":
-        """The cell the other way; a cell that is not there stays so."""
+        """The grid with one cell turned over; the same grid for a cell that does not exist."""
         lines = self.lines
         if not 0 <= line < len(lines) or not 0 <= column < len(lines[line].pattern):
             return self
@@ -57,11 +59,11 @@ class PhaseGrid:
         return self._with(lines[line], f"{pattern[:column]}{other}{pattern[column + 1 :]}")
 
     def insert(self, column: int) -> "PhaseGrid":
-        """The column twice: the rotor is held there a tick longer, until its cells are toggled."""
+        """The grid with the column twice: the rotor is held there a tick longer, until its cells are toggled."""
         return self._each(lambda pattern: pattern[: column + 1] + pattern[column:])
 
     def remove(self, column: int) -> "PhaseGrid":
-        """Without the column; a table keeps two."""
+        """The grid without the column; the last two columns can't be removed."""
         if self.columns <= LEAST_COLUMNS:
             return self
         return self._each(lambda pattern: pattern[:column] + pattern[column + 1 :])
@@ -85,7 +87,7 @@ class PhaseGrid:
         )
 
     def without_reverse(self) -> "PhaseGrid":
-        """Motion backwards plays the same rows again."""
+        """The grid without rows for motion backwards: the forward rows are played backwards."""
         return PhaseGrid(tuple(replace(row, reverse=None) for row in self.rows))
 
     def _stretches(self, patterns: list[str]) -> list[list[int]]:
@@ -129,7 +131,7 @@ class WireBits:
         self.motors = tuple(field.axis for field in fields if field.place[-1] == "phase" and field.value == phase)
 
     def of(self, axis: str, wire: str) -> FieldView | None:
-        """A motor's wire; None where the machine has none of this name."""
+        """The field of a motor's wire; None where the machine has no wire of this name."""
         return self._wires.get(f"{axis}.{wire}")
 
     def taken_by(self, typed: str, wire: FieldView) -> FieldView | None:

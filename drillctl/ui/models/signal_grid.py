@@ -1,7 +1,6 @@
 """The signals of a machine as cells side by side, in sections, with a cursor; as many a line as there is room for.
 
-Rule: pure: from signals, cursor and width to lines. What is on stands in capitals, whatever its colour. Used by the
-signals screen.
+Rule: pure: from signals, cursor and width to lines. What is on stands in capitals, whatever its colour.
 """
 
 from collections.abc import Sequence
@@ -24,17 +23,17 @@ LEVELS = (N_("low"), N_("high"))
 
 
 def per_line(columns: int) -> int:
-    """Cells that fit side by side."""
+    """How many cells fit side by side into these columns."""
     return max(1, columns // CELL_COLUMNS)
 
 
 def section(signal: SignalView) -> tuple[str, str]:
-    """What stands together: a kind; of the coils, an axis."""
+    """The section that a signal belongs to: its kind, and for a coil its axis."""
     return (signal.kind, signal.name.partition(".")[0] if signal.kind == "coil" else "")
 
 
 def grid_rows(signals: Sequence[SignalView], columns: int) -> list[list[int]]:
-    """Places of the signals, line by line; a section begins a new one, headed by an empty one."""
+    """The indices of the signals, line by line. A section begins with an empty line for its heading."""
     rows: list[list[int]] = []
     width = per_line(columns)
     for _key, members in groupby(range(len(signals)), lambda place: section(signals[place])):
@@ -44,7 +43,7 @@ def grid_rows(signals: Sequence[SignalView], columns: int) -> list[list[int]]:
 
 
 def grid_lines(signals: Sequence[SignalView], cursor: int, columns: int) -> list[Line]:
-    """A line for each of ``grid_rows``; the empty ones become headings."""
+    """A line of text for each of ``grid_rows``; the empty ones become headings."""
     rows = grid_rows(signals, columns)
     lines: list[Line] = []
     for row, after in zip(rows, [*rows[1:], []], strict=True):
@@ -53,7 +52,7 @@ def grid_lines(signals: Sequence[SignalView], cursor: int, columns: int) -> list
 
 
 def moved(signals: Sequence[SignalView], cursor: int, columns: int, by: int) -> int:
-    """The cursor so many lines further down, in its column as far as the line goes; it stops at the ends."""
+    """The index under the cursor after moving it down by so many lines, in its column; it stops at the ends."""
     rows = [row for row in grid_rows(signals, columns) if row]
     at = next((number for number, row in enumerate(rows) if cursor in row), 0)
     if not rows or not 0 <= at + by < len(rows):
@@ -63,7 +62,7 @@ def moved(signals: Sequence[SignalView], cursor: int, columns: int, by: int) -> 
 
 
 def about(signal: SignalView) -> str:
-    """All about one signal, for the line below."""
+    """The line below the grid: name, bit, card and meaning of one signal."""
     card, bit = signal.card_and_bit
     place = _("{name}: bit {bit} of card {card}").format(name=signal.name, bit=bit, card=card)
     if signal.kind == "input":

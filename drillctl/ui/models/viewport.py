@@ -1,6 +1,6 @@
-"""Which ticks of a run are on the screen, at what zoom, and where the cursor is.
+"""Which ticks and which signals of a run are on the screen, at what zoom, and where cursor and bar are.
 
-Rule: a viewport never changes; every operation gives another one, within the run. Used by the scope screen.
+Rule: both values never change; every operation gives another one, within the run.
 """
 
 from collections.abc import Iterable
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 
 class Zoom(NamedTuple):
-    """So many ticks on so many columns; one of both is 1."""
+    """So many ticks on so many columns; one of the two is 1."""
 
     ticks: int
     columns: int
@@ -44,12 +44,12 @@ class Viewport:
 
     @property
     def span(self) -> int:
-        """Ticks that the columns have room for."""
+        """How many ticks the columns have room for."""
         return max(1, self.columns * self.zoom.ticks // self.zoom.columns)
 
     @property
     def shown(self) -> int:
-        """Columns that lie within the run; the ones beyond it stay empty."""
+        """How many columns lie within the run; the ones beyond it stay empty."""
         return min(self.columns, max(0, -((self.left - self.last - 1) * self.zoom.columns // self.zoom.ticks)))
 
     def edges(self) -> NDArray[np.int64]:
@@ -67,11 +67,11 @@ class Viewport:
         return self.left + column * self.zoom.ticks // self.zoom.columns
 
     def of_run(self, first: int, last: int) -> "Viewport":
-        """The run has grown, or lost its oldest part."""
+        """The viewport of a run that has grown, or has lost its oldest part."""
         return replace(self, first=first, last=last)._within()
 
     def sized(self, columns: int) -> "Viewport":
-        """Another width; the left edge stays where it can."""
+        """The viewport in another width; the left edge stays where it can."""
         return replace(self, columns=max(1, columns))._within()
 
     def go(self, tick: int) -> "Viewport":
@@ -82,11 +82,11 @@ class Viewport:
         return replace(there, left=there.cursor - there.span // 2)._within()
 
     def step(self, columns: int) -> "Viewport":
-        """The cursor on by so many columns, at least a tick."""
+        """The cursor moved by so many columns, at least by a tick."""
         return self.go(self.cursor + columns * max(1, self.zoom.ticks))
 
     def pan(self, by: int) -> "Viewport":
-        """Half a screen, cursor and all."""
+        """Cursor and left edge moved by half a screen; negative ``by`` moves to the left."""
         half = by * max(1, self.span // 2)
         return replace(self, left=self.left + half, cursor=self.cursor + half)._within()
 
@@ -98,7 +98,7 @@ class Viewport:
         return replace(other, left=self.cursor - column * other.zoom.ticks // other.zoom.columns)._within()
 
     def whole(self) -> "Viewport":
-        """All of the run."""
+        """The viewport that shows the whole run."""
         return replace(self, level=self._widest(), left=self.first)._within()
 
     def _widest(self) -> int:
@@ -108,7 +108,7 @@ class Viewport:
         return next(fits, len(ZOOMS) - 1)
 
     def _within(self) -> "Viewport":
-        """Cursor and left edge back into the run."""
+        """Cursor and left edge moved back into the run."""
         last = max(self.first, self.last)
         left = max(self.first, min(self.left, last + 1 - self.span))
         return replace(self, left=left, cursor=max(self.first, min(self.cursor, last)))
@@ -124,18 +124,18 @@ class SignalRows:
 
     @property
     def shown(self) -> list[int]:
-        """From top to bottom."""
+        """The rows that are not hidden, from top to bottom."""
         return [row for row in range(self.count) if row not in self.hidden]
 
     def move(self, by: int) -> "SignalRows":
-        """The bar, over what is shown; it stops at the ends."""
+        """The bar moved over the rows that are shown; it stops at the ends."""
         shown = self.shown
         if not shown:
             return self
         return replace(self, at=shown[max(0, min(shown.index(self.at) + by, len(shown) - 1))])
 
     def hide(self) -> "SignalRows":
-        """The row under the bar, which goes to the one below, or at the end above."""
+        """The row under the bar hidden; the bar goes to the row below, at the end to the one above."""
         if len(self.shown) < 2:
             return self
         below = self.move(1)
@@ -143,11 +143,11 @@ class SignalRows:
         return replace(self, hidden=self.hidden | {self.at}, at=next_at)
 
     def only(self, rows: Iterable[int]) -> "SignalRows":
-        """These and the one under the bar."""
+        """All rows hidden but these and the one under the bar."""
         return replace(self, hidden=frozenset(range(self.count)) - {*rows, self.at})
 
     def all(self) -> "SignalRows":
-        """Nothing is hidden."""
+        """No row hidden."""
         return replace(self, hidden=frozenset())
 
     def put(self, line: int, room: int) -> "SignalRows":
@@ -156,7 +156,7 @@ class SignalRows:
         return replace(self, at=window[line]) if 0 <= line < len(window) else self
 
     def window(self, room: int) -> list[int]:
-        """As many as there is room for, the bar in the middle where it can be."""
+        """The rows that are drawn: as many as there is room for, the bar in the middle where it can be."""
         shown = self.shown
         place = shown.index(self.at) if shown else 0
         top = max(0, min(place - room // 2, len(shown) - room))

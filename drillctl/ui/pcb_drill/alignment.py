@@ -1,8 +1,7 @@
 """Placing a board by holes measured on it: go or jog to each, say that this is the hole, see how well they agree.
 
 Rule: nothing is placed before F2, and not at all by holes that contradict each other; Esc leaves everything as it was.
-What is shown counts from the working base, as the operator does; what is kept counts from machine zero. Opened by
-files.py.
+What is shown counts from the working base, as the operator does; what is kept counts from machine zero.
 """
 
 from collections.abc import Callable
@@ -54,26 +53,26 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self.refresh(console.view())
 
     def selectable(self) -> bool:
-        """It takes keys although nothing in it does."""
+        """True: the screen takes keys although no widget in it does."""
         return True
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's; everything else is the frame's."""
+        """Calls the method of a key in the table; returns any other key for the frame."""
         return None if called(self, self.keys, key) else key
 
     def refresh(self, view: MachineView) -> None:
-        """Draws what changed."""
+        """Draws the holes, the verdict and the position anew."""
         lines = measuring_lines(self.measuring, self._at, base_mm(view.axes))
         self._paper.show([*lines, [], _here(view), self._bottom()])
 
     def go(self, by: int) -> None:
-        """Round and round."""
+        """Moves the cursor by so many holes; after the last comes the first."""
         if self.measuring.spots:
             self._at = (self._at + by) % len(self.measuring.spots)
         self._say("body", "")
 
     def go_there(self) -> None:
-        """The drill goes up first."""
+        """Moves the drill, raised first, over the place where the hole should be."""
         if not self.measuring.spots:
             return
         base = base_mm(self._console.view().axes)
@@ -83,7 +82,7 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.go_to(x_mm, y_mm), way)
 
     def found(self) -> None:
-        """Here; but only a machine that knows where it is and stands still can say where that is."""
+        """Takes the drill's position as the place of the hole, if it is known and the machine at rest."""
         view = self._console.view()
         if not view.position_known:
             self._say("warning", _("the position is not known: initialise first"))
@@ -94,24 +93,24 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
             self._find((x_mm, y_mm))
 
     def type_place(self) -> None:
-        """As measured otherwise."""
+        """Asks for the place of the hole, measured by other means."""
         if self.measuring.spots:
             prompt = _("X and Y in mm from the base:")
             self._shell.ask_text(_("Measured holes"), prompt, "", self._find_typed)
 
     def add(self) -> None:
-        """By its number in drilling order."""
+        """Asks for the number, in drilling order, of another hole to be measured."""
         self._shell.ask_text(_("Measured holes"), _("Number of the hole:"), "", self._add_numbered)
 
     def remove(self) -> None:
-        """The one of the cursor."""
+        """Takes the hole under the cursor off the list."""
         if self.measuring.spots:
             self.measuring.remove(self._at)
             self._at = max(0, min(self._at, len(self.measuring.spots) - 1))
         self._say("body", "")
 
     def use(self) -> None:
-        """Then back to the files."""
+        """Places the board by the holes found, and goes back to the Files screen."""
         if self.measuring.measured and not self.measuring.sound:
             self._say("warning", _("these holes can't place the board: see above"))
         elif problems := self._accept(self.measuring.measured):
@@ -141,7 +140,7 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
 
 class _Paper(urwid.Widget):
-    """Lines in a box, redrawn when they change."""
+    """A box of lines that is redrawn when they change."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
     _lines: list[Line] = []
@@ -157,13 +156,13 @@ class _Paper(urwid.Widget):
 
 
 def base_mm(axes: tuple[AxisView, ...]) -> PlaceMm:
-    """The working base, X and Y from machine zero."""
+    """The working base, X and Y in mm from machine zero."""
     x, y = (axis.position_steps / axis.steps_per_mm - axis.position_mm for axis in axes[:2])
     return x, y
 
 
 def measuring_lines(measuring: Measuring, at: int, base: PlaceMm) -> list[Line]:
-    """The holes, a line each, ``at`` marked; then what they say together."""
+    """A line for each hole, that of index ``at`` marked; then what they say together."""
     header = f"  {_('hole'):>6}  {_('in the file, mm'):>21}  {_('found, mm'):>21}  {_('off by'):>9}"
     rows = [_row(measuring, index, index == at, base) for index in range(len(measuring.spots))]
     return [[("title", header)], *rows, [], *_verdict(measuring)]

@@ -43,7 +43,7 @@ CHOICES = (
 
 
 def option_lines(options: Asked) -> list[str]:
-    """What is always to be chosen, two a line; then what was asked beside it."""
+    """The options that always have a value, two a line; then those that were set beside them."""
     offset = "{:g} {:g} mm".format(*options.offset_mm)
     pairs = [f"{_('Format')}: {format_word(options.format)}"]
     pairs += [f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES] + [f"{_('Offset')}: {offset}"]
@@ -58,7 +58,7 @@ def _chosen(choice: PlacingChoice, options: Asked) -> str:
 
 
 def format_word(option: str | None) -> str:
-    """An option as it is typed; the name that it goes by stands in the menu."""
+    """A format's option as it is typed; "recognised" for none. Its name stands in the menu."""
     return option or _("recognised")
 
 
@@ -69,7 +69,7 @@ def format_name(option: str) -> str:
 
 
 def recent_line(file: str, options: Asked) -> str:
-    """A job opened before: the file, and what was asked that is not usual."""
+    """The line of a job opened before: the file, and the options that differ from the usual ones."""
     usual = Asked()
     unusual_choices = [
         _chosen(choice, options)

@@ -1,6 +1,6 @@
 """The board on the screen: holes to do, made, and current, and the head where it is.
 
-Rule: every state has a sign of its own, so that nothing is told by colour alone. Used by files and drilling.
+Rule: every state has a sign of its own, so that nothing is told by colour alone.
 """
 
 from itertools import groupby
@@ -39,14 +39,14 @@ class BoardPicture(urwid.Widget):
     def show(
         self, board: BoardView | None, done: int = 0, running: bool = False, head_mm: PlaceMm | None = None
     ) -> None:
-        """``done`` holes are made; where ``running``, the next is current. Redrawn only if something is new."""
+        """Draws ``done`` holes as made and, if ``running``, the next as current; only if something is new."""
         state = (board, done, running, head_mm)
         if state != self._state:
             self._state = state
             self._invalidate()
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """The picture, clipped to the box."""
+        """Draws the picture, clipped to the box."""
         assert len(size) == 2
         columns, rows = size
         return boxed(self._lines(columns, rows), columns, rows)
@@ -73,7 +73,7 @@ class BoardPicture(urwid.Widget):
         return signs, states
 
     def _sign(self, braille: str) -> str:
-        """Of a cell with holes to do, or none."""
+        """The sign of a cell by its dots: blank for a cell without holes to do."""
         if braille == EMPTY:
             return " "
         return SIGNS["to do"][2] if self._plain else braille
@@ -86,6 +86,6 @@ class BoardPicture(urwid.Widget):
 
 
 def _runs(signs: list[str], states: list[str]) -> Line:
-    """One line as marked text."""
+    """One line of cells as marked text, neighbours of one state together."""
     pairs = groupby(zip(signs, states, strict=True), key=lambda pair: pair[1])
     return [(SIGNS[state][0], "".join(sign for sign, _state in run)) for state, run in pairs]

@@ -1,4 +1,4 @@
-"""A file browser: folders first, then the files that match a filter. Called by the Files screen.
+"""A file browser: folders first, then the files that match a filter.
 
 Rule: what can't be read shows as what it is, and never stops the browser: the reason takes its place.
 """
@@ -41,19 +41,19 @@ class Browser(urwid.ListBox[int]):
         self._rows.set_focus(0)
 
     def stand_on(self, file: Path) -> None:
-        """Its folder, and the cursor upon it where the filter lets it through."""
+        """Shows a file's folder, the cursor on the file where the filter lets it through."""
         self.go_to(file.parent)
         if file in self._paths:
             self._rows.set_focus(self._paths.index(file))
 
     def filter(self, pattern: str) -> None:
-        """Patterns apart by spaces; none of them means every file."""
+        """Lists only files that match one of these patterns, separated by spaces; every file for none."""
         self.pattern = pattern.strip() or "*"
         self.go_to(self.folder)
 
     @property
     def current(self) -> Path:
-        """What the cursor stands on."""
+        """The path that the cursor is on."""
         return self._paths[self._rows.focus or 0]
 
     def _found(self) -> Iterator[tuple[Path, str]]:

@@ -1,7 +1,7 @@
 """The Drilling screen: the board in the middle, the paper's window at the right, and the machine at the keys.
 
 Rule: every motion is one key of the table below or one entry of the menu, and a refused one says why in the bottom
-line. Drilling itself asks first. Opened by the frame; it is the screen that stays.
+line. Drilling itself asks first.
 """
 
 from typing import Any
@@ -27,7 +27,7 @@ LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stand
 
 
 class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
-    """The machine at work. ``refresh`` is called with the newest view."""
+    """The screen of the machine at work; ``refresh`` is called with the newest view."""
 
     title = N_("Drilling")
     keys = (
@@ -58,16 +58,16 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self.refresh(console.view())
 
     def selectable(self) -> bool:
-        """It takes keys although nothing in it does."""
+        """True: the screen takes keys although no widget in it does."""
         return True
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's; everything else is the frame's. What was answered to the key before is old news."""
+        """Clears the last answer and calls the method of a key in the table; returns any other key."""
         self._note = ("body", "")
         return None if called(self, self.keys, key) else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """Columns by what there is room for."""
+        """Lays picture and window side by side, or the window alone where there is no room for both."""
         assert len(size) == 2
         window = WIDE_WINDOW if size[0] >= WIDE else NARROW_WINDOW
         beside = size[0] >= window + LEAST_BOARD
@@ -77,7 +77,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         return super().render(size, focus)
 
     def refresh(self, view: MachineView) -> None:
-        """Draws what changed."""
+        """Draws what changed in machine, board and job."""
         board, progress = self._console.board(), self._console.progress()
         self._window.show(view, progress, board)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
@@ -90,7 +90,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._footer.set_text(self._bottom(*self._awaited(view)))
 
     def start(self) -> None:
-        """After a question: this one bores."""
+        """Asks, then drills the board; offers to resume first if the job was interrupted."""
         board = self._console.board()
         if board is None:
             self._answer(self._console.start(dry=False))
@@ -106,22 +106,22 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.start(dry=False), _("drilling"))
 
     def dry_run(self) -> None:
-        """The same way with the drill up."""
+        """Runs the board with the drill raised."""
         self._answer(self._console.start(dry=True), _("dry run"))
 
     def hold_or_resume(self) -> None:
-        """One key for both."""
+        """Holds the job, or resumes it if it is held."""
         if self._console.view().condition in ("holding", "held"):
             self._answer(self._console.resume(), _("going on"))
         else:
             self._answer(self._console.hold(), _("hold"))
 
     def stop(self) -> None:
-        """Ends the job."""
+        """Ends the job; the position is kept."""
         self._answer(self._console.stop(), _("stop; the position is kept"))
 
     def tool_changed(self) -> None:
-        """After a question: the drill comes down next."""
+        """Asks whether the tool is in, then resumes: the drill comes down next."""
         tool = self._console.view().tool_wanted
         if tool is None:
             self._say("warning", _("no tool is waited for"))
@@ -130,27 +130,27 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._shell.ask(question, lambda: self._answer(self._console.tool_changed(), _("going on")))
 
     def initialise(self) -> None:
-        """By the limit sensors."""
+        """Moves the axes to the limit sensors, which makes the position known."""
         self._answer(self._console.initialise(), _("initialisation"))
 
     def set_base(self) -> None:
-        """Here."""
+        """Takes the position as the working base."""
         self._answer(self._console.set_base(), _("this place is the working base"))
 
     def acknowledge(self) -> None:
-        """Of a fault."""
+        """Acknowledges a fault, so that the machine can be used again."""
         self._answer(self._console.acknowledge(), _("acknowledged"))
 
     def files(self) -> None:
-        """The other screen."""
+        """Opens the Files screen."""
         self._shell.show("files")
 
     def turn_page(self) -> None:
-        """Of the window."""
+        """Shows the next page of the window at the right."""
         self._window.turn_page()
 
     def go_to_hole(self) -> None:
-        """By its number in drilling order."""
+        """Asks for the number of a hole, in drilling order, and goes over it."""
         board = self._console.board()
         if board is None:
             self._say("warning", _("no board is loaded: open a drill file first"))
@@ -159,7 +159,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._shell.ask_text(_("Go to a hole"), prompt, "1", self._go_to_numbered)
 
     def type_place(self) -> None:
-        """X and Y in mm from the working base."""
+        """Asks for X and Y in mm from the working base, and goes there."""
         self._shell.ask_text(_("Go to X and Y"), _("X and Y in mm from the base:"), "0 0", self._go_to_typed)
 
     def type_tick_hz(self) -> None:
@@ -196,13 +196,13 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.go_to(x_mm, y_mm), where)
 
     def _awaited(self, view: MachineView) -> Line:
-        """What the job waits for outlasts whatever was told before."""
+        """The part of the bottom line that says which tool the job waits for; it stays while it waits."""
         if view.tool_wanted is None:
             return []
         return [("warning", _("waits for {tool}: C when it is in").format(tool=tool_name(view.tool_wanted))), "  "]
 
 
 def _ended(of_board: Progress) -> str:
-    """What became of a board."""
+    """How far a board was drilled when its job ended."""
     text = _("ended: {done} of {total} holes in {time}")
     return text.format(done=of_board.holes_done, total=of_board.holes_total, time=clock(of_board.machine_seconds))

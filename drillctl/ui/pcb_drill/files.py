@@ -1,7 +1,7 @@
 """The Files screen: find a drill file, see what it says and how it was understood, place it on the bed.
 
 Rule: every change of placing, order or format reads the file anew; a refused one changes nothing and says why. What is
-shown of a board comes from its BoardView alone. Opened by the frame and by the Drilling screen.
+shown of a board comes from its BoardView alone.
 """
 
 import os
@@ -69,25 +69,25 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._look_at(self._browser.current)
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The list's keys first: Enter is its own."""
+        """Offers a key to the list first, which needs Enter; then calls the method of the key in the table."""
         left = super().keypress(size, key)
         return None if left is None or called(self, self.keys, left) else left
 
     def choose(self) -> None:
-        """Enter beside the list: what the list's cursor stands on."""
+        """Moves the focus to the list: Enter was pressed beside it."""
         self._sides.focus_position = 0
 
     def other_side(self) -> None:
-        """List or facts."""
+        """Moves the focus from the list to the facts, or back."""
         self._sides.focus_position = 1 - self._sides.focus_position
         self._right.focus_position = 1
 
     def filter(self) -> None:
-        """Patterns such as ``*.drl``."""
+        """Asks for the patterns of the files to be listed, such as ``*.drl``."""
         self._shell.ask_text(_("Filter"), _("Files:"), self._browser.pattern, self._browser.filter)
 
     def recent(self) -> None:
-        """A list, each with the settings that it was opened with."""
+        """Offers the files opened last, each with the options that it was opened with."""
         jobs = self._console.recent()
         if not jobs:
             self._shell.message(_("Recent"), [_("No file has been opened yet.")])
@@ -96,12 +96,12 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._shell.choose(_("Recent"), lines, lambda index: self._open_again(jobs[index]))
 
     def unfinished(self) -> None:
-        """Offered one by one."""
+        """Offers to resume the jobs that were interrupted."""
         if not offer_unfinished(self._console, self._shell):
             self._shell.message(_("Interrupted jobs"), [_("No job was cut off.")])
 
     def load(self, file: Path) -> None:
-        """A file that was chosen. What was measured on another board, and its tools left out, are not asked of it."""
+        """Loads a file. Holes measured on another board, and its tools left out, do not apply to it."""
         same = file == self._loaded
         self._tell(self._try(file, self._options if same else replace(self._options, measured=(), skip_tools=())))
 
@@ -112,7 +112,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._change(**{field: values[(values.index(now) + 1) % len(values)] if now in values else values[0]})
 
     def choose_format(self) -> None:
-        """By name, or typed."""
+        """Offers the formats by name, and to type one."""
         lines = [*(format_name(entry.option) for entry in FORMATS), _("&Typed...").replace("&", "")]
 
         def chosen(index: int) -> None:
@@ -124,21 +124,21 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._shell.choose(_("Format"), lines, chosen)
 
     def type_format(self) -> None:
-        """As on the command line."""
+        """Asks for a format as it is written on the command line."""
         prompt = _("Units, digits and zeros left out, as in inch,2:4,leading:")
         self._shell.ask_text(_("Format"), prompt, self._options.format or "", self.set_format)
 
     def set_format(self, name: str) -> None:
-        """Settled by hand; empty: recognised."""
+        """Reads the file by this format; recognises the format for an empty text."""
         self._change(format=name.strip() or None)
 
     def offset(self) -> None:
-        """Typed."""
+        """Asks for the offset from the base."""
         now = "{:g} {:g}".format(*self._options.offset_mm)
         self._shell.ask_text(_("Offset"), _("X and Y in mm from the base:"), now, self._set_offset)
 
     def panel(self) -> None:
-        """Columns and rows of the same board; one of each is none."""
+        """Asks for columns and rows of a panel of the same board; one of each is no panel."""
         now = self._options.panel or PanelOf(1, 1, 0.0, 0.0)
         fields = (
             Field(_("Columns (along X):"), str(now.columns)),
@@ -149,7 +149,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._shell.ask_fields(_("Panel"), fields, accepted(panel_of, lambda panel: self._with(panel=panel)))
 
     def how_to_drill(self) -> None:
-        """What ``drillctl run`` knows as --peck, --spot, --skip-tools and --drills."""
+        """Asks for peck depth, spot depth, tools to leave out and the file of the drills at hand."""
         now = self._options
         fields = (
             Field(_("Pecks of so many mm (empty: at once):"), _typed_mm(now.peck_mm)),
@@ -166,7 +166,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._shell.ask_fields(_("How to drill"), fields, accepted(read, lambda changes: self._with(**changes)))
 
     def align(self) -> None:
-        """By holes measured on the board that is loaded."""
+        """Opens the screen that places the loaded board by holes measured on it."""
         board = self._console.board()
         if board is None or not self._loaded.name or Path(board.file) != real_path(self._loaded):
             self._shell.message(_("Measured holes"), [_("no board is loaded: open a drill file first")])
@@ -210,7 +210,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             self._shell.message(_("Refused"), [translated(problem) for problem in problems])
 
     def _try(self, file: Path, options: Asked) -> Problems:
-        """With a file: read as asked. Without one yet the wish is kept for it."""
+        """Reads the file with these options; without a file yet they are kept for the first one."""
         problems = self._console.load(str(file), options) if file.name else ()
         if not problems:
             self._options, self._loaded = options, file
@@ -231,5 +231,5 @@ def _typed_mm(value_mm: float | None) -> str:
 
 
 def _row(line: str) -> urwid.AttrMap[Icon]:
-    """A line that can be scrolled to; a warning is marked."""
+    """A line of the facts that can be scrolled to; a warning in its colour."""
     return urwid.AttrMap(Icon(line, 0), "warning" if is_warning(line) else "body", "focus")

@@ -1,7 +1,6 @@
 """Holes being measured on a board: which, where each was found, and what they say so far.
 
 Rule: places are in millimetres from machine zero, whatever the working base is; nothing here moves or places anything.
-Used by screens/alignment.py.
 """
 
 from collections.abc import Callable
@@ -43,7 +42,7 @@ class Measuring:
 
     @property
     def measured(self) -> tuple[MeasuredHole, ...]:
-        """The holes found, as they are asked for."""
+        """The holes that were found, as Console.align takes them."""
         return tuple(MeasuredHole(*spot.file_mm, *spot.found_mm) for spot in self.spots if spot.found_mm)
 
     @property
@@ -60,12 +59,12 @@ class Measuring:
         return True
 
     def remove(self, index: int) -> None:
-        """A hole is not measured after all."""
+        """Takes a hole off the list, by its index."""
         del self.spots[index]
         self._look()
 
     def find(self, index: int, place_mm: PlaceMm) -> None:
-        """The hole was found here."""
+        """Notes the place where a hole was found, in mm from machine zero."""
         self.spots[index].found_mm = place_mm
         self._look()
 

@@ -1,8 +1,8 @@
 """The paper's window at the right: holes, coordinates, command, phases, ramp, sensors, ticks.
 
-Rule: a function of the machine's view and the job's progress; what is on stands in brackets, so that nothing is told
-by colour alone. Each motor's whole phase table is drawn, with its column marked. What does not fit into one window
-stands on further pages, no block broken that need not be. Used by drilling.
+Rule: a function of the machine's view and the job's progress; what is on stands in brackets, so that nothing is told by
+colour alone. Each motor's whole phase table is drawn, with its column marked. What does not fit into one window stands
+on further pages, no block broken that need not be.
 """
 
 from collections.abc import Iterable, Sequence
@@ -20,7 +20,7 @@ LABEL_WIDTH = 9
 
 
 class SideWindow(urwid.Widget):
-    """A box of these lines, a page of them at a time."""
+    """The window's lines in a box, a page of them at a time."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
 
@@ -30,18 +30,18 @@ class SideWindow(urwid.Widget):
         self._page = 0
 
     def turn_page(self) -> None:
-        """The next one; the first after the last."""
+        """Shows the next page; after the last comes the first."""
         self._page += 1
         self._invalidate()
 
     def show(self, view: MachineView, progress: Progress | None, board: BoardView | None) -> None:
-        """Redrawn only if something is new."""
+        """Takes a new view of machine, job and board; redraws only if something is new."""
         if (view, progress, board) != self._shown:
             self._shown = (view, progress, board)
             self._invalidate()
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """The lines, clipped to the box."""
+        """Draws a page, clipped to the box."""
         assert len(size) == 2
         columns, rows = size
         pages = side_pages(*self._shown, columns, rows) if self._shown else [[]]
@@ -67,7 +67,7 @@ def side_pages(
 
 
 def _paged(blocks: Sequence[list[Line]], rows: int) -> list[list[Line]]:
-    """Blocks below each other, whole where a page can hold them."""
+    """Distributes blocks of lines to pages; a block is broken only if no page can hold it."""
     pages: list[list[Line]] = [[]]
     for block in blocks:
         if pages[-1] and len(pages[-1]) + len(block) > rows:
@@ -80,7 +80,7 @@ def _paged(blocks: Sequence[list[Line]], rows: int) -> list[list[Line]]:
 
 
 def _numbered(page: list[Line], mark: str, columns: int) -> list[Line]:
-    """Which page it is, at the right of its first line."""
+    """The page with its number at the right of the first line."""
     gap = max(1, columns - len(mark) - width_of(page[0]))
     return [[*page[0], " " * gap, ("key", mark)], *page[1:]]
 
@@ -135,7 +135,7 @@ def _place_line(axis: AxisView) -> Line:
 
 
 def _marked(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> list[Line]:
-    """Lamps under each other's label, as many a line as fit."""
+    """Signals as lamps beside their label, as many a line as fit."""
     lines: list[Line] = []
     room = 0
     for name, lit in signals:

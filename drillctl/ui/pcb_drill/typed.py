@@ -1,7 +1,10 @@
-"""The number formats by the names that people know, the paper's four first. A table; used by menus.py and files.py.
+"""Number formats by the names that people know, the paper's four first, and the texts typed into the Files dialogs.
 
-What the names stand for: docs/DRILL-FILES.md. EXCELLON *adding zero* leaves trailing zeros out, so that they are to be
-added; the *ASCII drill format* is written at full width.
+What the formats stand for: docs/DRILL-FILES.md. EXCELLON *adding zero* leaves trailing zeros out, so that they are to
+be added; the *ASCII drill format* is written at full width.
+
+Rule: a text that can't be read is a ValueError with a sentence for the operator; whether the board can be drilled so is
+not asked here.
 """
 
 import math
@@ -54,14 +57,14 @@ def accepted(
 
 
 def panel_of(texts: Sequence[str]) -> PanelOf | None:
-    """Columns, rows, pitch in X and in Y; none for a panel of one board."""
+    """A panel from columns, rows, pitch in X and in Y as typed; None for a panel of one board."""
     columns, rows = (_count(text) for text in texts[:2])
     pitch_x_mm, pitch_y_mm = (length_mm(text) or 0.0 for text in texts[2:])
     return None if columns == rows == 1 else PanelOf(columns, rows, pitch_x_mm, pitch_y_mm)
 
 
 def length_mm(text: str) -> float | None:
-    """With a point or a comma; None where nothing is typed."""
+    """A length typed with a point or a comma; None where nothing is typed."""
     if not text.strip():
         return None
     try:
@@ -74,7 +77,7 @@ def length_mm(text: str) -> float | None:
 
 
 def tool_numbers(text: str) -> tuple[int, ...]:
-    """``2 T3,4``; none where nothing is typed."""
+    """The numbers in a text such as ``2 T3,4``; none where nothing is typed."""
     words = text.replace(",", " ").upper().split()
     numbers = [word.removeprefix("T") for word in words]
     if not all(number.isdecimal() for number in numbers):

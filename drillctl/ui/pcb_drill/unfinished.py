@@ -1,7 +1,7 @@
 """Jobs that were cut off, offered to be gone on with: at the start of the program, in Files, before a new start.
 
 Rule: says first what will be drilled again, and asks before a job goes on elsewhere than it ran; nothing moves and
-nothing is taken away but by a button of its own. Called by app.py, files.py and drilling.py.
+nothing is taken away but by a button of its own.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from drillctl.viewmodel.jobs import Site, UnfinishedJob
 
 
 def offer_unfinished(console: Console, shell: Shell) -> bool:
-    """All there are; False where there is none."""
+    """Offers to resume the jobs that were interrupted; False where there are none."""
     jobs = console.unfinished()
     if len(jobs) == 1:
         offer_job(jobs[0], console, shell)
@@ -26,7 +26,7 @@ def offer_unfinished(console: Console, shell: Shell) -> bool:
 
 
 def offer_job(job: UnfinishedJob, console: Console, shell: Shell, anew: Callable[[], object] | None = None) -> None:
-    """Go on, or give it up; with ``anew``, which is called then, to begin again from the first hole."""
+    """Offers to resume a job or to give it up; with ``anew``, giving it up calls this to begin again."""
 
     def go_on(elsewhere: bool) -> None:
         if problems := console.go_on(job.journal, elsewhere):
@@ -68,7 +68,7 @@ def job_lines(job: UnfinishedJob) -> list[str]:
 
 
 def elsewhere_question(job: UnfinishedJob) -> str:
-    """Asked before a job goes on elsewhere than it ran; empty where it does not."""
+    """The question before a job is resumed elsewhere than it ran; empty where it is not."""
     if job.ran == job.here:
         return ""
     sites = {"ran": site_words(job.ran), "here": site_words(job.here)}
@@ -79,7 +79,7 @@ def elsewhere_question(job: UnfinishedJob) -> str:
 
 
 def site_words(site: Site) -> str:
-    """Port, pace and plant."""
+    """The sentence that names port, pace and plant of a site."""
     form = _("port {port}, pace {pace}, plant {plant}")
     if site.real:
         form = _("port {port}, pace {pace}")

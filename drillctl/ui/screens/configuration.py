@@ -1,7 +1,7 @@
 """The Configuration screen (the paper's Fig. 4): card, scale, work ranges, times, tick rate, for one machine's file.
 
 Rule: every field says its unit, its bounds and what it means; what can't be taken is said below it as it is typed, and
-nothing is saved while there is such a field. Opened from the list of machines.
+nothing is saved while there is such a field.
 """
 
 from typing import Any
@@ -51,12 +51,12 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
 
     @property
     def draft(self) -> ConfigurationDraft:
-        """What is typed."""
+        """The machine's fields with what is typed over them."""
         return self._draft
 
     @property
     def changed(self) -> bool:
-        """Whether something typed would be lost."""
+        """Whether something typed would be lost when the screen is closed."""
         return self._draft.changed
 
     def keypress(self, size: Size, key: str) -> str | None:
@@ -68,13 +68,13 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         return left
 
     def go(self, by: int) -> None:
-        """Stops at the ends."""
+        """Moves the cursor by so many fields; it stops at the ends."""
         if self._edits:
             self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._edits) - 1)))
             self._look()
 
     def cycle(self) -> None:
-        """Only where there are choices."""
+        """Puts the next choice into a field that has choices."""
         field = self._field
         if field is None or not field.choices:
             return
@@ -84,7 +84,7 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         self._take()
 
     def save(self) -> None:
-        """All fields or none."""
+        """Saves all fields, or none if one of them can't be taken."""
         text, refused = self._draft.candidate()
         if refused:
             self._shell.message(_("Not saved"), refused)
@@ -92,26 +92,26 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
             self._actions.save(self._name, text, self._name, self._open)
 
     def diff(self) -> None:
-        """Of what is typed, as far as it can be taken."""
+        """Shows what differs from the shipped file, with what is typed."""
         self._actions.diff(self._name, self._draft.candidate()[0])
 
     def choose(self) -> None:
-        """What is typed and not saved stays out of it."""
+        """Changes to this machine as it was saved; what is only typed is left out."""
         self._actions.drive(self._name)
 
     def copy(self) -> None:
-        """Of what is saved; the copy is gone on with."""
+        """Copies the saved file under another name, and shows the copy; refused while unsaved."""
         if self.changed:
             self._shell.message(_("Not copied"), [_("Save first, or take back, what is typed.")])
         else:
             self._actions.copy(self._name, self._go_on_with)
 
     def reset(self) -> None:
-        """What is typed goes too."""
+        """Asks, then takes the user's copy away, and what is typed with it."""
         self._actions.reset(self._name, self._open)
 
     def measure(self) -> None:
-        """With nothing typed that a new scale would be saved with."""
+        """Measures the scale of the axis under the cursor; refused while something is not saved."""
         field = self._field
         if field is None or not field.axis:
             self._shell.message(_("Not measured"), [_("Go to a field of the axis that is to be measured.")])
@@ -134,12 +134,12 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         self._look()
 
     def _give_up(self) -> None:
-        """What is typed goes, and the screen with it."""
+        """Discards what is typed and closes the screen."""
         self._open()
         self._shell.back()
 
     def _take(self) -> None:
-        """What stands in the field that has the cursor; a locked one springs back, and says why."""
+        """Takes the text of the field under the cursor; a locked field gets its value back."""
         field = self._field
         if field is None:
             return

@@ -1,4 +1,7 @@
-"""How far a press of a jog key goes: a size in steps or one in millimetres. Used by the screens at the machine."""
+"""The jog keys that screens at the machine share: how far a press goes, and the bottom line that answers it.
+
+Rule: a request that is refused says why in that line.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,23 +20,23 @@ FIRST_SIZES: Mapping[str, float] = {STEPS: 12, MM: 1}
 
 @dataclass
 class JogSizes:
-    """The unit in use, and the size chosen in each."""
+    """The unit of the jog step, and the size chosen in each unit."""
 
     unit: str = STEPS
     chosen: dict[str, float] = field(default_factory=lambda: dict(FIRST_SIZES))
 
     def change(self, by: int) -> None:
-        """A greater or a smaller one; the ends stay."""
+        """Takes the next larger or smaller size; it stops at the ends."""
         sizes = JOG_SIZES[self.unit]
         index = sizes.index(self.chosen[self.unit]) + by
         self.chosen[self.unit] = sizes[min(max(index, 0), len(sizes) - 1)]
 
     def other_unit(self) -> None:
-        """Each unit keeps its size."""
+        """Changes between steps and millimetres; each unit keeps its size."""
         self.unit = MM if self.unit == STEPS else STEPS
 
     def steps(self, axis: AxisView) -> int:
-        """Of the size on an axis, at least one."""
+        """The jog step in steps of an axis, at least one."""
         size = self.chosen[self.unit]
         return max(1, round(size * axis.steps_per_mm if self.unit == MM else size))
 
@@ -63,29 +66,29 @@ class JogControls:
         self._note: tuple[str, str] = ("body", "")
 
     def refresh(self, view: MachineView) -> None:
-        """Draws what changed."""
+        """Draws what changed; every screen with jog keys has its own."""
         raise NotImplementedError  # by the screen that this is a part of
 
     def jog_on(self, axis: int) -> None:
-        """By the step size."""
+        """Moves the axis of this index on by the jog step."""
         self._jog(axis, 1)
 
     def jog_back(self, axis: int) -> None:
-        """By the step size."""
+        """Moves the axis of this index back by the jog step."""
         self._jog(axis, -1)
 
     def step_size(self, change: int) -> None:
-        """The next or the one before; the ends stay."""
+        """Takes the next larger or smaller jog step; it stops at the ends."""
         self._sizes.change(change)
         self.refresh(self._console.view())
 
     def jog_unit(self) -> None:
-        """Each unit keeps its size."""
+        """Changes the unit of the jog step."""
         self._sizes.other_unit()
         self.refresh(self._console.view())
 
     def _bottom(self, *between: str | tuple[str, str]) -> Line:
-        """The step size, what else there is to say, and the last answer."""
+        """The bottom line: the jog step, what stands ``between``, and the last answer."""
         return [("field", f" {self._sizes} "), " ", *between, self._note]
 
     def _jog(self, index: int, sign: int) -> None:

@@ -1,7 +1,4 @@
-"""A motor's phases as lines of text: what is on stands in brackets. Functions of an axis, live or at a tick of a run.
-
-Used by the drilling screen's side window and by the scope.
-"""
+"""Phases and tools as lines of text: what is on stands in brackets. An axis may be live or at a tick of a run."""
 
 from typing import Protocol
 
@@ -11,31 +8,31 @@ from drillctl.viewmodel.console import ToolWanted
 
 
 class Phases(Protocol):
-    """What an axis puts out: AxisView and AxisMoment both tell it."""
+    """The phases of an axis: AxisView and AxisMoment both are one."""
 
     @property
     def name(self) -> str:
-        """The axis."""
+        """The axis's name."""
 
     @property
     def column(self) -> int:
-        """Of the phase table, from 1."""
+        """The column of the phase table that is put out, from 1."""
 
     @property
     def state(self) -> int:
-        """Of the ramp, signed."""
+        """The state of the ramp, signed."""
 
     @property
     def top_state(self) -> int:
-        """The ramp's greatest."""
+        """The greatest state of the ramp."""
 
     @property
     def wires(self) -> tuple[tuple[str, str, bool], ...]:
-        """Name, row of the phase table in x and ., lit."""
+        """For each wire its name, its row of the phase table in x and ., and whether it is on."""
 
 
 def phase_line(axis: Phases) -> Line:
-    """One line a motor: column, ramp state, and its wires."""
+    """The phases of an axis in one line: column, ramp state, and its wires."""
     wires = [lamp(name, lit) for name, _row, lit in axis.wires]
     return [("title", f"{axis.name.upper():2} "), f"{axis.column:2} {axis.state:+d} ", *wires]
 
@@ -49,7 +46,7 @@ def phase_table(axis: Phases) -> list[Line]:
 
 
 def lamp(name: str, lit: bool) -> tuple[str, str]:
-    """A name, in brackets while it is on."""
+    """A name as marked text, in brackets while it is on."""
     return ("lit", f"[{name}]") if lit else ("dark", f" {name} ")
 
 

@@ -22,7 +22,7 @@ FURTHER_ROWS = 3  # above and below the wires
 
 
 class PhaseEditor(TableEditor):
-    """A phase table under a cursor."""
+    """The editor of a phase table."""
 
     kind = "phase"
     title = N_("Phase table")
@@ -42,7 +42,7 @@ class PhaseEditor(TableEditor):
     _line = _column = _motor = 0  # the cursor and the motor whose bits are shown, before the first look
 
     def toggle(self) -> None:
-        """The cell under the cursor."""
+        """Turns the cell under the cursor over."""
         self._change(lambda grid: grid.toggle(self._line, self._column))
 
     def insert(self) -> None:
@@ -50,28 +50,28 @@ class PhaseEditor(TableEditor):
         self._change(lambda grid: grid.insert(self._column))
 
     def remove(self) -> None:
-        """The column under the cursor."""
+        """Removes the column under the cursor."""
         self._change(lambda grid: grid.remove(self._column))
 
     def mirror(self) -> None:
-        """There and away."""
+        """Adds rows for motion backwards with forcing mirrored, or removes those there are."""
         self._change(lambda grid: grid.without_reverse() if grid.has_reverse else grid.mirrored())
 
     def sideways(self, by: int) -> None:
-        """Stops at the ends."""
+        """Moves the cursor by so many columns; it stops at the ends."""
         self._go(self._line, self._column + by)
 
     def upwards(self, by: int) -> None:
-        """Stops at the ends."""
+        """Moves the cursor down by so many lines; it stops at the ends."""
         self._go(self._line + by, self._column)
 
     def next_motor(self) -> None:
-        """The motors of the machine at hand that use this table, one after the other."""
+        """Shows the bits of the next motor of the machine that uses this table."""
         self._motor += 1
         self._invalidate()
 
     def change_bit(self) -> None:
-        """Asks for the bit, and exchanges it with a wire that has it; saved to the machine's file if that is sound."""
+        """Asks for the wire's bit, exchanges it with a wire that has it, and saves the machine's file."""
         wire = self._wires.of(self._axis, self._grid.lines[self._line].name) if self._grid.lines else None
         if wire is None:
             self._shell.message(_("Not changed"), [_("No motor of the machine at hand uses this table.")])
@@ -92,7 +92,7 @@ class PhaseEditor(TableEditor):
         self._shell.ask_text(_("Bit of {wire}").format(wire=chosen.place[-1]), prompt, chosen.value, accept)
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
-        """Only the columns and rows around the cursor where there is no room for all."""
+        """The lines of the table; columns and rows around the cursor where there is no room for all."""
         if not self._grid.rows:
             return [[("danger", _("no phase table: its rows can't be read"))]]
         room = max((columns - NAME_COLUMNS - VOLTS_COLUMNS - BIT_COLUMNS) // CELL_COLUMNS, 1)

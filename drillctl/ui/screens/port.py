@@ -1,6 +1,6 @@
 """The Port screen (Configuration): which port is in use, which is configured, a test of it, and the step to REAL.
 
-Rule: a test moves nothing; a real machine is driven after a question only. Opened from the menu.
+Rule: a test moves nothing; a real machine is driven after a question only.
 """
 
 import textwrap
@@ -20,7 +20,7 @@ WORDS = {True: N_("REACHED"), False: N_("clear")}
 
 
 class PortScreen(urwid.Widget):
-    """The port of the machine in use, and the newest test's report."""
+    """Shows the port of the machine in use, and the report of the last test."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
     _selectable = True
@@ -37,30 +37,30 @@ class PortScreen(urwid.Widget):
         self._port = control.port()
 
     def refresh(self, view: MachineView) -> None:
-        """Another machine's port has not been tested."""
+        """Redraws if the port is another one; the report of the one before goes."""
         port = self._control.port()
         if port != self._port:
             self._port, self._report = port, None
             self._invalidate()
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's keys; everything else is the frame's."""
+        """Calls the method of a key in the table; returns any other key for the frame."""
         return None if called(self, self.keys, key) else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """What is, then what the test found, folded to the width."""
+        """Draws the port, then the report of its test, folded to the width."""
         assert len(size) == 2
         columns, rows = size
         lines = [line for long in port_lines(self._port, self._report) for line in folded(long, columns)]
         return boxed(lines, columns, rows)
 
     def test(self) -> None:
-        """May take some seconds: a board starts anew when its line is opened."""
+        """Tests the configured port; takes some seconds where opening the line resets a board."""
         self._report = self._control.test()
         self._invalidate()
 
     def go_real(self) -> None:
-        """The position is unknown afterwards."""
+        """Asks, then changes to the real machine; its position is not known then."""
         if not self._port.configured:
             self._changed(self._control.go_real())
             return
@@ -68,7 +68,7 @@ class PortScreen(urwid.Widget):
         self._shell.ask(question.format(port=self._port.configured), lambda: self._changed(self._control.go_real()))
 
     def go_simulated(self) -> None:
-        """The real one's outputs go off."""
+        """Asks, then changes to the simulated machine; the outputs of the real one go off."""
         question = _("Go back to the simulated machine? The outputs go off, the position is lost.")
         self._shell.ask(question, lambda: self._changed(self._control.go_simulated()))
 
@@ -78,7 +78,7 @@ class PortScreen(urwid.Widget):
 
 
 def port_lines(port: PortView, report: PortReport | None) -> list[Line]:
-    """The state of things, a line each; then the report."""
+    """The port in use and the configured one, a line for each fact; then the report."""
     in_use = _("{port}, a real machine").format(port=port.in_use) if port.real else _("simulated")
     won = _(" (--port was given and wins)") if port.overridden else ""
     lines: list[Line] = [

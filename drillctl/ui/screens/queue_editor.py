@@ -1,7 +1,6 @@
 """The queue editor (Tests): lines of KMD commands, completed by Tab, checked as they are typed, run whole or in part.
 
 Rule: what runs is the text on the screen; it is checked before it is handed on, and a refusal says line and column.
-Opened from the menu.
 """
 
 from collections.abc import Callable
@@ -58,7 +57,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
 
     @property
     def changed(self) -> bool:
-        """Whether it differs from its file."""
+        """Whether the queue differs from its file."""
         return self.text != self._saved
 
     def keypress(self, size: Size, key: str) -> str | None:
@@ -71,7 +70,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         return left
 
     def complete(self) -> None:
-        """Where several words begin alike they are listed below."""
+        """Completes the word before the cursor; lists the possible words where there are several."""
         before, after = self.text[: self._edit.edit_pos], self.text[self._edit.edit_pos :]
         start = before.rfind("\n") + 1
         line, fits = completed(before[start:], self._commands, self._queues.words())
@@ -81,42 +80,42 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         self._look(fits)
 
     def undo(self) -> None:
-        """The cursor comes back too."""
+        """Takes the last change back; the cursor goes to where it was."""
         self._history.undo()
         self._restore()
 
     def redo(self) -> None:
-        """As undo."""
+        """Makes the change again that was undone last."""
         self._history.redo()
         self._restore()
 
     def refresh(self, view: MachineView) -> None:
-        """While the clock is stopped, where it stopped."""
+        """Shows where the clock stopped, while it is stopped."""
         stopped = _stopped_lines(view) if view.paused else []
         if stopped != self._stopped:
             self._stopped = stopped
             self._look()
 
     def run_all(self) -> None:
-        """From the first line; or from where the clock stopped."""
+        """Runs the queue from its first line; goes on where the clock was stopped."""
         if self._console.view().paused:
             self._answer(self._control.go())
         else:
             self._run(self.text)
 
     def tick(self) -> None:
-        """The first one begins the queue."""
+        """Runs one tick of the queue, from its beginning or from where the clock stopped."""
         if self._console.view().paused:
             self._answer(self._control.tick(1))
         else:
             self._ask(self.text, self._control.run_paused, self._first_tick)
 
     def run_to_cursor(self) -> None:
-        """The lines after it stay out."""
+        """Runs the lines down to the one of the cursor."""
         self._run("\n".join(self.text.split("\n")[: self._line + 1]))
 
     def run_line(self) -> None:
-        """Empty lines before it keep its number in what is said of it."""
+        """Runs the cursor's line alone, with its line number, and goes to the next line."""
         lines = self.text.split("\n")
         after = min(len("\n".join(lines[: self._line + 1])) + 1, len(self.text))
 
@@ -130,11 +129,11 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._control.tick(1))
 
     def save(self) -> None:
-        """Asks for the file."""
+        """Asks for a file, then saves the queue to it."""
         self._shell.ask_text(_("Save"), _("File:"), self.file or "queue.kmd", self._save)
 
     def open(self) -> None:
-        """Asks first where something would be lost."""
+        """Asks for a file, then opens it; asks first where something is not saved."""
         if self.changed:
             self._shell.ask(_("Open another queue without saving this one?"), self._ask_file)
         else:
@@ -146,18 +145,18 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         return self.text.count("\n", 0, self._edit.edit_pos)
 
     def _put(self, file: str, text: str) -> None:
-        """Another text; its history begins."""
+        """Replaces the queue by another text, with a history of its own."""
         self.file, self._saved = file, text
         self._history: History[Draft] = History((text, 0))
         self._restore()
 
     def _give_up(self) -> None:
-        """The edits go, and the screen with them."""
+        """Discards the edits and closes the screen."""
         self._put(self.file, self._saved)
         self._shell.back()
 
     def _keep(self) -> None:
-        """A change of the text can be undone, one of the cursor is none."""
+        """Adds a changed text to the history; a moved cursor alone is no change."""
         if self.text != self._history.now[0]:
             self._history.do((self.text, self._edit.edit_pos))
 
@@ -203,7 +202,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
             self._put(file, text)
 
     def _look(self, fits: tuple[str, ...] = ()) -> None:
-        """Heading and findings anew."""
+        """Draws heading and findings anew."""
         changed = _(", changed") if self.changed else ""
         self._heading.set_text(f"{_(self.title)}: {self.file or _('new')}{changed}")
         lines = self._lines(fits)
@@ -218,13 +217,13 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         return [[("key", place)], [hint], *self._verdict(found), *self._stopped]
 
     def _verdict(self, found: tuple[TextFinding, ...]) -> list[Line]:
-        """What can't run; else what will run into a fault, which is no reason not to try it."""
+        """The findings: problems; where there are none, moves that will end in a fault, as warnings."""
         too_far = () if found else self._queues.too_far(self.text)
         return _findings(found, "danger") or _findings(too_far, "warning") or [[("good", _("sound"))]]
 
 
 def _stopped_lines(view: MachineView) -> list[Line]:
-    """Tick and command, and each axis."""
+    """Where the clock stopped: tick and command, and a part for each axis."""
     place = _("stopped after tick {tick}: {command}").format(tick=view.tick, command=view.command or "-")
     return [[("warning", place)], ["  ".join(map(_axis, view.axes))]]
 

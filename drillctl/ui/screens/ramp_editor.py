@@ -1,7 +1,7 @@
 """The ramp editor (Tests): a row a state, its numbers typed over; the speed of a long move drawn as you type.
 
 Rule: a number goes into the text with every digit, so that profile, stopping distances and exactness are always those
-of what is on the screen; an unfinished number goes nowhere. Opened from the list of tables.
+of what is on the screen; an unfinished number goes nowhere.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ LEAST_STATES = 3
 
 
 class RampEditor(TableEditor):
-    """A ramp under a cursor."""
+    """The editor of a ramp."""
 
     kind = "ramp"
     title = N_("Ramp")
@@ -41,50 +41,50 @@ class RampEditor(TableEditor):
     _typed: str | None = None  # the number being typed; None: the file's
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """Digits first."""
+        """Types a digit or a sign; any other key is handled as in every editor of tables."""
         if key not in SIGNS:
             return super().keypress(size, key)
         self.type(key)
         return None
 
     def type(self, sign: str) -> None:
-        """A digit, or a minus in front of them; the first one replaces the number."""
+        """Adds a digit or a leading minus to the number; the first one replaces the number."""
         typed = (self._typed or "") + sign
         if len(typed) <= MOST_DIGITS and "-" not in typed[1:]:
             self._take(typed)
 
     def rub_out(self) -> None:
-        """One digit less."""
+        """Removes the last digit."""
         self._take(self._shown()[:-1])
 
     def more(self) -> None:
-        """The cursor stays on its state."""
+        """Adds a pair of states; the cursor stays on its state."""
         self._reach(higher=True)
 
     def fewer(self) -> None:
-        """Three states stay."""
+        """Removes the outermost pair of states; the last three states stay."""
         self._reach(higher=False)
 
     def sideways(self, by: int) -> None:
-        """Stops at the ends."""
+        """Moves the cursor by so many numbers; it stops at the ends."""
         self._go(self._line, self._field + by)
 
     def upwards(self, by: int) -> None:
-        """Stops at the ends."""
+        """Moves the cursor down by so many states; it stops at the ends."""
         self._go(self._line + by, self._field)
 
     def undo(self) -> None:
-        """What was half typed goes too."""
+        """Takes the last change back, and a half-typed number with it."""
         self._typed = None
         super().undo()
 
     def redo(self) -> None:
-        """As undo."""
+        """Makes the change again that was undone last."""
         self._typed = None
         super().redo()
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
-        """The states, those around the cursor where there is no room for all, then the profile."""
+        """The lines of the states, those around the cursor where there is no room for all, and the profile."""
         if not self._ramp.states:
             return [[("danger", _("no ramp: its rows can't be read"))]]
         heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS)
@@ -105,7 +105,7 @@ class RampEditor(TableEditor):
         self._go(states.index(state) if state in states else 0 if state < 0 else len(states) - 1, self._field)
 
     def _take(self, typed: str) -> None:
-        """Into the text as soon as it is a number."""
+        """Shows what is typed, and puts it into the text as soon as it is a number."""
         if not self._ramp.states:
             return
         self._typed = typed
@@ -121,7 +121,7 @@ class RampEditor(TableEditor):
         self._invalidate()
 
     def _shown(self) -> str:
-        """What stands under the cursor."""
+        """The text of the number under the cursor."""
         if self._typed is not None or not self._ramp.states:
             return self._typed or ""
         return str(getattr(self._ramp.states[self._line], FIELDS[self._field]))

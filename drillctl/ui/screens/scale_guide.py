@@ -1,7 +1,6 @@
 """The scale of an axis measured, step by step: the machine moves, the operator measures, the new scale is shown.
 
-Rule: what counts is how many steps were made, not how many were asked for; nothing is saved before a yes. Made by the
-configuration screen for the axis under its cursor.
+Rule: what counts is how many steps were made, not how many were asked for; nothing is saved before a yes.
 """
 
 import math
@@ -34,21 +33,21 @@ class Measurement:
 
     @property
     def columns_per_inch(self) -> int:
-        """As measured, to the whole column."""
+        """The measured scale, rounded to the whole column."""
         return round(abs(self.steps) * self.columns_per_step * MM_PER_INCH / self.travel_mm)
 
     @property
     def change_percent(self) -> float:
-        """Of the scale."""
+        """By how much the measured scale differs from the configured one, in percent."""
         return 100 * (self.columns_per_inch / self.old - 1)
 
     @property
     def doubt_percent(self) -> float:
-        """What a reading wrong by a tenth of a millimetre makes."""
+        """The error of the scale, in percent, if the reading is wrong by a tenth of a millimetre."""
         return 100 * READING_MM / self.travel_mm
 
     def problem(self) -> str:
-        """Why no scale can be had from it; empty where one can."""
+        """Why the measurement gives no scale; an empty text where it does."""
         if not self.steps:
             return _("the axis has not moved")
         if self.travel_mm < LEAST_TRAVEL_MM:
@@ -75,7 +74,7 @@ class ScaleGuide:
         self._from_steps = 0
 
     def begin(self) -> None:
-        """Asks how far to move; not where the file isn't what the machine runs by."""
+        """Asks how far to move; refused where the machine does not run by the file as it is saved."""
         if refusal := self._refusal():
             self._tell(refusal)
             return
@@ -127,7 +126,7 @@ class ScaleGuide:
         self._judge(Measurement(steps, self._number(PER_STEP), self._number(SCALE), abs(travel_mm)))
 
     def _judge(self, found: Measurement) -> None:
-        """Old, new and difference; saved on a yes."""
+        """Shows old and new scale and their difference; saves the new one on a yes."""
         if problem := found.problem():
             self._tell(problem)
             return
@@ -151,7 +150,7 @@ class ScaleGuide:
         return next((axis for axis in self._console.view().axes if axis.name == self._axis), None)
 
     def _field(self, key: str) -> FieldView:
-        """Of the file as it is saved."""
+        """The axis's field of this key in the saved file."""
         fields = self._tables.fields(self._tables.read("machines", self._name))
         return next(field for field in fields if field.axis == self._axis and field.place[-1] == key)
 

@@ -1,7 +1,7 @@
 """The scope (Tests): a run as a logic analyser shows it, wires, columns, positions and commands over the ticks.
 
 Rule: it only looks: the run at hand while it goes on, or a trace file. The cursor may stand on any tick of it, and the
-machine is shown as it was then. Opened from the menu, and by the scope verb.
+machine is shown as it was then.
 """
 
 import urwid
@@ -40,7 +40,7 @@ class Scope(urwid.Widget):
         self._look_at(source or runs.running())
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """The run as it is now."""
+        """Draws the run as it is now."""
         assert len(size) == 2
         columns, rows = size
         self._view = self._view.sized(ScopeLayout.of(self._source.signals(), columns).waves)
@@ -48,11 +48,11 @@ class Scope(urwid.Widget):
         return boxed(lines, columns, rows)
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's; everything else is the frame's."""
+        """Calls the method of a key in the table; returns any other key for the frame."""
         return None if called(self, self.keys, key) else key
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """A click sets cursor and bar, the wheel zooms around where it points."""
+        """Sets cursor and bar on a click; zooms around the pointer with the wheel."""
         assert len(size) == 2
         layout = ScopeLayout.of(self._source.signals(), size[0])
         if event != "mouse press" or not 0 <= col - layout.names < layout.waves:
@@ -65,7 +65,7 @@ class Scope(urwid.Widget):
         return True
 
     def refresh(self, view: MachineView) -> None:
-        """Redrawn only where something is new; a machine that was chosen anew has a run of its own."""
+        """Redraws where something is new; takes up the new run of a machine that was chosen anew."""
         if self._live and self._runs.running() is not self._source:
             self.show_machine()
         source = self._source
@@ -80,52 +80,52 @@ class Scope(urwid.Widget):
         self._invalidate()
 
     def show_machine(self) -> None:
-        """The machine's, followed."""
+        """Shows the machine's own run and follows it."""
         self._live = True
         self._look_at(self._runs.running())
 
     def open_file(self) -> None:
-        """Asks which one."""
+        """Asks for a trace file, then shows its run."""
         self._shell.ask_text(_("Open a trace"), _("File:"), self._file, self._open)
 
     def step(self, columns: int) -> None:
-        """The cursor; it no longer follows."""
+        """Moves the cursor by so many columns; the scope no longer follows the run."""
         self._moved(self._view.step(columns))
 
     def pan(self, by: int) -> None:
-        """Cursor and all."""
+        """Moves cursor and view by half a screen."""
         self._moved(self._view.pan(by))
 
     def zoom(self, by: int) -> None:
-        """The cursor stays in its column."""
+        """Zooms around the cursor, which keeps its column; closer for negative ``by``."""
         self._view = self._view.zoomed(by)
         self._invalidate()
 
     def whole(self) -> None:
-        """From the first tick to the last."""
+        """Shows the whole run, from the first tick to the last."""
         self._view = self._view.whole()
         self._invalidate()
 
     def start(self) -> None:
-        """The first tick that is kept."""
+        """Moves the cursor to the first tick that is kept."""
         self._go(self._source.first_tick)
 
     def end(self) -> None:
-        """The last tick."""
+        """Moves the cursor to the last tick."""
         self._go(self._source.last_tick)
 
     def follow(self) -> None:
-        """There and away; a run out of a file has ended, and is only gone to the end of."""
+        """Follows the run as it goes on, or stops following; a recorded run has ended, so only its end is shown."""
         following = self._live and not self._following
         self.end()
         self._following = following
 
     def go_to(self) -> None:
-        """Asks for the tick."""
+        """Asks for a tick, then moves the cursor to it."""
         self._shell.ask_text(_("Go to a tick"), _("Tick:"), str(self._view.cursor), self._go_to_typed)
 
     def mark(self, name: str) -> None:
-        """At the cursor."""
+        """Puts the mark A or B at the cursor; takes it away if it is there already."""
         cursor = self._view.cursor
         if self._marks.get(name) == cursor:
             del self._marks[name]
@@ -134,33 +134,33 @@ class Scope(urwid.Widget):
         self._say("")
 
     def find_on(self, what: Find) -> None:
-        """Forwards from the cursor."""
+        """Moves the cursor to the next such event."""
         self._find(what, FORWARDS)
 
     def find_back(self, what: Find) -> None:
-        """Backwards from the cursor."""
+        """Moves the cursor to such an event before it."""
         self._find(what, BACKWARDS)
 
     def row(self, by: int) -> None:
-        """The bar."""
+        """Moves the bar down by so many rows."""
         self._with_rows(self._rows.move(by))
 
     def hide(self) -> None:
-        """Until all are shown again."""
+        """Hides the row under the bar until all are shown again."""
         self._with_rows(self._rows.hide())
 
     def isolate(self) -> None:
-        """Such as one axis alone."""
+        """Shows only the rows of the bar's group, such as one axis."""
         signals = self._source.signals()
         group = signals[self._rows.at].group
         self._with_rows(self._rows.all().only(row for row, signal in enumerate(signals) if signal.group == group))
 
     def show_all(self) -> None:
-        """Every row."""
+        """Shows every row again."""
         self._with_rows(self._rows.all())
 
     def _look_at(self, source: ScopeSource) -> None:
-        """From its end on, and on with it, where it goes on; else where it is to be opened."""
+        """Shows another run: a live one from its end on, following it; a recorded one at its opening tick."""
         self._source = source
         self._following = self._live
         self._marks: dict[str, int] = {}

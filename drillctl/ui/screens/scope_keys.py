@@ -1,6 +1,6 @@
 """The scope's keys, and what can be looked for with them: small letters look forwards, capital ones backwards.
 
-Rule: as keys.py has it. Used by the scope screen, whose methods the rows name.
+Rule: as keys.py has it.
 """
 
 from typing import NamedTuple

@@ -1,7 +1,7 @@
 """The scope as lines: names, waves and values side by side, the machine at the cursor below or beside them.
 
 Rule: a function of a source and of what is looked at. The cursor and the marks A and B stand as signs in the ruler, so
-that nothing is told by colour alone. Used by the scope screen.
+that nothing is told by colour alone.
 """
 
 from collections.abc import Mapping, Sequence
@@ -35,7 +35,7 @@ LACKS: Mapping[Lack, str] = {
 
 @dataclass(frozen=True)
 class ScopeLook:
-    """What is looked at: ticks, rows, the marks A and B, and what was last said."""
+    """What is drawn: ticks, rows, the marks A and B, and the last message."""
 
     view: Viewport
     rows: SignalRows
@@ -47,7 +47,7 @@ class ScopeLook:
 
 @dataclass(frozen=True)
 class ScopeLayout:
-    """How a box of columns and rows is shared out."""
+    """How many columns names, waves and phase tables get."""
 
     names: int
     waves: int
@@ -55,14 +55,14 @@ class ScopeLayout:
 
     @classmethod
     def of(cls, signals: Sequence[ScopeSignal], columns: int) -> "ScopeLayout":
-        """Tables only where there is room."""
+        """The layout for a width; phase tables stand beside the waves only where there is room."""
         names = min(MOST_NAME, max((len(title(signal)) for signal in signals), default=0)) + 2
         tables = TABLES if columns >= WIDE else 0
         return cls(names, max(1, columns - names - VALUES - tables), tables)
 
 
 def title(signal: ScopeSignal) -> str:
-    """How a row is called."""
+    """The name of a signal's row, with its group where that is needed."""
     return signal.name if signal.group in BESIDE_NAME else f"{signal.group}.{signal.name}"
 
 
@@ -141,7 +141,7 @@ def _wave(source: ScopeSource, look: ScopeLook, edges: Ints, row: int) -> str:
 
 
 def _foot(source: ScopeSource, look: ScopeLook, moment: Moment, columns: int, with_tables: bool) -> list[Line]:
-    """The machine at the cursor, the time between the marks, what was said."""
+    """The lines below: the machine at the cursor, the time between the marks, the last message."""
     seconds = f"{moment.tick / source.tick_hz:.3f}"
     place: Line = [("title", _("tick {tick}, {seconds} s").format(tick=moment.tick, seconds=seconds)), "  "]
     axes = [] if with_tables else packed([_axis_part(axis) for axis in moment.axes], columns)
@@ -150,7 +150,7 @@ def _foot(source: ScopeSource, look: ScopeLook, moment: Moment, columns: int, wi
 
 
 def _fault(source: ScopeSource, moment: Moment) -> Line:
-    """What has befallen the machine, whole: its row may be out of sight, or cut."""
+    """The fault at the cursor in full; its row may be hidden, or have no room for it."""
     values = zip(source.signals(), moment.values, strict=True)
     latched = [(row, value) for row, (signal, value) in enumerate(values) if signal.name == "fault" and value]
     return [part for row, value in latched for part in ("  ", ("warning", source.shown(row, value, moment.tick)))]

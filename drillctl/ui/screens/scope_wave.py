@@ -2,8 +2,7 @@
 
 Rule: what can't be drawn is said, never left out: a column in which a wire changed more than once shows a busy sign, a
 number for which there is no room shows a dot, never some of its digits. Numbers that change too often for digits are a
-curve, but only where every tick has its column: a curve of some of the ticks could show what was not there. Used by the
-scope screen.
+curve, but only where every tick has its column: a curve of some of the ticks could show what was not there.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,7 +17,7 @@ LABEL_EVERY = 12  # columns of the ruler
 
 
 class Signs(NamedTuple):
-    """The characters of a terminal."""
+    """The characters that waves are drawn with."""
 
     low: str
     high: str

@@ -20,31 +20,31 @@ class Shell(Protocol):
     """Where a screen stands: it can tell, ask, and lead on to another screen and back."""
 
     def message(self, title: str, lines: Sequence[str]) -> None:
-        """A dialog that tells something, until Enter or Esc."""
+        """Opens a dialog that tells something, until Enter or Esc."""
 
     def ask(self, question: str, yes: Callable[[], None]) -> None:
-        """A dialog of yes and no; ``yes`` is called when that was the answer. No is what Enter and Esc mean."""
+        """Opens a dialog of yes and no; ``yes`` is called on a yes. Enter and Esc mean no."""
 
     def open(self, screen: urwid.Widget) -> None:
-        """Another screen over this one."""
+        """Puts another screen on top."""
 
     def back(self) -> None:
         """Closes the screen on top; the first one stays."""
 
     def show(self, name: str) -> urwid.Widget | None:
-        """One of the program's screens, by its name in the menus."""
+        """Opens one of the program's screens by its name in the menus; None if there is no such screen."""
 
     def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
-        """A dialog of several lines to type in. It stays open, and shows why, while ``accept`` finds problems."""
+        """Opens a dialog of several lines to type in; it stays, and says why, while ``accept`` finds problems."""
 
     def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
-        """One of several lines; ``chosen`` is called with its number, from 0."""
+        """Opens a dialog of several lines; ``chosen`` is called with the number of one, from 0."""
 
     def offer(self, title: str, lines: Sequence[str], ways: Sequence[tuple[str, Callable[[], object]]]) -> None:
-        """Tells, and offers ways on, a button each, beside the one that does nothing."""
+        """Opens a dialog that tells something, with a button that does nothing and one for each of ``ways``."""
 
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
-        """A dialog with a line to type in, ``text`` to begin with; ``accept`` is called with what was typed."""
+        """Opens a dialog with a line to type in, first ``text``; ``accept`` is called with what was typed."""
 
 
 class MachineScreens(NamedTuple):
@@ -69,7 +69,7 @@ class Live(Protocol):
     """A screen that shows the machine: it is handed the newest view some twenty times a second."""
 
     def refresh(self, view: MachineView) -> None:
-        """Redraws what changed."""
+        """Redraws what changed in the view."""
 
 
 def unsaved(screen: urwid.Widget | None) -> bool:
@@ -86,7 +86,7 @@ def asked_to_leave(screen: urwid.Widget, shell: Shell, key: str, give_up: Callab
 
 
 def asked_if_real(control: ManualControl, shell: Shell, what: str, act: Callable[[], None], warning: str = "") -> None:
-    """Does it at once on a simulated machine, without a ``warning``; else after a yes."""
+    """Calls ``act`` after a yes; without a question on a simulated machine if there is no ``warning``."""
     port = control.real_port()
     real = _("A real machine hangs on {port}.").format(port=port) if port else ""
     reasons = " ".join(filter(None, (real, warning)))

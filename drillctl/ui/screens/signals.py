@@ -1,7 +1,7 @@
 """The Signals screen (Tests): every input and output by name, live; outputs and coils switched by hand while at rest.
 
 Rule: what is seen is what the port has, and nothing is switched that was not asked for: a coil costs the position, a
-real machine moves, so both are asked about first. Opened from the menu.
+real machine moves, so both are asked about first.
 """
 
 import urwid
@@ -19,7 +19,7 @@ FOOT_ROWS = 2
 
 
 class Signals(urwid.Widget):
-    """The signals under a cursor. ``refresh`` is called with the newest view."""
+    """The signals, one of them under the cursor; ``refresh`` is called with the newest view."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
     _selectable = True
@@ -44,7 +44,7 @@ class Signals(urwid.Widget):
         self.refresh(console.view())
 
     def refresh(self, view: MachineView) -> None:
-        """Redrawn only if something is new. Another machine has other signals."""
+        """Reads the signals again; redraws only if something is new."""
         signals = tuple(self._control.signals())
         self._limit(view)
         if signals != self._signals:
@@ -53,11 +53,11 @@ class Signals(urwid.Widget):
             self._invalidate()
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's keys; everything else is the frame's."""
+        """Calls the method of a key in the table; returns any other key for the frame."""
         return None if called(self, self.keys, key) else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """The lines around the cursor, and below what the cursor is on."""
+        """Draws the lines around the cursor, and below them what the cursor is on."""
         assert len(size) == 2
         self._columns, rows = size
         room = max(1, rows - FOOT_ROWS)
@@ -67,7 +67,7 @@ class Signals(urwid.Widget):
         return boxed([*shown, *([[]] * (room - len(shown))), *self._foot(len(lines), room)], self._columns, rows)
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """A click sets the cursor; the wheel moves it."""
+        """Sets the cursor on a click; moves it with the wheel."""
         if event != "mouse press":
             return False
         if button in (4, 5):
@@ -81,7 +81,7 @@ class Signals(urwid.Widget):
         return place < len(places)
 
     def toggle(self) -> None:
-        """An input can't be; a coil is asked about while there is a position to lose."""
+        """Switches an output or a coil over; asks first where a coil would cost a known position."""
         signal = self._signals[self._cursor]
         if signal.kind == "input":
             self._say("warning", _("{name} is an input: it is read, not switched").format(name=signal.name))
@@ -93,11 +93,11 @@ class Signals(urwid.Widget):
         asked_if_real(self._control, self._shell, what, lambda: self._switch(signal), warning)
 
     def sideways(self, by: int) -> None:
-        """Stops at the ends."""
+        """Moves the cursor by so many signals; it stops at the ends."""
         self._go(max(0, min(self._cursor + by, len(self._signals) - 1)))
 
     def downwards(self, by: int) -> None:
-        """Line by line, so that it stops at the ends."""
+        """Moves the cursor down by so many lines; it stops at the ends."""
         for _line in range(abs(by)):
             self._go(moved(self._signals, self._cursor, self._columns, 1 if by > 0 else -1))
 
@@ -116,7 +116,7 @@ class Signals(urwid.Widget):
         self._invalidate()
 
     def _limit(self, view: MachineView) -> None:
-        """What the machine does by itself about outputs that would burn a winding."""
+        """Notes what the machine does by itself about outputs that would burn a winding."""
         limited = _("what would have burned a winding went off after a second") if view.cut_off else ""
         if view.hot_s:
             warning = _("this burns a winding at rest: it goes off by itself in {seconds:.1f} s")
@@ -126,7 +126,7 @@ class Signals(urwid.Widget):
             self._invalidate()
 
     def _scroll(self, room: int, lines: int) -> None:
-        """The cursor's line and the heading above it are seen."""
+        """Scrolls so far that the cursor's line and the line above it are seen."""
         rows = grid_rows(self._signals, self._columns)
         at = next((number for number, row in enumerate(rows) if self._cursor in row), 0)
         self._top = max(min(self._top, at - 1), at - room + 1, 0)
@@ -139,5 +139,5 @@ class Signals(urwid.Widget):
         return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._answer_line()]]
 
     def _answer_line(self) -> tuple[str, str]:
-        """What was answered, unless a winding is in danger."""
+        """The last answer, or the warning that a winding is in danger."""
         return ("warning", self._limited) if self._limited else self._said

@@ -1,7 +1,6 @@
 """What the editors of tables do with a text beyond editing it: save, reset, delete, compare, copy, drive.
 
-Rule: a refusal is told and nothing follows; ``then`` is called only after success. Used by table_editor, configuration
-and table_list.
+Rule: a refusal is told and nothing follows; ``then`` is called only after success.
 """
 
 import difflib
@@ -18,13 +17,13 @@ Then = Callable[[], None]
 
 
 class TableActions:
-    """The tables of one kind, with the dialogs that go with them."""
+    """What can be done with the tables of one kind, and the dialogs for it."""
 
     def __init__(self, console: Console, shell: Shell, tables: TableEditing, kind: TableKind):
         self._console, self._shell, self._tables, self._kind = console, shell, tables, kind
 
     def save(self, name: str, text: str, machine: str, then: Then) -> None:
-        """To the user's own copy; where it drives the machine at hand, ``machine`` can then be started anew with it."""
+        """Saves to the user's own copy; offers to start ``machine`` anew if the table is in use."""
         if self._refused(_("Not saved"), self._tables.save(self._kind, name, text)):
             return
         then()
@@ -35,7 +34,7 @@ class TableActions:
             self._shell.message(_("Saved"), [_("The machine at hand is driven by other tables.")])
 
     def reset(self, name: str, then: Then) -> None:
-        """Asks first where there is something to go back to; else the refusal is all there is to say."""
+        """Asks, then removes the user's copy; refused where the table does not come with the program."""
 
         def yes() -> None:
             if not self._refused(_("Nothing changed"), self._tables.reset(self._kind, name)):
@@ -47,7 +46,7 @@ class TableActions:
             yes()
 
     def delete(self, name: str, then: Then) -> None:
-        """Asks first; there is no way back."""
+        """Asks, then deletes a table of the user's own for good."""
 
         def yes() -> None:
             if not self._refused(_("Nothing changed"), self._tables.delete(self._kind, name)):
@@ -56,7 +55,7 @@ class TableActions:
         self._shell.ask(_("Delete {name}, which is your own, for good?").format(name=name), yes)
 
     def compare(self, name: str) -> None:
-        """Asks with which."""
+        """Asks for another table, and shows what differs."""
 
         def accept(other: str) -> None:
             if other not in {entry.name for entry in self._tables.tables(self._kind)}:
@@ -68,12 +67,12 @@ class TableActions:
         self._shell.ask_text(_("Compare"), _("{name} with:").format(name=name), "", accept)
 
     def diff(self, name: str, text: str) -> None:
-        """Against the shipped table."""
+        """Shows what differs between a text and the shipped table."""
         lines = self._tables.diff(self._kind, name, text)
         self._shell.message(_("Differences"), lines or [_("none: this is the shipped table")])
 
     def copy(self, name: str, then: Callable[[str], None]) -> None:
-        """Asks for the new name, which ``then`` is given."""
+        """Asks for a new name, copies the table, and calls ``then`` with the name."""
 
         def accept(new_name: str) -> None:
             if not self._refused(_("Not copied"), self._tables.copy(self._kind, name, new_name)):
@@ -82,7 +81,7 @@ class TableActions:
         self._shell.ask_text(_("Copy"), _("New name:"), f"my-{name}", accept)
 
     def drive(self, machine: str) -> None:
-        """The machine starts anew, with the tables as they are saved. Refused while something moves."""
+        """Starts the machine anew with the saved tables; refused while something moves."""
         self._refused(_("Not loaded"), self._console.choose_machine(machine))
 
     def _refused(self, title: str, problems: Problems) -> bool:
@@ -95,7 +94,7 @@ LABEL_COLUMNS, VALUE_COLUMNS = 26, 18
 
 
 def differences(tables: TableEditing, kind: TableKind, name: str, other: str) -> list[str]:
-    """A line a difference, empty for two that are alike."""
+    """A line for each difference between two tables; none for two that are alike."""
     here, there = tables.read(kind, name), tables.read(kind, other)
     if kind == "machines" and tables.fields(here) and tables.fields(there):
         return _of_fields(tables.fields(here), tables.fields(there), name, other)

@@ -51,15 +51,15 @@ class TableEditor(urwid.Widget):
 
     @property
     def changed(self) -> bool:
-        """Whether it differs from what is in force."""
+        """Whether the table differs from the saved one."""
         return self.text != self._saved
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
-        """The table itself, for so much room: what each kind of editor draws in its own way."""
+        """The lines of the table in this room; each kind of editor draws in its own way."""
         raise NotImplementedError  # by PhaseEditor and RampEditor
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """Name, table, findings."""
+        """Draws name, table and findings."""
         assert len(size) == 2
         columns, rows = size
         verdict = self._verdict()
@@ -67,39 +67,39 @@ class TableEditor(urwid.Widget):
         return boxed([[("title", self._heading())], [""], *drawing, [""], *verdict], columns, rows)
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's keys; Esc asks first where something would be lost."""
+        """Calls the method of a key in the table; Esc asks first where something is not saved."""
         taken = asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key)
         return None if taken else key
 
     def edit(self, text: str) -> None:
-        """A new text, checked at once."""
+        """Takes a new text into the history and checks it."""
         self._history.do(text)
         self._look()
 
     def undo(self) -> None:
-        """The state before."""
+        """Goes back to the state before."""
         self._history.undo()
         self._look()
 
     def redo(self) -> None:
-        """The state after."""
+        """Goes forward to the state that was undone last."""
         self._history.redo()
         self._look()
 
     def save(self) -> None:
-        """The history stays: what was saved can be undone on the screen."""
+        """Saves the text; its history stays, so that what was saved can be undone on the screen."""
         self._actions.save(self._name, self.text, self._console.view().machine, self._keep)
 
     def reset(self) -> None:
-        """The history ends."""
+        """Goes back to the shipped table; the history ends."""
         self._actions.reset(self._name, self._open)
 
     def diff(self) -> None:
-        """Of the text on the screen, saved or not."""
+        """Shows what differs between the text on the screen and the shipped table."""
         self._actions.diff(self._name, self.text)
 
     def _give_up(self) -> None:
-        """The edits go, and the screen with them."""
+        """Discards the edits and closes the screen."""
         self._open()
         self._shell.back()
 
@@ -109,7 +109,7 @@ class TableEditor(urwid.Widget):
         self._look()
 
     def _look(self) -> None:
-        """Everything that is shown of the text; a kind of table adds its own."""
+        """Checks the text and redraws; each kind of editor adds what it shows of the text."""
         self._checked: Checked = self._tables.check(self.kind, self.text)
         entries = self._tables.tables(self.kind)
         self._origin = next((entry.origin for entry in entries if entry.name == self._name), "other")

@@ -1,7 +1,4 @@
-"""The tables of one kind: choose one to edit, or copy it. Rule: says of each whose it is, and whether it is in use.
-
-Opened from the menu.
-"""
+"""The tables of one kind: choose one to edit, or copy it. Rule: says of each whose it is, and whether it is in use."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -31,7 +28,7 @@ NAME_COLUMNS = 41
 
 
 class TableList(urwid.WidgetWrap[urwid.Widget]):
-    """The tables of a kind that has an editor."""
+    """The list of the tables of one kind."""
 
     keys = (
         Key(("enter",), "Enter", "edit", N_("opens the table"), N_("Open")),
@@ -52,17 +49,17 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         self.fill()
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """The table's keys, then the list's own."""
+        """Calls the method of a key in the table; the list handles the others."""
         return None if called(self, self.keys, key) else super().keypress(size, key)
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """What was saved meanwhile shows when the list is on top again."""
+        """Draws the list, filled anew if a table was saved meanwhile."""
         if [*self._tables.tables(self.kind)] != self._entries:
             self.fill()
         return super().render(size, focus)
 
     def fill(self) -> None:
-        """The list anew; the cursor stays where it was, and is at first on a table in use."""
+        """Fills the list anew; the cursor stays, and is at first on a table in use."""
         self._entries = [*self._tables.tables(self.kind)]
         in_use = (row for row, entry in enumerate(self._entries) if entry.in_use)
         at = self._list.focus_position if self._rows else next(in_use, 0)
@@ -72,7 +69,7 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
             self._list.set_focus(min(at, len(lines) - 1))
 
     def edit(self) -> None:
-        """With the editor of its kind; one that was left with something unsaved in it comes back as it was."""
+        """Opens the editor of the table's kind; one that was left with something unsaved comes back as it was."""
         if not self._entries:
             return
         name = self._current
@@ -82,22 +79,22 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         self._shell.open(self._editors[name])
 
     def copy(self) -> None:
-        """Asks for the name."""
+        """Asks for a name and copies the table."""
         if self._entries:
             self._actions.copy(self._current, lambda _name: self.fill())
 
     def compare(self) -> None:
-        """Asks with which."""
+        """Asks for another table and shows what differs."""
         if self._entries:
             self._actions.compare(self._current)
 
     def reset(self) -> None:
-        """Asks first."""
+        """Asks, then goes back to the shipped table."""
         if self._entries:
             self._actions.reset(self._current, self.fill)
 
     def delete(self) -> None:
-        """Asks first."""
+        """Asks, then deletes a table of the user's own."""
         if self._entries:
             self._actions.delete(self._current, self.fill)
 
@@ -107,6 +104,6 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
 
 
 def _line(entry: TableEntry) -> str:
-    """The sign stands before the name, where the eye goes down the list; the word where it is read."""
+    """The line of a table: a sign and a word if it is in use, its name, and whose it is."""
     sign, word = ("*", _(", in use")) if entry.in_use else (" ", "")
     return f"{sign} {entry.name:{NAME_COLUMNS}}{_(ORIGINS[entry.origin])}{word}"

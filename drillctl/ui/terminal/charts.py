@@ -1,8 +1,7 @@
 """Pictures of numbers in characters: curves as braille dots between labelled axes. Functions of a record and a size.
 
 Rule: where there are several, every curve has a letter in it, by which the legend names it; on a terminal a colour too.
-The colours are control characters of this program's own: words are escaped here, before they are painted. Called by the
-verbs that draw; plotted.py draws the same records into files.
+The colours are control characters of this program's own: words are escaped here, before they are painted.
 """
 
 from collections.abc import Sequence
@@ -25,7 +24,7 @@ NO_DOTS = chr(BRAILLE)
 
 @dataclass(frozen=True, slots=True)
 class ChartLook:
-    """How big a chart is, in characters, and what the terminal can show."""
+    """The size of a chart in characters, and what the terminal can show."""
 
     columns: int
     rows: int
@@ -137,7 +136,7 @@ def _row(cells: Sequence[str], owners: Sequence[int], look: ChartLook) -> list[s
 
 
 def _stepped(curve: Curve) -> Curve:
-    """Stairs as the line that they are."""
+    """A curve of stairs as a line with corners; any other curve as it is."""
     if curve.style is not Style.STAIRS:
         return curve
     return Curve(curve.label, np.repeat(curve.x, 2)[1:], np.repeat(curve.y, 2)[:-1])

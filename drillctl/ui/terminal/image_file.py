@@ -1,7 +1,7 @@
 """Pictures of numbers as PNG or SVG, drawn by matplotlib, which is an extra: ``pip install '.[plot]'`` in a clone.
 
 Rule: a function of a record; the same record gives the same bytes: no date, no random names. charts.py draws the same
-in characters. Called by the verbs that draw.
+in characters.
 """
 
 import io
@@ -26,7 +26,7 @@ STYLES: dict[Style, dict[str, Any]] = {
 
 
 class PictureRefused(Exception):
-    """A picture that can't be drawn here. ``str()`` says what to do."""
+    """A picture that can't be drawn here; ``str()`` says what to do."""
 
 
 def check_format(suffix: str) -> str:
@@ -41,7 +41,7 @@ def check_format(suffix: str) -> str:
 
 
 def picture_bytes(picture: Picture, kind: str) -> bytes:
-    """The file's content; ``kind`` is what ``check_format`` gave."""
+    """The content of an image file of this kind, which ``check_format`` returned."""
     import matplotlib
     from matplotlib.figure import Figure
 

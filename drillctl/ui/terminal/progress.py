@@ -1,6 +1,6 @@
 """A job on its way: a bar with the time left on a terminal, a plain line now and then in a pipe.
 
-Rule: writes to one stream, never to standard output. Called by the run verb for every Progress.
+Rule: writes to one stream, never to standard output.
 """
 
 import time
@@ -45,7 +45,7 @@ class ProgressView:
             self._bar.close()
 
     def show(self, progress: Progress) -> None:
-        """The newest record; drawn as often as a person can read it."""
+        """Draws the newest record, at most as often as a person can read it."""
         now_s = time.monotonic()
         self._first = self._first or (now_s, progress)
         if now_s < self._due_s:
@@ -58,7 +58,7 @@ class ProgressView:
             print(_line(progress), file=self._stream, flush=True)
 
     def _wait_s(self, progress: Progress, now_s: float) -> float | None:
-        """How long the person will still wait; None while nobody can tell."""
+        """How many seconds the person will still wait; None if it can't be said."""
         if self._by_clock or self._first is None:
             return progress.seconds_left
         began_s, first = self._first

@@ -85,7 +85,7 @@ def _range(bar: Bar) -> str:
 
 
 def _drawn(ticks: int, most: int) -> str:
-    """One mark for a single tick, all of them for the most."""
+    """A bar of the histogram: one mark for a single tick, all marks for the most."""
     return "#" * (ticks and 1 + round((WIDEST - 1) * math.log(ticks) / max(math.log(most), 1e-9)))
 
 

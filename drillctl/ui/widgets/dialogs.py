@@ -1,6 +1,7 @@
-"""Dialogs: tell something, ask yes or no, ask for a line of text. Boxes over what was there before.
+"""Dialogs: tell something, ask yes or no, ask for lines of text, offer a choice. Boxes over what was there before.
 
-Rule: a dialog is closed by every way out of it, before its answer is acted upon. Made by app.py and the screens.
+Rule: a dialog is closed by every way out of it, before its answer is acted upon. A form's OK is the exception: its
+answers are looked at first, and while anything is wrong with them the box stays open and says so.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,7 +34,7 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         super().__init__(urwid.AttrMap(self._frame, "body"))
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """Nothing passes a dialog. Who comes down to the buttons comes to the first, wherever the cursor stood."""
+        """Handles every key: no key passes a dialog. Down from the text leads to the first button."""
         above = self._list.focus is not self._row
         if key == "esc":
             self._closing()
@@ -44,12 +45,12 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         return None
 
     def from_the_top(self) -> None:
-        """Shows its first line: for text longer than the terminal. Enter is the first button wherever one reads."""
+        """Shows the first line of a text that is longer than the terminal; Enter is the first button."""
         self._list.set_focus(0)
         self._frame.set_title(_("{title} (PgDn: more)").format(title=self._title))
 
     def wanted_rows(self, columns: int) -> int:
-        """Rows for all of it in a box so wide."""
+        """How many rows the whole dialog needs in this width."""
         inner = (columns - 4,)
         return sum(widget.rows(inner) for widget in self._parts) + 2
 
@@ -66,21 +67,21 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
 
 
 def nothing() -> None:
-    """What a button does that only closes."""
+    """Does nothing: the action of a button that only closes its dialog."""
 
 
 def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing) -> Dialog:
-    """Tells; ``then`` follows on Enter."""
+    """A dialog that tells something; ``then`` is called after Enter."""
     return Dialog(title, [Text(line) for line in lines], [(_("OK"), then)], closing)
 
 
 def question(text: str, yes: Act, closing: Act) -> Dialog:
-    """No stands first, so that Enter alone does nothing."""
+    """A dialog of No and Yes; No stands first, so that Enter alone does nothing."""
     return Dialog(_("Question"), [Text(text)], [(_("No"), nothing), (_("Yes"), yes)], closing)
 
 
 def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], closing: Act) -> Dialog:
-    """Asks for a line of text; Enter in the field or OK hands it over."""
+    """A dialog that asks for a line of text; Enter in the field, or OK, hands it to ``accept``."""
     field = _Field(("body", f"{prompt} "), text)
     dialog = Dialog(
         title,
@@ -150,11 +151,11 @@ class FieldsDialog(Dialog):
         super().__init__(title, [*boxes, self._problems], [(_("OK"), self.submit), (_("Cancel"), nothing)], closing)
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """Tab goes on as the arrow does."""
+        """Handles a key; Tab goes to the next field as Down does."""
         return super().keypress(size, "down" if key == "tab" else key)
 
     def submit(self) -> None:
-        """Closes once everything is accepted."""
+        """Hands the texts to ``accept``; closes if there are no problems, else shows them."""
         if problems := self._accept([edit.edit_text for edit in self._edits]):
             self._problems.set_text(("danger", "\n".join(map(translated, problems[:PROBLEM_ROWS]))))
         else:
@@ -175,7 +176,7 @@ class ChoiceDialog(Dialog):
         super().__init__(title, rows, [(_("Cancel"), nothing)], closing)
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """A digit picks its line at once."""
+        """Handles a key; a digit picks its line immediately."""
         if key.isdecimal() and 1 <= int(key) <= len(self._acts):
             self._acts[int(key) - 1]()
             return None
@@ -183,7 +184,7 @@ class ChoiceDialog(Dialog):
 
 
 def offer(title: str, lines: Sequence[str], ways: Sequence[tuple[str, Act]], closing: Act) -> Dialog:
-    """Several ways on, a button each; the first, which Enter means, and Esc do nothing."""
+    """A dialog with a button for each of ``ways``; the first button, which Enter means, and Esc do nothing."""
     return Dialog(title, [Text(line) for line in lines], [(_("Not now"), nothing), *ways], closing)
 
 

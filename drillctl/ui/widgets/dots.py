@@ -1,7 +1,4 @@
-"""A board drawn in the terminal: holes as braille dots, to scale, Y upwards. Functions of points and a size.
-
-Called by the inspect verb, by screens/board_view.py, which lays progress and the head over it, and by charts.py.
-"""
+"""Points drawn in the terminal as braille dots, to scale, Y upwards. Functions of points and a size."""
 
 from dataclasses import dataclass
 

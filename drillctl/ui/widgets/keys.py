@@ -56,12 +56,12 @@ def called(target: object, keys: Iterable[Key], pressed: str) -> bool:
 
 
 def key_parts(keys: Sequence[Key]) -> list[list[str | tuple[str, str]]]:
-    """Marked text of each key with a short word, for the bottom lines."""
+    """The keys that have a short word, as marked text for the bottom lines."""
     return [[(_attribute(key), _(key.printed)), f" {_(key.short)}  "] for key in keys if key.short]
 
 
 def help_lines(keys: Sequence[Key]) -> list[str]:
-    """A line a key."""
+    """A line of help for each key."""
     return [f"{_(key.printed):<12}{_(key.help)}" for key in keys]
 
 

@@ -1,7 +1,7 @@
-"""Widgets with words in them. Rule: whatever they are given, a terminal only prints: what it would obey is escaped.
+"""Widgets with words in them, and lines of marked text that are drawn without a widget.
 
-Every text on the screen is one of these, or is drawn by lines.py, which escapes too; tests/ui/test_hidden_characters.py
-holds that no screen makes urwid's own. Used by the frame, the dialogs and all screens.
+Rule: whatever they are given, a terminal only prints: what it would obey is escaped. Every text on the screen is one of
+these; tests/ui/test_hidden_characters.py holds that no screen makes urwid's own.
 """
 
 from collections.abc import Callable, Hashable, Sequence
@@ -30,18 +30,18 @@ def shown(markup: Markup) -> Markup:
 
 
 class Text(urwid.Text):
-    """Text to be read."""
+    """A text that is only read."""
 
     def set_text(self, markup: Any) -> None:
-        """Escaped."""
+        """Shows another text, escaped."""
         super().set_text(shown(markup))
 
 
 class Icon(urwid.SelectableIcon):
-    """A line of a list, with the cursor at its beginning."""
+    """A line of a list that can have the cursor."""
 
     def set_text(self, markup: Any) -> None:
-        """Escaped."""
+        """Shows another text, escaped."""
         super().set_text(shown(markup))
 
 
@@ -49,7 +49,7 @@ class Edit(urwid.Edit):
     """A field: shows one mark for each character that is not printed, and keeps the text as it is."""
 
     def get_text(self) -> Any:
-        """Caption and text as they are drawn, and their attributes."""
+        """Caption and text as they are drawn, with their attributes."""
         text, attributes = super().get_text()
         return masked(str(text)), attributes
 
@@ -68,7 +68,7 @@ class Box(urwid.LineBox[urwid.Widget]):
         super().__init__(inside, title=visible(title), title_attr="title")
 
     def set_title(self, text: Any) -> None:
-        """Another one."""
+        """Shows another title, escaped."""
         super().set_title(shown(text))
 
 
@@ -82,14 +82,14 @@ class Pick(Text):
         super().__init__(text, wrap="ellipsis")
 
     def keypress(self, size: Size, key: str) -> str | None:
-        """Anything else is somebody else's."""
+        """Chooses the line for Enter and the further keys; returns any other key."""
         if key not in self._keys:
             return key
         self._chosen()
         return None
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """A press of the first button."""
+        """Chooses the line for a press of the first button."""
         if event != "mouse press" or button != 1:
             return False
         self._chosen()
@@ -108,13 +108,13 @@ def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
 
 
 def around(cursor: int, count: int, room: int) -> range:
-    """Which of ``count`` things are shown where there is room for fewer: those about the cursor."""
+    """The indices that are shown of ``count`` things where there is room for fewer: those around the cursor."""
     first = min(max(cursor - room // 2, 0), max(count - room, 0))
     return range(first, min(first + room, count))
 
 
 def packed(parts: Sequence[Line], columns: int) -> list[Line]:
-    """Parts side by side, none of them broken, in as many lines as they need."""
+    """Parts side by side in as many lines as they need; no part is broken."""
     lines: list[Line] = [[]]
     for part in parts:
         if lines[-1] and width_of([*lines[-1], *part]) > columns:
@@ -150,6 +150,6 @@ def _fitting(words: str, room: int) -> tuple[int, int]:
 
 
 def width_of(line: Line) -> int:
-    """Columns that a line takes."""
+    """How many columns a line takes."""
     texts = (visible(part if isinstance(part, str) else part[1]) for part in line)
     return sum(urwid.calc_width(text, 0, len(text)) for text in texts)

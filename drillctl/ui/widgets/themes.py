@@ -1,7 +1,7 @@
 """Colours by meaning: a theme gives every attribute a look. Rule: a widget names an attribute, never a colour.
 
 Colour is never the only sign: what is lit, done or wrong is told by a character or a word as well, so ``mono`` loses
-nothing. Used by app.py; screens use the names.
+nothing.
 """
 
 from collections.abc import Mapping
