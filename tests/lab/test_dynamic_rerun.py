@@ -100,7 +100,7 @@ def test_a_window_cuts_out_its_ticks(recorded: Recording) -> None:
 
 def test_what_can_not_be_watched_is_refused(recorded: Recording, tmp_path: Path) -> None:
     trace = recorded()
-    with pytest.raises(LabError, match="no axis 'q'; it has x, y, z"):
+    with pytest.raises(LabError, match="no axis 'q'; there are x, y, z"):
         rerun_axis(trace, LIBRARY, "q")
     text = trace.read_text()
     digest = next(line for line in text.splitlines() if line.startswith("digest"))
