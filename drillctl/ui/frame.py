@@ -83,6 +83,9 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         self.bar = MenuBar()
         self._machine = Text("", wrap="ellipsis")
         self._keys = KeyLine()
+        self._title: Line = []
+        self._state: Line = []
+        self._notice: Line = []
         self._shown: Line = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
         super().__init__(urwid.SolidFill(), header=header, footer=self._keys)
@@ -92,6 +95,17 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         self.body = screen
         frame_keys = [key for key in FRAME_KEYS if key is not EMERGENCY and not (lowest and key.method == "back")]
         self._keys.show([EMERGENCY, *screen_keys(screen), *frame_keys])
+
+    def render(self, size: Size, focus: bool = False) -> urwid.CompositeCanvas:
+        """Fits the line on the machine first: the screen's title is left out where the position would not be seen."""
+        assert len(size) == 2
+        line = [*self._title, *self._state]
+        whole = sum(len(part if isinstance(part, str) else part[1]) for part in line) <= size[0]
+        markup = [*(line if whole else self._state), *self._notice]
+        if markup != self._shown:
+            self._shown = markup
+            self._machine.set_text(list(markup))
+        return super().render(size, focus)
 
     def show_machine(self, view: MachineView) -> None:
         """Draws the line on the machine: condition, position, newest notice."""
@@ -104,12 +118,11 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         place = f" {view.machine}{tables} | {view.port} | "
         shown = (attribute, f" {_(word)} ")
         title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
-        markup: Line = [title, place, shown, f" {moving} | ", position]
-        if view.notices:
-            markup += [" | ", ("warning", translated(view.notices[-1]))]
-        if markup != self._shown:
-            self._shown = markup
-            self._machine.set_text(list(markup))
+        state: Line = [place, shown, f" {moving} | ", position]
+        notice: Line = [" | ", ("warning", translated(view.notices[-1]))] if view.notices else []
+        if (state, notice, [title]) != (self._state, self._notice, self._title):
+            self._title, self._state, self._notice = [title], state, notice
+            self._invalidate()
 
 
 def screen_keys(screen: urwid.Widget) -> Sequence[Key]:
