@@ -3,7 +3,8 @@
     python -m benchmarks.fuzz_readers [COUNT] [--seed N] [--reader NAME]...      10,000 inputs a reader by default
 
 Most inputs are seeds with a few things changed: bits, bytes, words, lines and numbers, cuts, splices, nesting,
-thousands of digits; of segments their blocks, packed again. The others are rows of words, or noise (fuzz_makers.py).
+thousands of digits; of segments their blocks, packed again; of a journal what its lines say, sealed again. The others
+are rows of words, or noise (fuzz_makers.py).
 Prints, for each reader, how many inputs were read and how many refused, and the slowest; then every offence with the
 bytes of its input, so that it can become a test.
 """
@@ -22,6 +23,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from types import FrameType
 
+from benchmarks.fuzz_journal import resealed_input
 from benchmarks.fuzz_makers import EXTREMES, Material, Random, packed_input, text_input
 from drillctl.console.recent_jobs import RecentJobs
 from drillctl.generation import alignment, measured
@@ -155,15 +157,18 @@ def _segment_seeds() -> list[bytes]:
 
 
 def _journal_seed() -> bytes:
-    """Of a board that was cut off at its third hole."""
+    """Of a board that was stopped after its first hole, gone on with, and cut off at its third."""
     recipe = Recipe(machine="pcb-drill")
     job = load_job(EXAMPLES / "blinker.drl", MACHINE, recipe.wishes(MACHINE))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "journal"
         with closing(Journal(file, head_of(EXAMPLES / "blinker.drl", job, recipe.options()), SITE)) as journal:
-            for hole in (1, 2):
-                journal.begun(hole)
-                journal.done([hole])
+            journal.begun(1)
+            journal.done([1])
+            journal.ended("stopped")
+        with closing(Journal(file, read_journal(file), SITE)) as journal:
+            journal.begun(2)
+            journal.done([2])
             journal.begun(3)
         return file.read_bytes()
 
@@ -183,7 +188,9 @@ def readers() -> dict[str, Reader]:
         "kmd": Reader(_job, (JobError,), Material(_files(EXAMPLES, "*.kmd"), KMD_WORDS), ".kmd"),
         "trace": Reader(_trace, traces, Material(_short_traces(), TRACE_WORDS)),
         "segments": Reader(_trace, traces, Material(_segment_seeds(), TRACE_WORDS), make=_segments),
-        "journal": Reader(_journal, (JournalError, JobError), Material([_journal_seed()], JSON_WORDS)),
+        "journal": Reader(
+            _journal, (JournalError, JobError), Material([_journal_seed()], JSON_WORDS), make=resealed_input
+        ),
         "phase": _table("phase"),
         "ramp": _table("ramp"),
         "motor": _table("motor"),

@@ -3,10 +3,9 @@ in segments.
 """
 
 import argparse
-import sys
 from pathlib import Path
 
-from drillctl.cli import jobs, options
+from drillctl.cli import jobs, options, streams
 from drillctl.language import known_words
 
 QUEUE = ".kmd"
@@ -40,7 +39,7 @@ def call(arguments: argparse.Namespace) -> int:
     text, warnings = _queue(arguments) if ending == QUEUE else _excellon(arguments)
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         for warning in warnings:
-            print(f"drillctl: warning: {warning}", file=sys.stderr)
+            streams.tell(f"warning: {warning}")
         assert output is not None
         output.write(lambda file: print(text, file=file, end=""))
     return 0

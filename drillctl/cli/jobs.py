@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.cli import streams
 from drillctl.files.inputs import real_path
 from drillctl.generation.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 
@@ -103,7 +104,7 @@ def _show_alignment(alignment: "Alignment") -> None:
         file=sys.stderr,
     )
     for warning in alignment.warnings:
-        print(f"drillctl: warning: {warning}", file=sys.stderr)
+        streams.tell(f"warning: {warning}")
 
 
 def _pair(text: str) -> tuple[float, float]:

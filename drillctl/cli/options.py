@@ -2,7 +2,6 @@
 
 import argparse
 import math
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -54,7 +53,7 @@ class LocalTables:
         new = [str(file) for file in dict.fromkeys(files) if file not in self._named]
         self._named.update(files)
         if new:
-            print(f"drillctl: {local_tables(new)}", file=sys.stderr)
+            streams.tell(f"{local_tables(new)}")
 
 
 def machine(arguments: argparse.Namespace) -> "Machine":
@@ -215,10 +214,10 @@ def report_outcome(done: "JobResult", as_json: bool, problems: Sequence[str] = (
     from drillctl.ui.terminal.reports import summary_lines
 
     for notice in done.notices:
-        print(f"drillctl: {notice}", file=sys.stderr)
+        streams.tell(f"{notice}")
     lines = [json_text(done.outcome.as_dict(), 2)] if as_json else summary_lines(done.outcome)
     code = 1 if done.outcome.fault or done.trouble or problems else 0
     code = streams.delivered(code if done.signal is None else exit_code(done.signal), "\n".join(lines) + "\n")
     for problem in filter(None, (done.trouble, *problems)):
-        print(f"drillctl: {problem}", file=sys.stderr)
+        streams.tell(f"{problem}")
     return code

@@ -5,7 +5,6 @@ that is no refusal is raised on, as a fault of this program.
 """
 
 import re
-import sys
 from typing import Any
 
 from drillctl.cli import streams
@@ -31,11 +30,13 @@ def refuse(error: Exception, as_json: bool) -> int:
         return streams.undelivered(error)
     if code is None:
         raise error
+    from drillctl.generation.errors import JobError
+
     record = _object(error, code)
     if as_json:
         print(json_text(record))
-    for line in _text(error).split("\n"):
-        print(f"drillctl: {line}", file=sys.stderr)
+    for line in _text(error).split("\n") if isinstance(error, JobError) else [_text(error)]:
+        streams.tell(line)
     return streams.delivered(REFUSED)
 
 

@@ -3,12 +3,11 @@ ran: initialises and drills the holes that are left.
 """
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import operating, options
+from drillctl.cli import operating, options, streams
 
 if TYPE_CHECKING:
     from drillctl.jobs.journal import Account
@@ -91,16 +90,16 @@ def _tell(account: "Account", session: "Session") -> None:
     file, left, here = session.journal, session.job, site_of(session.running)
     where = f"as it ran: {here}" if here == account.site else f"elsewhere: {here}; it ran on {account.site}"
     counted = f"{account.holes_done} of {account.head.holes} holes are drilled"
-    print(f"drillctl: {file}: {counted}; it goes on {where}", file=sys.stderr)
+    streams.tell(f"{file}: {counted}; it goes on {where}")
     if account.torn:
-        print(f"drillctl: {file}: its last line is torn, and left out", file=sys.stderr)
+        streams.tell(f"{file}: its last line is torn, and left out")
     for warning in left.warnings:
-        print(f"drillctl: warning: {warning}", file=sys.stderr)
+        streams.tell(f"warning: {warning}")
     if account.head.options.get("spot") is not None and account.holes_begun:
         spotted = "holes of the tool in hand may bear their spot already; they are marked again, in the same place"
-        print(f"drillctl: {spotted}", file=sys.stderr)
+        streams.tell(f"{spotted}")
     if account.again is not None:
         x_mm, y_mm = left.file_place(account.again)
         hole = f"hole {account.again} (X{x_mm:.4f} Y{y_mm:.4f} mm)"
         why = "was cut off" if account.open else "may have been begun"
-        print(f"drillctl: {hole} {why}; it is drilled again", file=sys.stderr)
+        streams.tell(f"{hole} {why}; it is drilled again")

@@ -1,12 +1,11 @@
 """``drillctl run JOB``: drills a drill file or a ``.kmd`` queue."""
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import jobs, operating, options
+from drillctl.cli import jobs, operating, options, streams
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
@@ -60,7 +59,7 @@ def call(arguments: argparse.Namespace) -> int:
         if paced or session.journal:
             _tell(session)
         for warning in (*machine_hazards(machine), *job.warnings):
-            print(f"drillctl: warning: {warning}", file=sys.stderr)
+            streams.tell(f"warning: {warning}")
         done = operating.operated(session, arguments)
         problems = unwritten(
             lambda: _write_trace(job, done, trace),
@@ -75,7 +74,7 @@ def _tell(session: "Session") -> None:
     from drillctl.jobs.site import site_of
 
     journal = f"; journal {session.journal}" if session.journal else ""
-    print(f"drillctl: {site_of(session.running)}{journal}", file=sys.stderr)
+    streams.tell(f"{site_of(session.running)}{journal}")
 
 
 def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:

@@ -10,7 +10,7 @@ import os
 import sys
 from typing import TYPE_CHECKING, TextIO, cast
 
-from drillctl.language import LINES, visible
+from drillctl.language import LINES, one_line, visible
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
@@ -56,6 +56,11 @@ class _Bar:
 
     def write(self, text: str) -> None:
         as_it_is(self._stream, visible(text, LINES + RETURN))
+
+
+def tell(line: str) -> None:
+    """One line on standard error. Line ends within it, as a file's name may have, are escaped too."""
+    print(f"drillctl: {one_line(line)}", file=sys.stderr)
 
 
 def prepare() -> None:
@@ -115,5 +120,5 @@ def delivered(code: int, text: str = "") -> int:
 def undelivered(error: OSError, code: int = 0) -> int:
     """Returns the exit code of a verb whose output could not be written."""
     silence(sys.stdout)
-    print(f"drillctl: standard output: {error.strerror}", file=sys.stderr)
+    tell(f"standard output: {error.strerror}")
     return code or UNDELIVERED

@@ -3,11 +3,10 @@ whether a table is valid.
 """
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import options
+from drillctl.cli import options, streams
 from drillctl.language import json_text
 
 MACHINES = "Lists the machines that can be driven: name, interrupt frequency, axes, description."
@@ -42,7 +41,7 @@ def list_machines(arguments: argparse.Namespace) -> int:
             machines.append(library.machine(name))
         except TableError as error:
             refused = 2
-            print(f"drillctl: {error}", file=sys.stderr)
+            streams.tell(str(error))
     if arguments.json:
         print(json_text([_as_dict(machine) for machine in machines], 2))
     else:
@@ -72,7 +71,7 @@ def check_tables(arguments: argparse.Namespace) -> int:
             hazards = library.check(file)
         except TableError as error:
             refused = 2
-            print(f"drillctl: {error}", file=sys.stderr)
+            streams.tell(str(error))
             continue
         print(f"{file}: {'ok' if not hazards else 'usable, but'}")
         for hazard in hazards:

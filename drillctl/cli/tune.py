@@ -4,13 +4,12 @@ margin; proves that it lands exactly, and writes it as a table with the evidence
 
 import argparse
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import options
+from drillctl.cli import options, streams
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
@@ -47,7 +46,7 @@ def call(arguments: argparse.Namespace) -> int:
     out = arguments.out or user_tables() / "ramp" / f"{name}.toml"
     bench = Bench(axis, arguments.tick_hz or machine.tick_hz, arguments.margin)
     with _new(out) as output:
-        tuned = tune(bench, name, lambda line: print(f"drillctl: {line}", file=sys.stderr))
+        tuned = tune(bench, name, lambda line: streams.tell(f"{line}"))
         text = ramp_text(tuned, bench, machine)
         output.write(lambda file: file.write(text))
     print("\n".join(evidence_lines(tuned, bench, machine)))

@@ -103,10 +103,13 @@ def check_kind(found: os.stat_result, file: Named) -> None:
 
 
 def real_path(path: Named) -> Path:
-    """Returns the path without links and dots. A loop of links is returned as it is, so that opening it gives the
-    error.
+    """Returns the path without links and dots. A loop of links and a name that can't be are returned as they are, so
+    that opening them gives the error.
     """
-    return Path(os.path.realpath(path))
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError:  # a null character, or half of a surrogate pair
+        return Path(path)
 
 
 def size_words(size_bytes: int) -> str:

@@ -24,6 +24,7 @@ from drillctl.machine import Machine
 from drillctl.machine.shape import Steps, TickHz
 
 FilePath = Annotated[str, msgspec.Meta(min_length=1, pattern=r"\A[^\x00]*\Z")]  # no argument of a program has a NUL
+BAD_VALUES = (msgspec.ValidationError, UnicodeEncodeError)  # the latter: half of a surrogate pair, as JSON can hold
 Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
 MeasuredRow = tuple[Millimetres, Millimetres, Millimetres, Millimetres]  # file_x, file_y, machine_x, machine_y
 
@@ -59,7 +60,7 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """From the first line of a journal. Raises JobError for what the command line would not take."""
         try:
             return cls.checked(told)
-        except msgspec.ValidationError as error:
+        except BAD_VALUES as error:
             reason = f"its options were written by another version of this program, or altered: {error}"
             raise JobError([f"{journal}:1: {reason}"]) from error
 

@@ -5,7 +5,6 @@ out.
 """
 
 import hashlib
-import os
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
@@ -80,9 +79,11 @@ class Session:
             return None
         found = forecast(self.job.program, self.job.machine)
         if kept and found.total_ticks > MOST_TICKS:
-            reason = f"{found.total_ticks} ticks; a trace has room for {MOST_TICKS}"
-            hint = "record a part of the job, or run it without --trace and --vcd"
-            raise JobError([f"{self.job.name}: {reason}; {hint}"])
+            reason = (
+                f"{self.job.name}: {found.total_ticks} ticks; a trace has room for {MOST_TICKS}; "
+                "record a part of the job, or run it without --trace and --vcd"
+            )
+            raise JobError([reason])
         return None if is_soon_over(self.running) or not self.job.work else found.ticks
 
 
@@ -111,7 +112,8 @@ def rest_of(journal: Path, account: Account, machine: Machine) -> RemainingJob:
 
 def default_journal(file: Path) -> Path:
     """The journal's file where none is named: one for each drill file, by its name and a digest of its path."""
-    place = hashlib.sha256(os.fsencode(real_path(file))).hexdigest()[:8]
+    named = str(real_path(file)).encode("utf-8", "surrogatepass")  # a name need be no UTF-8
+    place = hashlib.sha256(named).hexdigest()[:8]
     return journals() / f"{file.stem}-{place}.journal"
 
 

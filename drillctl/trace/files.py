@@ -35,9 +35,11 @@ def whole_trace(segments: Segments, file: Path) -> Trace:
     """Segments as a trace. Raises TraceError, before any work, where it would have more than MOST_CHANGES changes."""
     if segments.change_count > MOST_CHANGES:
         part = segments.end * MOST_CHANGES // segments.change_count // 2
-        reason = f"{segments.change_count} changes in {segments.end} ticks; there is room for {MOST_CHANGES}"
-        hint = f"look at a part: drillctl convert {file.name} --to part.trace --to-tick {part}"
-        raise TraceError(str(file), None, f"{reason}; {hint}")
+        reason = (
+            f"{segments.change_count} changes in {segments.end} ticks; there is room for {MOST_CHANGES}; "
+            f"look at a part: drillctl convert {file.name} --to part.trace --to-tick {part}"
+        )
+        raise TraceError(str(file), None, reason)
     return segments.trace()
 
 

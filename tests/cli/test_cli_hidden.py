@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import VERBS, main, parser
+from drillctl.jobs.session import default_journal
 from drillctl.language import LINES, visible
 from drillctl.machine import shipped_tables
 
@@ -136,3 +137,32 @@ def test_a_name_that_is_no_utf_8_is_shown_and_used(hostile: Path, told: Callable
     assert (hostile / (odd + ".journal")).is_file()
     code, out, err = told("convert", odd, "--to", f"{odd}.kmd")
     assert (code, err) == (0, "") and (hostile / f"{odd}.kmd").is_file()
+
+
+LINE = "a\nb"  # the second half may not pass for a message of its own
+IN_TWO_LINES = [
+    ["run", f"{LINE}.drl"], ["run", f"{LINE}.kmd"], ["run", f"{LINE}-wrong.drl"], ["run", f"{LINE}-wrong.kmd"],
+    ["run", f"{LINE}.drl", "--journal", f"{LINE}.journal"], ["run", f"{LINE}.drl", "--holes", f"{LINE}/none"],
+    ["run", f"{LINE}.drl", "--port", f"mapped:{LINE}/card"], ["run", f"{LINE}.drl", "--align", f"{LINE}-wrong.drl"],
+    ["run", f"{LINE}.drl", "--machine", f"{LINE}.toml"], ["run", f"{LINE}.drl", "--tables", LINE],
+    ["resume", LINE], ["inspect", f"{LINE}-wrong.drl"], ["inspect", LINE], ["estimate", LINE], ["replay", LINE],
+    ["replay", f"{LINE}.drl"], ["scope", LINE], ["plot", LINE], ["tables", "check", LINE],
+    ["convert", f"{LINE}.drl", "--to", f"{LINE}.trace"],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("arguments", IN_TWO_LINES, ids=lambda case: visible(" ".join(case)))
+def test_a_line_end_in_a_name_begins_no_line(
+    arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, told: Callable[..., tuple[int, str, str]]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, text in {".drl": BOARD, "-wrong.drl": WRONG, ".kmd": QUEUE, "-wrong.kmd": "KMD_{0}\n"}.items():
+        Path(f"{LINE}{name}").write_text(text.format("x"))
+    Path(f"{LINE}.toml").write_text("name = 1\n")
+    _code, _out, err = told(*arguments)
+    assert all(line.startswith("drillctl: ") for line in err.splitlines()), err
+
+
+@pytest.mark.parametrize("name", [os.fsdecode(b"z\xfe.drl"), "z\ud800.drl"])
+def test_any_name_has_a_place_for_its_journal(name: str) -> None:
+    assert default_journal(Path(name)) != default_journal(Path("z.drl"))

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from drillctl.generation.recipe import FilePath
+from drillctl.generation.recipe import BAD_VALUES, FilePath
 from drillctl.jobs.journal.chain import NO_SEAL
 from drillctl.viewmodel.jobs import Site
 
@@ -159,7 +159,7 @@ def site_of_line(line: object) -> Site:
     """The site in a line of a journal. Raises OutOfPlace."""
     try:
         return Site(**msgspec.structs.asdict(msgspec.convert(line, SiteLine)))
-    except msgspec.ValidationError as error:
+    except BAD_VALUES as error:
         raise OutOfPlace(f"no port, pace and plant: {error}") from error
 
 
@@ -169,5 +169,5 @@ def head_of_line(line: Mapping[str, Any]) -> Head:
         raise OutOfPlace("its first line is not whole")
     try:
         return msgspec.convert(line, Head)
-    except msgspec.ValidationError as error:
+    except BAD_VALUES as error:
         raise OutOfPlace(f"its first line is not whole: {error}") from error
