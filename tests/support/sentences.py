@@ -10,7 +10,7 @@ import drillctl
 PACKAGE = Path(drillctl.__file__).parent
 FIELD = re.compile(r"\{[^{}]*\}")
 OF_MSGSPEC = {"expected {}, got {}", "expected {}", "invalid enum value {}", "unknown key {}", "{} is missing"}
-TELLING = (
+TELLING = ("trace",
     *(
         "console",
         "files",
