@@ -35,7 +35,7 @@ def check_format(suffix: str) -> str:
     if kind not in FORMATS:
         raise PictureRefused(f"a picture is a .png or a .svg, not {suffix or 'a file without suffix'!r}")
     if find_spec("matplotlib") is None:
-        reason = f"{kind.upper()} needs matplotlib: pip install 'matplotlib>=3.8'; without --out it is drawn here"
+        reason = f"{kind.upper()} needs matplotlib: pip install 'matplotlib>=3.9'; without --out it is drawn here"
         raise PictureRefused(reason)
     return kind
 
