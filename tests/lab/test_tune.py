@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from drillctl.cli import main
+from drillctl.execution.axis import Axis
 from drillctl.lab import ramp_trials
 from drillctl.lab.errors import LabError
 from drillctl.lab.ramp_trials import Bench
@@ -95,7 +96,14 @@ def test_a_ramp_that_misses_a_new_target_is_found_out(monkeypatch: pytest.Monkey
         return 0 if to_go <= 3 else state + direction * (state == 0)
 
     monkeypatch.setattr(RampTable, "after_step", rest)
-    monkeypatch.setattr("drillctl.execution.axis.Axis._at_state_zero", lambda axis, to_go: axis._rest())
+    settle = Axis._settle
+
+    def settle_and_rest(axis: Axis) -> None:
+        settle(axis)
+        if axis.state == 0:
+            axis._rest()
+
+    monkeypatch.setattr(Axis, "_settle", settle_and_rest)
     assert first_missed(RAMPS[0], LAB.axes[0]) is not None
 
 
