@@ -183,6 +183,8 @@ def _uncolumn(block: bytes) -> Values:
     count, kinds = (COUNT.unpack_from(block, at)[0] for at in (0, COUNT.size))
     begin = 2 * COUNT.size
     different = _unplaned(block[begin : begin + 8 * kinds], np.dtype("<i8")).cumsum()
+    if kinds > count:
+        raise ValueError("a column has more different values than rows")
     width = next(dtype for dtype in INDEXES if kinds <= 1 << 8 * dtype.itemsize)
     index = _unplaned(block[begin + 8 * kinds :], width)
     if len(index) != count:

@@ -126,13 +126,14 @@ def packed(end: int, blocks: list[bytes]) -> bytes:
     [
         (packed(10, [bytes(400_000_000)]), "more than a file of its size has"),
         (packed(10, [HEAD, b"", bytes(4), COUNT.pack(1 << 40) + COUNT.pack(1) + bytes(8)]), "more rows"),
+        (packed(10, [HEAD, b"", bytes(4), COUNT.pack(1) + COUNT.pack((1 << 32) + 1) + bytes(8)]), "different values"),
         (packed(10**12, []), "at most 100000000"),
         (packed(10, []), "damaged"),
         (MAGIC + zlib.compress(COUNT.pack((1 << 63) + 5) + b"x"), "cut short"),
         (MAGIC + zlib.compress(COUNT.pack((1 << 64) - 1) + b"x"), "cut short"),
         (packed(10, [COUNT.pack(2)] * 9), "damaged"),
     ],
-    ids=["unpacks to 400 MB", "2**40 rows", "10**12 ticks", "no blocks", "2**63 bytes", "2**64 bytes", "no head"],
+    ids=["400 MB", "2**40 rows", "2**32 values", "10**12 ticks", "no blocks", "2**63 bytes", "2**64 bytes", "no head"],
 )
 def test_what_claims_too_much_is_refused_before_it_is_made(data: bytes, reason: str, tmp_path: Path) -> None:
     (tmp_path / "a.seg").write_bytes(data)
