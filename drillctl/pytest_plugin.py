@@ -42,8 +42,14 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "TraceFile | None":
     """Collects files that begin as a trace does; others with such a name are left alone."""
     if file_path.suffix in SUFFIXES and _is_trace(file_path):
-        return TraceFile.from_parent(parent, path=file_path)
+        return TraceFile.from_parent(parent, path=file_path, nodeid=_node_id(parent, file_path))
     return None
+
+
+def _node_id(parent: pytest.Collector, file: Path) -> str:
+    """The name under which pytest shows the file, from its root folder; hidden characters of it are made visible."""
+    root = parent.config.rootpath
+    return one_line((file.relative_to(root) if file.is_relative_to(root) else file).as_posix())
 
 
 def _is_trace(file: Path) -> bool:

@@ -91,9 +91,12 @@ class MachineConsole:
             self.machine, self.used.running.port, self.link, self.link.status(), program, done_before, self._base.steps
         )
         notices = (*self.used.notices(), *view.notices, *self._boards.troubles)
+        tool_wanted = self._job.prompt.wanted
+        waits = tool_wanted is not None or self.link.gate.paused or view.condition != "ready"
         return replace(
-            view, tool_wanted=self._job.prompt.wanted, real_wanted=self.used.real_wanted, notices=notices,
-            at_work=self.at_work, local=bool(self.used.local), condition=self._job.condition_forecast(view.condition),
+            view, tool_wanted=tool_wanted, real_wanted=self.used.real_wanted, notices=notices, at_work=self.at_work,
+            local=bool(self.used.local), condition=self._job.condition_forecast(view.condition),
+            moving=view.moving or (self.at_work and not waits),
         )  # fmt: skip
 
     def progress(self) -> Progress | None:

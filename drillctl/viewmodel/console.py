@@ -51,7 +51,7 @@ class MachineView:
     tick: int
     tick_hz: int
     condition: str
-    moving: bool
+    moving: bool  # also between two moves of a job that waits for nobody: rest means that the next request is taken
     position_known: bool
     command: str  # in execution, as text; empty when there is none
     queued: int

@@ -95,12 +95,14 @@ def test_two_keys_of_a_held_machine_leave_it_held(console: MachineConsole) -> No
 
 
 def test_a_base_that_was_not_taken_is_none(console: MachineConsole) -> None:
-    """Asked for, and stopped in the same breath."""
+    """Asked for, and stopped in the same breath: a clock that runs on may take it between the two."""
     console.jog("x", 300)
     settle(console)
     assert console.set_base() == () == console.emergency_stop()
     until(console, lambda: not console.at_work)
-    assert console.view().axes[0].position_mm == pytest.approx(6.35)
+    taken = int(console.link.status()["base"][0])
+    assert taken in ((0,) if console.used.runs_free else (0, 300))
+    assert console.view().axes[0].position_mm == pytest.approx((300 - taken) * 6.35 / 300)
 
 
 def test_a_base_of_a_queue_is_the_operators(console: MachineConsole) -> None:

@@ -14,15 +14,15 @@ terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 
 
-@pytest.fixture
-def terminal(tmp_path: Path) -> Iterator["terminals.Terminal"]:
+@pytest.fixture(params=["real"])
+def terminal(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator["terminals.Terminal"]:
     shutil.copy(BLINKER, tmp_path)
-    made = terminals.Terminal("--tick-hz", "20000", "--lang", "en", folder=tmp_path, size=(100, 40))
+    made = terminals.Terminal("--pace", request.param, "--lang", "en", folder=tmp_path, size=(100, 40))
     yield made
     made.close()
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+@pytest.mark.parametrize("terminal", ["free"], indirect=True)
 def test_a_board_is_gone_over_dry(terminal: "terminals.Terminal") -> None:
     terminal.wait_for("Files  Drilling  Tests  Configuration", "No board is loaded", "E-STOP", "position not known")
     terminal.press("f")
