@@ -1,5 +1,6 @@
 """The plugin as another repository meets it: a pytest of its own, in a folder of its own, in a process of its own."""
 
+import os
 import re
 import subprocess
 import sys
@@ -22,9 +23,16 @@ def repository(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def run_pytest(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
+def run_pytest(folder: Path, *options: str, found: bool = False) -> subprocess.CompletedProcess[str]:
+    """``found``: pytest finds the plugin by itself, with every other plugin that is installed, which takes a second."""
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *options]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=100, check=False)
+    surroundings = dict(os.environ)
+    if not found:
+        command += ["-p", "drillctl"]
+        surroundings["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
+    return subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=100, check=False, env=surroundings
+    )
 
 
 def spoil(repository: Path) -> Path:
@@ -39,7 +47,7 @@ def spoil(repository: Path) -> Path:
 
 def test_traces_are_tests_and_other_files_are_not(repository: Path) -> None:
     (repository / "other.trace").write_text("strace of something\n")
-    done = run_pytest(repository, "-v")
+    done = run_pytest(repository, "-v", found=True)
     assert done.returncode == 0, done.stdout
     assert "good.trace::replay PASSED" in done.stdout and "other.trace" not in done.stdout
 
@@ -89,9 +97,9 @@ def test_required_traces_must_be_there(repository: Path) -> None:
 def test_required_traces_are_seen_through_workers_and_their_lack_is_said(repository: Path) -> None:
     pytest.importorskip("xdist")
     (repository / "test_other.py").write_text("def test_other():\n    assert True\n")
-    assert run_pytest(repository, "-n", "2", "--drillctl-require-traces").returncode == 0
+    assert run_pytest(repository, "-n", "2", "--drillctl-require-traces", found=True).returncode == 0
     (repository / "good.trace").unlink()
-    done = run_pytest(repository, "-n", "2", "--drillctl-require-traces")
+    done = run_pytest(repository, "-n", "2", "--drillctl-require-traces", found=True)
     assert done.returncode == COLLECTED_NOTHING and "no trace was collected" in done.stdout
 
 
@@ -106,7 +114,7 @@ def test_a_pytest_run_without_traces_imports_no_room_of_ours(tmp_path: Path) -> 
     heavy = "[name for name in sys.modules if name.split('.')[0] in ('numpy', 'msgspec', 'urwid')]"
     rooms = "[name for name in sys.modules if name in ('drillctl.machine', 'drillctl.trace', 'drillctl.ticker')]"
     (tmp_path / "test_other.py").write_text(f"import sys\n\ndef test_other():\n    print({heavy}, {rooms})\n")
-    done = run_pytest(tmp_path, "-s")
+    done = run_pytest(tmp_path, "-s", found=True)
     assert done.returncode == 0 and "[] []" in done.stdout, done.stdout
 
 
