@@ -1,6 +1,7 @@
 """``drillctl screen``, or ``drillctl`` alone: the machine on the screen, with menus, the board and the keys."""
 
 import argparse
+import os
 import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -29,8 +30,9 @@ def add_options(verb: argparse.ArgumentParser) -> None:
     options.add_tools(verb, "ask on a real port, and where the machine's file says MANUAL")
     verb.add_argument("--lang", choices=("en", "pl"), help="language; default: that of LANG")
     verb.add_argument(
-        "--theme", choices=("colour", "light", "mono"), default="colour", help="colours; default: %(default)s"
-    )
+        "--theme", choices=("blue", "dark", "light", "contrast", "mono"),
+        help="colours; default: the one chosen last on the Configuration menu, at first blue; NO_COLOR: mono",
+    )  # fmt: skip
 
 
 def call(arguments: argparse.Namespace) -> int:
@@ -55,6 +57,7 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
     from drillctl.language import words
     from drillctl.machine.library import tell_nobody
     from drillctl.ticker.launch import SIMULATED
+    from drillctl.ui import preferences
     from drillctl.ui.app import App
 
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
@@ -66,7 +69,9 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
         library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)
     )
     try:
-        app = App(console, arguments.theme, plain, EditorScreens(library, console, plain, run).makers())
+        theme = arguments.theme or preferences.chosen_theme(os.environ)
+        makers = EditorScreens(library, console, plain, run).makers()
+        app = App(console, theme, plain, makers, keep_theme=preferences.keep_theme)
         if run is not None:
             app.show("scope")
         with remembered() as interrupts:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drillctl.files.inputs import read_bytes, real_path
+from drillctl.files.shipped import shipped
 from drillctl.language import known_words
 from drillctl.machine.config import parse_machine
 from drillctl.machine.dynamics import parse_dynamics
@@ -21,15 +22,10 @@ from drillctl.machine.phase import parse_phase
 from drillctl.machine.ramp import parse_ramp
 from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
 
-_PACKAGE = Path(__file__).resolve().parent.parent
-
 
 def shipped_tables() -> Path:
-    """Returns the folder of the tables that come with the program: in an installed wheel, or beside the package in a
-    checkout.
-    """
-    inside = _PACKAGE / "tables"
-    return inside if inside.is_dir() else _PACKAGE.parent / "tables"
+    """Returns the folder of the tables that come with the program."""
+    return shipped("tables", "tables")
 
 
 def user_tables() -> Path:

@@ -1,7 +1,9 @@
 """LAYER 1: what a person sees. Every view is a function of a record from viewmodel.
 
     app.py     the loop of the program on the screen: the machine's news in, keys out
-    frame.py   the menu bar, the line on the machine, the line of keys
+    frame.py   the menu bar, the line on the machine, the next step, the line of keys
+    next_step.py  what the machine waits for, with the keys of the screen on top
+    preferences.py  the theme that was chosen, kept in the user's configuration
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
     machines.py  which screens and menus a machine has: a row for each family of machines
 

@@ -4,10 +4,10 @@ Rule: the emergency stop is looked for before any widget sees a key, so it works
 here blocks.
 """
 
+import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from typing import TextIO
 
 import urwid
 
@@ -17,10 +17,12 @@ from drillctl.ui.alerts import Alerts
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
+from drillctl.ui.next_step import step_line
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
+from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
 from drillctl.ui.widgets.menus import Item, PullDown
-from drillctl.ui.widgets.themes import palette
+from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console
 
 BEAT_S = 0.05
@@ -35,7 +37,8 @@ Pressed = str | tuple[str, int, int, int]
 
 
 class App(Boxes):
-    """The shell of the screens. ``makers`` gives the screens that every machine has, by the names that the menus use.
+    """The shell of the screens. ``makers`` gives the screens that every machine has, by the names that the menus use;
+    ``keep_theme`` is called with a theme that was chosen.
 
     screens  those that are open; the last is on top
     """
@@ -43,14 +46,17 @@ class App(Boxes):
     screens: list[urwid.Widget]
 
     def __init__(
-        self, console: Console, theme: str = "colour", plain: bool = False, makers: Mapping[str, Maker] | None = None,
-        terminal: urwid.display.common.BaseScreen | None = None,
+        self, console: Console, theme: str = DEFAULT_THEME, plain: bool = False,
+        makers: Mapping[str, Maker] | None = None, terminal: urwid.display.common.BaseScreen | None = None,
+        keep_theme: Callable[[str], object] = lambda theme: None,
     ):  # fmt: skip
+        borders.use(plain)
+        self._keep_theme = keep_theme
         self._console, self._plain, self._makers = console, plain, makers or {}
         self._made: dict[str, urwid.Widget] = {}
         self.frame = MainFrame()
         self._use(screens_of(console.view()))
-        terminal = terminal or urwid.display.raw.Screen(output=_terminal())
+        terminal = terminal or _terminal()
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows))
         self._alerts = Alerts(console, self.layers)
         self.loop = urwid.MainLoop(
@@ -73,6 +79,8 @@ class App(Boxes):
             for_s = FREE_TURNING_S if self._console.turn() else TURNING_S
         view = self._console.view()
         self.frame.show_machine(view)
+        step = self._family.next_step(self._console, view)
+        self.frame.show_step(step_line(step, self.screens[-1], self._family.menus))
         if isinstance(self.screens[-1], Live):
             self.screens[-1].refresh(view)
         self._alerts.show(view)
@@ -155,6 +163,7 @@ class App(Boxes):
         """Changes the colours to those of another theme."""
         self.loop.screen.register_palette(palette(theme))
         self.loop.screen.clear()
+        self._keep_theme(theme)
 
     def choose_machine(self) -> None:
         """Opens a menu of the machines that can be chosen."""
@@ -250,6 +259,10 @@ def _leave() -> None:
     raise urwid.ExitMainLoop
 
 
-def _terminal() -> TextIO:
-    """Where the screen is drawn: not the stream of the verbs, which escapes what moves the cursor."""
-    return sys.__stdout__ or sys.stdout
+def _terminal() -> urwid.display.raw.Screen:
+    """The terminal, with as many colours as it says it has. Drawn on another stream than that of the verbs, which
+    escapes what moves the cursor.
+    """
+    terminal = urwid.display.raw.Screen(output=sys.__stdout__ or sys.stdout)
+    terminal.set_terminal_properties(depth_of(os.environ))
+    return terminal

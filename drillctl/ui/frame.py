@@ -1,6 +1,7 @@
-"""What stays on every screen: the menu bar, a line on the machine, and the keys at the bottom.
+"""What stays on every screen: the menu bar, a line on the machine, the next step, and the keys at the bottom.
 
-Rule: it only shows; what a click or a key does is decided in app.py.
+Rule: it only shows; what a click or a key does is decided in app.py. Where there is room a screen has a border with its
+title; elsewhere the title stands in the line on the machine, which is drawn out to a rule.
 """
 
 from collections.abc import Sequence
@@ -10,9 +11,12 @@ import urwid
 
 from drillctl.language.sentences import translated
 from drillctl.language.words import N_, _
+from drillctl.ui.widgets.borders import lines
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
 from drillctl.ui.widgets.menus import Item, hot_letter, label_markup, plain_label
-from drillctl.ui.widgets.texts import Line, Size, Text, boxed, packed
+from drillctl.ui.widgets.sizes import layout
+from drillctl.ui.widgets.texts import Line, Size, Text, boxed, packed, width_of
+from drillctl.ui.widgets.windows import Window
 from drillctl.viewmodel.console import MachineView
 
 # Condition: how it is shown, and its word.
@@ -25,6 +29,7 @@ CONDITIONS = {
     "latched": ("danger", N_("FAULT")),
 }
 PAUSED = ("warning", N_("CLOCK STOPPED"))
+FRAME_ROWS = 6  # that the frame takes of the terminal, the keys in three of them
 
 
 class MenuBar(Text):
@@ -77,31 +82,49 @@ class KeyLine(urwid.Widget):
 
 
 class MainFrame(urwid.Frame[Any, Any, Any]):
-    """The menu bar and the line on the machine above, a screen in the middle, the keys below."""
+    """The menu bar and the line on the machine above, a screen in the middle, the next step and the keys below.
+
+    screen  the one that is shown
+    """
+
+    screen: urwid.Widget
 
     def __init__(self) -> None:
         self.bar = MenuBar()
         self._machine = Text("", wrap="ellipsis")
+        self._step = Text("", wrap="ellipsis")
         self._keys = KeyLine()
+        self._window = Window(urwid.SolidFill())
         self._title: Line = []
         self._state: Line = []
         self._notice: Line = []
         self._shown: Line = []
+        self._step_shown: Line = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
-        super().__init__(urwid.SolidFill(), header=header, footer=self._keys)
+        super().__init__(self._window, header=header, footer=urwid.Pile([self._step, self._keys]))
 
     def show_screen(self, screen: urwid.Widget, lowest: bool = True) -> None:
         """Shows another screen and its keys. ``lowest``: no screen is below it, so Esc leads nowhere."""
-        self.body = screen
+        self.screen = screen
+        self.body = self._window = Window(screen, _(getattr(screen, "title", "")))
         frame_keys = [key for key in FRAME_KEYS if key is not EMERGENCY and not (lowest and key.method == "back")]
         self._keys.show([EMERGENCY, *screen_keys(screen), *frame_keys])
+
+    def show_step(self, step: Line) -> None:
+        """Shows what the machine waits for, and the keys that do it."""
+        if step != self._step_shown:
+            self._step_shown = step
+            self._step.set_text(list(step))
 
     def render(self, size: Size, focus: bool = False) -> urwid.CompositeCanvas:
         """Fits the line on the machine first: the screen's title is left out where the position would not be seen."""
         assert len(size) == 2
-        line = [*self._title, *self._state]
-        whole = sum(len(part if isinstance(part, str) else part[1]) for part in line) <= size[0]
-        markup = [*(line if whole else self._state), *self._notice]
+        framed = layout(size[0], size[1] - FRAME_ROWS).framed
+        self._window.show(framed and not getattr(self.screen, "has_windows", False))
+        line = [*([] if framed else self._title), *self._state]
+        markup = [*(line if width_of(line) <= size[0] else self._state), *self._notice]
+        if (left := size[0] - width_of(markup) - 1) > 0:
+            markup = [*markup, " ", ("border", lines().across * left)]
         if markup != self._shown:
             self._shown = markup
             self._machine.set_text(list(markup))
@@ -117,7 +140,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         tables = f" {_('(local)')}" if view.local else ""
         place = f" {view.machine}{tables} | {view.port} | "
         shown = (attribute, f" {_(word)} ")
-        title = ("title", f" {_(getattr(self.body, 'title', ''))} ")
+        title = ("title", f" {_(getattr(self.screen, 'title', ''))} ")
         state: Line = [place, shown, f" {moving} | ", position]
         notice: Line = [" | ", ("warning", translated(view.notices[-1]))] if view.notices else []
         if (state, notice, [title]) != (self._state, self._notice, self._title):

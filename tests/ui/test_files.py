@@ -125,13 +125,13 @@ def test_recent_jobs_are_opened_with_their_settings_by_one_key(folder: Path) -> 
     settings = Asked(mirror="x", panel=PanelOf(2, 1, 40.0, 0.0))
     jobs = [RecentJob(str(folder / "four.drl"), settings), RecentJob("/gone/two.drl", Asked())]
     program = Program(FakeConsole(recent_jobs=jobs))
-    program.press("f", "e")
+    program.press("f", "l")
     assert "1 four.drl  in X  Panel: 2 x 1" in program.text() and "2 two.drl" in program.text()
     program.press("1")
     assert program.console.asked == [("load", str(folder / "four.drl"), settings)]
     assert "4 holes, 40.00 x 20.00 mm" in program.text()
     program.console.answer = ("/gone/two.drl: can't be read: No such file or directory",)
-    program.press("e", "down", "enter")
+    program.press("l", "down", "enter")
     assert "Refused" in program.text() and asked(program) == Asked()
 
 
@@ -146,7 +146,7 @@ def test_holes_behind_the_end_can_be_asked_for(folder: Path) -> None:
 def test_a_list_of_recent_jobs_with_a_value_that_is_not_known_is_shown(folder: Path) -> None:
     settings = Asked(order="shortest", after_end="sell")
     program = Program(FakeConsole(recent_jobs=[RecentJob(str(folder / "four.drl"), settings)]), (130, 40))
-    program.press("f", "e")
+    program.press("f", "l")
     assert "four.drl  shortest  sell" in program.text()
     program.press("1", "r")
     assert asked(program).order == "file"
@@ -157,7 +157,7 @@ def test_another_board_is_not_placed_by_what_was_measured_on_the_last(folder: Pa
     settings = Asked(mirror="x", measured=(MeasuredHole(0, 0, 1, 1),), skip_tools=(2,))
     jobs = [RecentJob(str(folder / "four.drl"), settings)]
     program = Program(FakeConsole(recent_jobs=jobs))
-    program.press("f", "e", "1", "down", "enter")
+    program.press("f", "l", "1", "down", "enter")
     assert asked(program) == Asked(mirror="x")
 
 
@@ -167,7 +167,7 @@ def test_an_interrupted_job_is_offered_with_all_that_it_means(language: str, siz
     words.use(language)
     program = Program(FakeConsole(unfinished_jobs=[CUT]), size)
     program.press("f", "u")
-    text = " ".join(" ".join(row.split("│")[1] for row in program.text().splitlines() if row.count("│") == 2).split())
+    text = " ".join(" ".join(row.split("│")[row.count("│") // 2] for row in program.text().splitlines()).split())
     for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the tool in hand"):
         source = next(message for message in words_of_screen() if message.startswith(told))
         assert words._(source).format(numbers="4") in text

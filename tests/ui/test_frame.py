@@ -1,17 +1,19 @@
 """The frame: bar, menus, dialogs, keys, and the emergency stop that nothing hides."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 import urwid
 
 from drillctl.language import words
+from drillctl.ui import preferences
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called
 from drillctl.ui.widgets.menus import Item, hot_letter, plain_label
-from drillctl.ui.widgets.themes import ATTRIBUTES, THEMES, palette
+from drillctl.ui.widgets.themes import ATTRIBUTES, DEFAULT_THEME, THEMES, depth_of, palette
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50), (50, 15)]
@@ -192,6 +194,61 @@ def test_a_theme_has_every_attribute(theme: str) -> None:
     assert [name for name, *_ in entries] == list(ATTRIBUTES)
     screen = urwid.display.raw.Screen()
     screen.register_palette(entries)  # raises for a colour that there is not
+    for depth in (1, 16, 256, 2**24):
+        screen.set_terminal_properties(depth)
+
+
+ENVIRONMENTS = [
+    ({}, 16), ({"TERM": "xterm"}, 16), ({"TERM": "linux"}, 16), ({"TERM": "screen-256color"}, 256),
+    ({"TERM": "xterm", "COLORTERM": "truecolor"}, 2**24), ({"TERM": "tmux-256color", "COLORTERM": "24bit"}, 2**24),
+    ({"TERM": "vt100"}, 1), ({"TERM": "xterm", "COLORTERM": "truecolor", "NO_COLOR": "1"}, 1),
+    ({"TERM": "xterm-256color", "NO_COLOR": ""}, 256),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("environment", "depth"), ENVIRONMENTS, ids=str)
+def test_a_terminal_has_the_colours_that_it_says(environment: dict[str, str], depth: int) -> None:
+    assert depth_of(environment) == depth
+
+
+def test_a_theme_is_kept_for_the_next_start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    assert preferences.chosen_theme({}) == DEFAULT_THEME
+    preferences.keep_theme("dark")
+    assert preferences.chosen_theme({}) == "dark" and preferences.chosen_theme({"NO_COLOR": "1"}) == "mono"
+    for damaged in ("theme = 'puce'", "theme = [1]", "theme", "\xff"):
+        preferences.file().write_text(damaged, "latin-1")
+        assert preferences.chosen_theme({}) == DEFAULT_THEME
+
+
+def test_a_theme_chosen_on_the_menu_is_in_force_and_kept() -> None:
+    kept: list[str] = []
+    program = Program(FakeConsole())
+    program.app._keep_theme = kept.append
+    program.press("meta c", "c", "h")
+    assert kept == ["contrast"] and "FAULT" not in program.text()
+
+
+@pytest.mark.parametrize(("plain", "lines"), [(False, "┌─┐│└┘"), (True, "+-|")], ids=["UTF-8", "ASCII"])
+@pytest.mark.parametrize("size", [(100, 32), (160, 50), (220, 60)], ids=str)
+def test_windows_have_borders_that_the_terminal_can_show(size: tuple[int, int], plain: bool, lines: str) -> None:
+    text = Program(FakeConsole(loaded=BOARD), size, plain).text()
+    assert all(sign in text for sign in lines)
+    assert not plain or text.isascii()
+    Program(FakeConsole())  # sets the lines of light again
+
+
+def test_a_small_terminal_gives_no_row_to_a_border() -> None:
+    rows = Program(FakeConsole(loaded=BOARD), (80, 24)).text().splitlines()
+    assert rows[1].startswith(" Drilling") and rows[1].endswith("──") and "Hole" in rows[2]
+
+
+@pytest.mark.parametrize(
+    ("size", "windows"),
+    [((80, 24), 0), ((100, 32), 2), ((160, 50), 3), ((220, 60), 4)], ids=str,
+)  # fmt: skip
+def test_each_size_of_terminal_has_its_windows(size: tuple[int, int], windows: int) -> None:
+    assert Program(FakeConsole(loaded=BOARD), size).text().count("┌") == windows
 
 
 def test_the_first_screen_stays_the_lowest() -> None:
@@ -202,7 +259,7 @@ def test_the_first_screen_stays_the_lowest() -> None:
     program.press("esc")
     assert isinstance(program.app.screens[-1], Files) and "Esc Back" in program.text()
     program.press("esc")
-    assert program.app.screens == [program.app.frame.body] and isinstance(program.app.frame.body, Drilling)
+    assert program.app.screens == [program.app.frame.screen] and isinstance(program.app.frame.screen, Drilling)
 
 
 class Hands:

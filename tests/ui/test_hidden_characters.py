@@ -62,7 +62,7 @@ def test_whatever_the_console_says() -> None:
     console.recent_jobs = [RecentJob(NASTY, Asked())]
     console.unfinished_jobs = [UnfinishedJob(NASTY, NASTY, NASTY, 1, 4, (2,), True, True, None, THERE, THERE)]
     program = Program(console)
-    for keys in ((), ("i",), ("esc",), ("f1",), ("esc",), ("f9", "down"), ("esc",), ("f2",), ("e",), ("esc",)):
+    for keys in ((), ("i",), ("esc",), ("f1",), ("esc",), ("f9", "down"), ("esc",), ("f2",), ("l",), ("esc",)):
         program.press(*keys)
         checked(program.text())
     console.now = replace(view, condition="latched", fault=nasty(replace(FAULT)))
@@ -169,7 +169,7 @@ def test_a_board_whose_name_is_no_utf_8_is_loaded_and_drilled(hostile: Path) -> 
         board = desk.station.board()
         assert board is not None and os.fsencode(board.file).endswith(b"\xff.drl")
         assert not desk.station.start(False)
-        desk.press("e", "esc", "f2")
+        desk.press("l", "esc", "f2")
     finally:
         desk.station.close()
 

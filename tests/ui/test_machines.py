@@ -70,6 +70,7 @@ OTHER = MachineScreens(
     makers={"other": lambda _console, _shell, _plain: OtherScreen("?")},
     first="other",
     at_start=lambda _console, _shell: None,
+    next_step=PCB_DRILL.next_step,
 )
 
 

@@ -44,7 +44,8 @@ REQUESTS = [
     ("page down", ("jog", "z", 12)),
 ]
 OPENING = {"s": "Drill 4 holes of four.drl?", "f": "../", "h": "Number, 1 to 4:", "t": "X and Y in mm", "+": "step 120",
-           "=": "step 120", "-": "step 3", "m": "jog step 1 mm", "c": "no tool is waited for"}  # fmt: skip
+           "=": "step 120", "-": "step 3", "m": "jog step 1 mm", "c": "no tool is waited for",
+           "e": "board blinker.drl"}  # fmt: skip
 
 
 @pytest.mark.parametrize(("key", "request_"), REQUESTS)
@@ -338,9 +339,9 @@ def test_an_answer_to_the_tool_change_is_what_is_asked(keys: list[str], asked: l
 def test_not_yet_leaves_the_machine_at_the_keys_and_c_answers_later() -> None:
     program = Program(FakeConsole(now=WAITING, loaded=BOARD))
     program.press("enter", " ")
-    assert program.console.asked == [("hold",)] and "waits for T2, 1.000 mm" in program.text()
+    assert program.console.asked == [("hold",)] and "mm is wanted: put it in, then C" in program.text()
     program.press("c", "enter", "c", "right", "enter")
-    assert program.console.asked[1:] == [("tool_changed",)] and "waits for" not in program.text()
+    assert program.console.asked[1:] == [("tool_changed",)] and "is wanted" not in program.text()
 
 
 def test_a_tool_change_settled_otherwise_takes_its_box_away() -> None:

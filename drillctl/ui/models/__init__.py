@@ -4,5 +4,6 @@
     phase_grid.py      a phase table as cells, and the bits that switch its wires
     machine_fields.py  the fields of a machine's file: their words, and what is typed over them
     signal_grid.py     signals as cells, as many a line as there is room for
+    events.py          what happened at the machine, from one view to the next
     viewport.py        which ticks and which signals of a run are on the screen
 """

@@ -5,7 +5,8 @@
     files.py       find a drill file, see what it says, place it           browser.py      its list of files
     typed.py       number formats, and what is typed into its dialogs      board_facts.py  a board in words
     alignment.py   placing a board by holes measured on it                 measuring.py    what the holes say
-    menus.py       the menus Files and Drilling
+    examples.py    the example boards and the lab sheets
+    menus.py       the menus Files and Drilling                            next_step.py    what the machine waits for
 
 PCB_DRILL is the row of ui/machines.py.
 """
@@ -13,6 +14,7 @@ PCB_DRILL is the row of ui/machines.py.
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.menus import MENUS
+from drillctl.ui.pcb_drill.next_step import next_step
 from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import MachineScreens
 
@@ -22,4 +24,5 @@ PCB_DRILL = MachineScreens(
     makers={"drilling": Drilling, "files": Files},
     first="drilling",
     at_start=offer_unfinished,
+    next_step=next_step,
 )

@@ -3,13 +3,14 @@
 Rule: every state has a sign of its own, so that nothing is told by colour alone.
 """
 
+from collections.abc import Sequence
 from itertools import groupby
 
 import numpy as np
 import urwid
 from numpy.typing import NDArray
 
-from drillctl.language.words import _
+from drillctl.language.words import N_, _
 from drillctl.ui.widgets.dots import BRAILLE, Sheet
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import BoardView
@@ -27,11 +28,11 @@ SIGNS = {
 
 
 class BoardPicture(urwid.Widget):
-    """A box that draws a board; ``plain`` where the terminal has no UTF-8, ``hint``: how one comes to be loaded."""
+    """A box that draws a board; ``plain`` where the terminal has no UTF-8, ``hint``: what it says without one."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
 
-    def __init__(self, plain: bool = False, hint: str = ""):
+    def __init__(self, plain: bool = False, hint: Sequence[str] = (N_("No board is loaded."),)):
         super().__init__()
         self._plain, self._hint = plain, hint
         self._state: tuple[BoardView | None, int, bool, PlaceMm | None] = (None, 0, False, None)
@@ -54,7 +55,7 @@ class BoardPicture(urwid.Widget):
     def _lines(self, columns: int, rows: int) -> list[Line]:
         board, done, running, head_mm = self._state
         if board is None or not len(board.xy_mm):
-            return [[("dark", _("No board is loaded."))], [("dark", _(self._hint) if self._hint else "")]]
+            return [[("dark", f" {_(line)}")] for line in self._hint]
         sheet = Sheet.fitted(board.xy_mm, columns, rows)
         signs, states = self._drawn(sheet, board.xy_mm, done, running, head_mm)
         return [_runs(row, named) for row, named in zip(signs, states, strict=True)]

@@ -4,6 +4,7 @@ Rule: every motion is one key of the table below or one entry of the menu, and a
 line. Drilling itself asks first.
 """
 
+from pathlib import Path
 from typing import Any
 
 import urwid
@@ -11,18 +12,30 @@ import urwid
 from drillctl.language.figures import clock, pair_mm
 from drillctl.language.words import N_, _
 from drillctl.ui.pcb_drill.board_view import BoardPicture
-from drillctl.ui.pcb_drill.side_window import SideWindow
+from drillctl.ui.pcb_drill.examples import offer_examples
+from drillctl.ui.pcb_drill.files import Files
+from drillctl.ui.pcb_drill.side_window import SideWindow, machine_pages, motor_pages, side_pages
 from drillctl.ui.pcb_drill.unfinished import offer_job
+from drillctl.ui.screens.event_list import EventList
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.texts import Line, Size, Text
+from drillctl.ui.widgets.sizes import Layout, layout
+from drillctl.ui.widgets.texts import Size, Text
+from drillctl.ui.widgets.windows import Window
 from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.records import Progress
 
-WIDE = 100  # columns from which the window is wide
-NARROW_WINDOW, WIDE_WINDOW = 36, 48
+FIRST_WORDS = (
+    N_("No board is loaded."),
+    "",
+    N_("F opens a drill file."),
+    N_("E shows the example boards and the lab sheets."),
+    N_("L in Files offers the boards opened last."),
+    N_("F1 or ? explains this screen."),
+)
 LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
 
 
@@ -30,6 +43,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     """The screen of the machine at work; ``refresh`` is called with the newest view."""
 
     title = N_("Drilling")
+    has_windows = True
     keys = (
         Key(("s",), "S", "start", N_("drills the board; asks first"), N_("Start")),
         Key(("d",), "D", "dry_run", N_("goes to every hole with the drill up"), N_("Dry")),
@@ -38,6 +52,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key(("c",), "C", "tool_changed", N_("the tool that the job waits for is in; asks first")),
         Key(("i",), "I", "initialise", N_("head up, then X=0, Y=0 by the limit sensors"), N_("Init")),
         Key(("f",), "F", "files", N_("opens the files"), N_("Files")),
+        Key(("e",), "E", "examples", N_("the example boards and the lab sheets")),
         *JOG_KEYS,
         Key(("tab",), "Tab", "turn_page", N_("the next page of the window at the right")),
         Key(("h",), "H", "go_to_hole", N_("goes over a hole, by its number")),
@@ -49,11 +64,20 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, console: Console, shell: Shell, plain: bool = False):
         JogControls.__init__(self, console)
         self._shell = shell
-        self._picture = BoardPicture(plain, N_("F opens a drill file."))
-        self._window = SideWindow()
+        self._picture = BoardPicture(plain, FIRST_WORDS)
+        self._window, self._motors = SideWindow(side_pages), SideWindow(motor_pages)
+        self._events = EventList()
         self._was_at_work = False
         self._footer = Text("")
-        self._columns = urwid.Columns([self._picture, self._window], dividechars=1)
+        self._parts = {
+            "board": Window(self._picture, _("Board")),
+            "machine": Window(self._window, _("Machine")),
+            "motors": Window(self._motors, _("Motors")),
+            "events": Window(self._events, _("Events")),
+        }
+        self._rule = urwid.AttrMap(urwid.SolidFill(borders.lines().down), "border")
+        self._left = urwid.Pile([self._parts["board"]])
+        self._columns = urwid.Columns([self._left, self._parts["machine"]])
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._columns, footer=self._footer))
         self.refresh(console.view())
 
@@ -67,19 +91,30 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         return None if called(self, self.keys, key) else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """Lays picture and window side by side, or the window alone where there is no room for both."""
+        """Lays the windows out for this size."""
         assert len(size) == 2
-        window = WIDE_WINDOW if size[0] >= WIDE else NARROW_WINDOW
-        beside = size[0] >= window + LEAST_BOARD
-        board: list[Any] = [(self._picture, self._columns.options())] if beside else []
-        width = self._columns.options("given", window) if beside else self._columns.options()
-        self._columns.contents = [*board, (self._window, width)]
+        self._lay_out(layout(*size), beside=size[0] >= layout(*size).side + LEAST_BOARD)
         return super().render(size, focus)
+
+    def _lay_out(self, room: Layout, beside: bool) -> None:
+        """The windows that there is room for; ``beside``: room for more than the machine's."""
+        for part in self._parts.values():
+            part.show(room.framed)
+        self._window.use(machine_pages if room.motors else side_pages)
+        sides = [("machine", room.side), ("motors", room.motors)]
+        whole, given = self._columns.options(), self._columns.options
+        right: list[Any] = [(self._parts[name], given("given", width)) for name, width in sides if width]
+        rule = [] if room.framed else [(self._rule, given("given", 1))]
+        self._columns.contents = [(self._left, whole), *rule, *right] if beside else [(self._parts["machine"], whole)]
+        below: list[Any] = [(self._parts["events"], self._left.options("given", room.events))] if room.events else []
+        self._left.contents = [(self._parts["board"], self._left.options()), *below]
 
     def refresh(self, view: MachineView) -> None:
         """Draws what changed in machine, board and job."""
         board, progress = self._console.board(), self._console.progress()
         self._window.show(view, progress, board)
+        self._motors.show(view, progress, board)
+        self._events.see(view)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
         head = (view.axes[0].position_mm, view.axes[1].position_mm) if len(view.axes) > 1 else None
         running = bool(of_board and view.command)
@@ -87,7 +122,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         if self._was_at_work and not view.at_work and of_board:
             self._note = ("body", _ended(of_board))
         self._was_at_work = view.at_work
-        self._footer.set_text(self._bottom(*self._awaited(view)))
+        self._footer.set_text(self._bottom())
 
     def start(self) -> None:
         """Asks, then drills the board; offers to resume first if the job was interrupted."""
@@ -145,9 +180,20 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """Opens the Files screen."""
         self._shell.show("files")
 
+    def examples(self) -> None:
+        """Offers the example boards and the lab sheets; a board that is chosen is loaded."""
+        offer_examples(self._shell, self._load_example)
+
+    def _load_example(self, file: Path) -> None:
+        """Loads a board as the Files screen does, which then has it too."""
+        files = self._shell.show("files")
+        if isinstance(files, Files):
+            files.open_file(file)
+
     def turn_page(self) -> None:
-        """Shows the next page of the window at the right."""
+        """Shows the next page of the windows at the right."""
         self._window.turn_page()
+        self._motors.turn_page()
 
     def go_to_hole(self) -> None:
         """Asks for the number of a hole, in drilling order, and goes over it."""
@@ -194,12 +240,6 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def _go_to(self, x_mm: float, y_mm: float) -> None:
         where = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
         self._answer(self._console.go_to(x_mm, y_mm), where)
-
-    def _awaited(self, view: MachineView) -> Line:
-        """The part of the bottom line that says which tool the job waits for; it stays while it waits."""
-        if view.tool_wanted is None:
-            return []
-        return [("warning", _("waits for {tool}: C when it is in").format(tool=tool_name(view.tool_wanted))), "  "]
 
 
 def _ended(of_board: Progress) -> str:

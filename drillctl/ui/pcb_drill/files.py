@@ -20,6 +20,7 @@ from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.board_facts import CHOICES, board_lines, format_name, is_warning, option_lines, recent_line
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.browser import Browser, preview
+from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.typed import FORMATS, accepted, length_mm, panel_of, tool_numbers
 from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import Shell
@@ -39,7 +40,8 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     keys = (
         Key(("enter",), "Enter", "choose", N_("opens a folder, or loads a file"), N_("Load")),
         Key(("/",), "/", "filter", N_("which files are listed"), N_("Filter")),
-        Key(("e",), "E", "recent", N_("the files opened last, as they were placed"), N_("Recent")),
+        Key(("e",), "E", "examples", N_("the example boards and the lab sheets")),
+        Key(("l",), "L", "recent", N_("the files opened last, as they were placed"), N_("Last")),
         Key(("u",), "U", "unfinished", N_("jobs that were cut off, to be gone on with")),
         Key(("tab",), "Tab", "other_side", N_("between the list and the facts")),
         Key(("f",), "F", "choose_format", N_("the format of the numbers, or to recognise it"), N_("Format")),
@@ -94,6 +96,15 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             return
         lines = [recent_line(job.file, job.asked) for job in jobs]
         self._shell.choose(_("Recent"), lines, lambda index: self._open_again(jobs[index]))
+
+    def examples(self) -> None:
+        """Offers the example boards and the lab sheets."""
+        offer_examples(self._shell, self.open_file)
+
+    def open_file(self, file: Path) -> None:
+        """Loads a file that was named elsewhere than in the list; the cursor goes to it."""
+        self._browser.stand_on(file)
+        self.load(file)
 
     def unfinished(self) -> None:
         """Offers to resume the jobs that were interrupted."""

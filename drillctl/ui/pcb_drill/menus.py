@@ -24,7 +24,8 @@ BASING_ITEMS = (
 )
 FILES = Item(N_("&Files"), items=(
     Item(N_("&Open..."), "files"),
-    Item(N_("R&ecent..."), "files", "recent"),
+    Item(N_("&Last opened..."), "files", "recent"),
+    Item(N_("&Examples..."), "drilling", "examples"),
     Item(N_("&Interrupted jobs..."), "files", "unfinished"),
     Item(N_("&Format"), items=FORMAT_ITEMS),
     Item(N_("&Placing"), items=PLACING_ITEMS),
@@ -37,6 +38,7 @@ DRILLING = Item(N_("&Drilling"), items=(
     Item(N_("&Dry run, drill up"), "drilling", "dry_run"),
     Item(N_("&Hold or go on"), "drilling", "hold_or_resume"),
     Item(N_("S&top"), "drilling", "stop"),
+    Item(N_("The t&ool is in"), "drilling", "tool_changed"),
     Item(N_("&Basing"), items=BASING_ITEMS),
     Item(N_("&Initialisation"), "drilling", "initialise"),
     Item(N_("&Acknowledge a fault"), "drilling", "acknowledge"),

@@ -5,7 +5,7 @@ colour alone. Each motor's whole phase table is drawn, with its column marked. W
 on further pages, no block broken that need not be.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import urwid
 
@@ -20,14 +20,19 @@ LABEL_WIDTH = 9
 
 
 class SideWindow(urwid.Widget):
-    """The window's lines in a box, a page of them at a time."""
+    """Lines in a box, a page of them at a time: those that ``pages`` gives, which has the form of ``side_pages``."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
 
-    def __init__(self) -> None:
+    def __init__(self, pages: "Pages") -> None:
         super().__init__()
+        self._pages = pages
         self._shown: tuple[MachineView, Progress | None, BoardView | None] | None = None
         self._page = 0
+
+    def use(self, pages: "Pages") -> None:
+        """Shows other pages from now on."""
+        self._pages = pages
 
     def turn_page(self) -> None:
         """Shows the next page; after the last comes the first."""
@@ -44,7 +49,7 @@ class SideWindow(urwid.Widget):
         """Draws a page, clipped to the box."""
         assert len(size) == 2
         columns, rows = size
-        pages = side_pages(*self._shown, columns, rows) if self._shown else [[]]
+        pages = self._pages(*self._shown, columns, rows) if self._shown else [[]]
         self._page %= len(pages)
         return boxed(pages[self._page], columns, rows)
 
@@ -53,17 +58,46 @@ def side_pages(
     view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
 ) -> list[list[Line]]:
     """The pages of a window of ``columns`` and ``rows``, at least one; lines may be longer, pages are not."""
-    job = _job_lines(view, progress, board)
-    places = [_headings(), *map(_place_line, view.axes)]
+    job, places = _job_lines(view, progress, board), _place_lines(view)
     phases: list[Line] = [[("title", _("Phases"))], *map(phase_line, view.axes)]
     tables = [phase_table(axis) for axis in view.axes]
     sensors, outputs = _marked(_("Sensors"), view.sensors, columns), _marked(_("Outputs"), view.outputs, columns)
     whole = [*job, *places, *(line for table in tables for line in table), *_tick_lines(view), *sensors, *outputs]
     if len(whole) <= rows:
         return [whole]
-    pages = _paged([job, places, _tick_lines(view), phases, sensors, outputs, *tables], rows)
-    count = len(pages)
-    return [_numbered(page, f"{number}/{count} Tab", columns) for number, page in enumerate(pages, start=1)]
+    return _marked_pages([job, places, _tick_lines(view), phases, sensors, outputs, *tables], columns, rows)
+
+
+def machine_pages(
+    view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
+) -> list[list[Line]]:
+    """As ``side_pages``, without the motors."""
+    sensors, outputs = _marked(_("Sensors"), view.sensors, columns), _marked(_("Outputs"), view.outputs, columns)
+    blocks = [_job_lines(view, progress, board), _place_lines(view), _tick_lines(view), sensors, outputs]
+    return _marked_pages(_apart(blocks), columns, rows)
+
+
+def motor_pages(
+    view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
+) -> list[list[Line]]:
+    """As ``side_pages``, the phase tables of the motors alone."""
+    return _marked_pages(_apart(map(phase_table, view.axes)), columns, rows)
+
+
+Pages = Callable[[MachineView, Progress | None, BoardView | None, int, int], list[list[Line]]]
+
+
+def _apart(blocks: Iterable[list[Line]]) -> list[list[Line]]:
+    """Blocks with an empty line after each."""
+    return [[*block, []] for block in blocks]
+
+
+def _marked_pages(blocks: Sequence[list[Line]], columns: int, rows: int) -> list[list[Line]]:
+    """Blocks on pages, each with its number where they are more than one."""
+    pages = _paged(blocks, rows)
+    if len(pages) == 1:
+        return pages
+    return [_numbered(page, f"{number}/{len(pages)} Tab", columns) for number, page in enumerate(pages, start=1)]
 
 
 def _paged(blocks: Sequence[list[Line]], rows: int) -> list[list[Line]]:
@@ -123,8 +157,9 @@ def _time(progress: Progress | None) -> str:
     return clock(progress.machine_seconds) + left
 
 
-def _headings() -> Line:
-    return [("title", f"{'':3}{_('now mm'):>9}{_('steps'):>7}{_('to mm'):>8}{_('steps'):>7}")]
+def _place_lines(view: MachineView) -> list[Line]:
+    headings = f"{'':3}{_('now mm'):>9}{_('steps'):>7}{_('to mm'):>8}{_('steps'):>7}"
+    return [[("title", headings)], *map(_place_line, view.axes)]
 
 
 def _place_line(axis: AxisView) -> Line:

@@ -31,8 +31,10 @@ def configuration(first_screen: str) -> Item:
         Item(N_("Interrupt &frequency..."), first_screen, "type_tick_hz"),
         Item(N_("P&ort"), "port"),
         Item(N_("&Colours"), items=(
-            Item(N_("&Colour"), "", "set_theme", "colour"),
+            Item(N_("&Blue, as in 1996"), "", "set_theme", "blue"),
+            Item(N_("&Dark"), "", "set_theme", "dark"),
             Item(N_("&Light"), "", "set_theme", "light"),
+            Item(N_("&High contrast"), "", "set_theme", "contrast"),
             Item(N_("&Monochrome"), "", "set_theme", "mono"),
         )),
     ))  # fmt: skip

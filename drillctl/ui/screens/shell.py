@@ -47,6 +47,22 @@ class Shell(Protocol):
         """Opens a dialog with a line to type in, first ``text``; ``accept`` is called with what was typed."""
 
 
+class Step(NamedTuple):
+    """What the machine waits for. ``text`` names each action that does it as a field: ``{initialise} initialises``.
+
+    attribute  the role that its meaning has: good, warning, danger
+    actions    for each field a screen and its method, as the menus name them
+    values     what else stands in the text
+    free       a motion can be begun: the machine waits for no other answer
+    """
+
+    attribute: str
+    text: str
+    actions: Mapping[str, tuple[str, str]] = {}
+    values: Mapping[str, str] = {}
+    free: bool = False
+
+
 class MachineScreens(NamedTuple):
     """The screens and menus of a family of machines: a row of ui/machines.py.
 
@@ -54,6 +70,7 @@ class MachineScreens(NamedTuple):
     menus       the menu bar, from left to right
     makers      the family's own screens, by the names that the menus use; made with ``plain`` without UTF-8
     first       the screen that is in front to begin with, and is never closed
+    next_step   what the machine waits for just now
     at_start    is called once when the first screen is drawn
     """
 
@@ -62,6 +79,7 @@ class MachineScreens(NamedTuple):
     makers: Mapping[str, Callable[[Console, Shell, bool], urwid.Widget]]
     first: str
     at_start: Callable[[Console, Shell], object]
+    next_step: Callable[[Console, MachineView], Step]
 
 
 @runtime_checkable

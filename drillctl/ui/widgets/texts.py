@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeVar
 import urwid
 
 from drillctl.language import LINES, masked, visible
+from drillctl.ui.widgets import borders
 
 Line = list[str | tuple[str, str]]
 Names = list[tuple[Hashable, int]]  # of attributes, and of how many bytes
@@ -65,7 +66,12 @@ class Box(urwid.LineBox[urwid.Widget]):
     """A frame around a widget."""
 
     def __init__(self, inside: urwid.Widget, title: str = ""):
-        super().__init__(inside, title=visible(title), title_attr="title")
+        across, down, *corners = borders.lines()
+        super().__init__(
+            inside, visible(title), "left", "title",
+            tlcorner=corners[0], tline=across, trcorner=corners[1], lline=down, rline=down,
+            blcorner=corners[2], bline=across, brcorner=corners[3],
+        )  # fmt: skip
 
     def set_title(self, text: Any) -> None:
         """Shows another title, escaped."""

@@ -1,0 +1,44 @@
+"""The line that says what the machine waits for: the sentence of a Step, with the keys of the screen on top in it."""
+
+import re
+from collections.abc import Sequence
+
+import urwid
+
+from drillctl.language.words import _
+from drillctl.ui.frame import screen_keys
+from drillctl.ui.screens.shell import Step
+from drillctl.ui.widgets.menus import Item, hot_letter
+from drillctl.ui.widgets.texts import Line
+
+FIELD = re.compile(r"\{(\w+)\}")
+
+
+def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item]) -> Line:
+    """A Step as marked text. An action that the screen has no key for is named by its letters in the menus."""
+    line: Line = [(step.attribute, f" {_('Next')} "), " "]
+    for index, part in enumerate(FIELD.split(_(step.text))):
+        if index % 2 == 0:
+            line.append(part)
+        elif part in step.values:
+            line.append(("title", step.values[part]))
+        else:
+            line.append(("accent", _key(*step.actions[part], screen, menus)))
+    return line
+
+
+def _key(name: str, method: str, screen: urwid.Widget, menus: Sequence[Item]) -> str:
+    wanted = method or name
+    own = next((key for key in screen_keys(screen) if key.method == wanted), None)
+    return _(own.printed) if own else " ".join(_path(menus, name, method))
+
+
+def _path(items: Sequence[Item], name: str, method: str, before: str = "Alt-") -> list[str]:
+    """The letters that lead to an entry, the first with Alt; an empty list where there is none."""
+    for item in items:
+        letter = before + hot_letter(item).upper()
+        if (item.screen, item.method) == (name, method) and not item.items:
+            return [letter]
+        if further := _path(item.items, name, method, ""):
+            return [letter, *further]
+    return []

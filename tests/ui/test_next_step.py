@@ -1,0 +1,76 @@
+"""The next step: a sentence for every condition, with keys that work where it stands."""
+
+import re
+from dataclasses import replace
+
+import pytest
+import urwid
+
+from drillctl.language import words
+from drillctl.ui.next_step import step_line
+from drillctl.ui.pcb_drill.menus import MENUS
+from drillctl.ui.pcb_drill.next_step import ACTIONS, ROWS
+from drillctl.ui.screens.shell import Step
+from drillctl.viewmodel.console import MachineView, ToolWanted
+from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
+
+pytestmark = pytest.mark.usefixtures("idle")
+
+FIELD = re.compile(r"\{(\w+)\}")
+CASES = {
+    "position not known": ({"position_known": False}, False, "position not known: I initialises"),
+    "no board": ({}, False, "no board: F opens one, E shows the examples"),
+    "ready": ({}, True, "ready: S drills the board, D goes over it"),
+    "a tool": ({"at_work": True, "tool_wanted": ToolWanted(2, 1.0)}, True, "T2, 1.000 mm is wanted: put it in, then C"),
+    "a fault": ({"condition": "latched", "fault": FAULT}, True, "FAULT EMERGENCY_STOP: put its cause right, then A"),
+    "held": ({"condition": "held", "at_work": True}, True, "held: Space goes on, X ends the job"),
+    "at work": ({"moving": True, "at_work": True}, True, "at work: Space holds, X ends the job"),
+    "ending": ({"condition": "stopping", "at_work": True}, True, "the job is being ended"),
+    "returning": ({"condition": "returning", "fault": FAULT}, True, "the machine returns to a known position"),
+    "paused": ({"paused": True}, True, "the clock is stopped"),
+}  # fmt: skip
+
+
+def shown(view: MachineView, board: bool, *keys: str) -> str:
+    program = Program(FakeConsole(now=view, loaded=BOARD if board else None))
+    program.press(*keys)
+    return next(row for row in program.text().splitlines() if row.startswith((" Next ", " Dalej ")))
+
+
+@pytest.mark.parametrize(("state", "board", "line"), CASES.values(), ids=CASES)
+def test_the_next_step_is_told_with_its_key(state: dict[str, object], board: bool, line: str) -> None:
+    assert line in shown(replace(VIEW, **state), board)
+
+
+def test_every_row_is_tried() -> None:
+    assert len(CASES) == len(ROWS)
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+@pytest.mark.parametrize(("state", "board"), [case[:2] for case in CASES.values()], ids=CASES)
+def test_the_next_step_fits_on_a_small_terminal(language: str, state: dict[str, object], board: bool) -> None:
+    words.use(language)
+    for keys in ((), ("f",), ("esc", "f")):
+        assert "…" not in shown(replace(VIEW, **state), board, *keys)
+
+
+def test_on_another_screen_the_letters_of_the_menu_are_named() -> None:
+    view = replace(VIEW, position_known=False)
+    assert "Alt-D I initialises" in shown(view, True, "f")
+    program = Program(FakeConsole(now=view, loaded=BOARD))
+    program.press("f", "meta d", "i")
+    assert program.console.asked == [("initialise",)]
+
+
+def test_a_fault_whose_box_was_closed_still_names_the_key() -> None:
+    assert "A acknowledges" in shown(replace(VIEW, condition="latched", fault=FAULT), True, "esc")
+
+
+def test_a_row_names_actions_that_the_menus_have() -> None:
+    """On the screen that has the keys, and on one that has not."""
+    values = {"fault": "LIMIT", "tool": "T1"}
+    for row in ROWS:
+        step = Step(row.attribute, row.text, ACTIONS, values, row.free)
+        for screen in (Program(FakeConsole()).app.screens[-1], urwid.SolidFill()):
+            named = [part[1] for part in step_line(step, screen, MENUS)[1:] if isinstance(part, tuple)]
+            assert len(named) == len(FIELD.findall(row.text)) and all(named)
