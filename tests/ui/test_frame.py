@@ -80,7 +80,7 @@ def test_a_click_opens_a_menu_and_one_beside_closes_it() -> None:
     assert "Initialisation" in program.text()
     program.press(("mouse press", 1, 70, 20))
     assert "Initialisation" not in program.text()
-    program.press(("mouse press", 1, 10, 0), ("mouse press", 1, 12, 7))
+    program.press(("mouse press", 1, 10, 0), ("mouse press", 1, 12, 8))
     assert program.console.asked == [("initialise",)] and "Acknowledge" not in program.text()
 
 

@@ -62,7 +62,8 @@ class Scoped(Program):
         self.canvas()  # the first frame tells it its size
 
     def row(self, name: str) -> str:
-        return next(line for line in self.text().splitlines() if line[1:].startswith(f"{name} "))
+        lines = [line.strip("│") for line in self.text().splitlines()]  # without the frame of a large terminal
+        return next(line for line in lines if line[1:].startswith(f"{name} "))
 
     def cursor(self) -> int:
         line = next(line for line in self.text().splitlines() if line.startswith(("tick ", "takt ")))
@@ -81,7 +82,7 @@ def test_a_frame_has_names_waves_values_and_the_machine_at_the_cursor(
     text = program.text()
     for told in ("square.trace (pcb-drill)", "500 Hz", "|20", "1 KMD_INICJALIZACJA", words._("at cursor")):
         assert told in text
-    assert words._("A and B: not set") in text and "▼" in rows[3]
+    assert words._("A and B: not set") in text and "▼" in rows[3] + rows[4]
 
 
 def test_the_first_wave_of_the_homing_is_drawn_from_the_tick_in_which_it_came(square: TraceFile) -> None:
