@@ -23,7 +23,8 @@ held = False
 with TerminalKeys(sys.stdin) as keys:
     keys.requests(held)
     print("ready", flush=True)
-    while True:
+    ends_s = time.monotonic() + 60  # it is in a group of its own, which a closed terminal may not reach
+    while time.monotonic() < ends_s:
         for request in keys.requests(held):
             if request.name in ("HOLD", "RESUME"):
                 held = request.name == "HOLD"
@@ -110,10 +111,12 @@ class Line:
 @pytest.fixture
 def line() -> Iterator[Line]:
     opened = Line()
-    opened.wait_for("ready")
-    assert opened.gives_keys()
-    yield opened
-    opened.close()
+    try:
+        opened.wait_for("ready")
+        assert opened.gives_keys()
+        yield opened
+    finally:
+        opened.close()
 
 
 def test_keys_are_requests(line: Line) -> None:
