@@ -2,6 +2,7 @@
 
     app.py     the loop of the program on the screen: the machine's news in, keys out
     frame.py   the menu bar, the line on the machine, the next step, the line of keys
+    explanations.py  what F1 says of each screen and its signs, before its keys
     next_step.py  what the machine waits for, with the keys of the screen on top
     preferences.py  the theme that was chosen, kept in the user's configuration
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL

@@ -62,7 +62,7 @@ class Alerts:
             (_("Hold"), self._console.hold),
             (_("Stop"), self._console.stop),
         ]
-        return dialogs.Dialog(_("Tool change"), [Text(line) for line in lines], buttons, self._layers.pop)
+        return dialogs.Dialog(_("Tool change"), [Text(line) for line in lines], buttons, self._layers.pop, answers=True)
 
     def _show_real(self, view: MachineView) -> None:
         """A machine whose file says REAL is driven on its port after a yes, and simulated until then."""

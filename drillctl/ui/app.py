@@ -14,6 +14,7 @@ import urwid
 from drillctl.language.sentences import translated
 from drillctl.language.words import _
 from drillctl.ui.alerts import Alerts
+from drillctl.ui.explanations import EXPLAINED
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
@@ -57,7 +58,7 @@ class App(Boxes):
         self.frame = MainFrame()
         self._use(screens_of(console.view()))
         terminal = terminal or _terminal()
-        super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows))
+        super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows), self.frame.say)
         self._alerts = Alerts(console, self.layers)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
@@ -90,6 +91,8 @@ class App(Boxes):
         stops = {*EMERGENCY.names} - ({TYPED_STOP} if TYPED_STOP in keys and self._typing_at_rest() else set())
         if "window resize" in keys:
             self.layers.restack()
+        if any(isinstance(key, str) and key != "window resize" for key in keys):
+            self.frame.say("")
         if not stops.intersection(keys):
             return keys
         self.emergency_stop()  # nothing typed with it may still reach the machine, an acknowledgement least of all
@@ -116,6 +119,13 @@ class App(Boxes):
                 self.screens.insert(0, top)
             self._refresh_top()
 
+    def leave_top(self) -> None:
+        """Does what Esc does on the screen on top; on the first screen, leaves the program."""
+        if len(self.screens) > 1:
+            self.loop.process_input(["esc"])
+        else:
+            self.leave()
+
     def show(self, name: str) -> urwid.Widget | None:
         """Opens a screen by its name in the menus; None, and a message, where it is not to be had."""
         screen = self._screen(name)
@@ -134,9 +144,11 @@ class App(Boxes):
         self._drop(0)
 
     def help(self) -> None:
-        """Shows the keys that work on the screen on top."""
+        """Explains the screen on top and the signs on it, then lists the keys that work there."""
         screen = self.screens[-1]
-        self.message(_("Keys"), help_lines([*screen_keys(screen), *FRAME_KEYS]))
+        keys = help_lines([*screen_keys(screen), *FRAME_KEYS])
+        title = getattr(screen, "title", "")
+        self.message(_(title) or _("Keys"), [*map(_, EXPLAINED.get(title, ())), "", *keys])
 
     def notices(self) -> None:
         """Shows all notices of the machine; the line on the machine has room for the last one only."""

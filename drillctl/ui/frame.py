@@ -99,7 +99,9 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         self._state: Line = []
         self._notice: Line = []
         self._shown: Line = []
-        self._step_shown: Line = []
+        self._next: Line = []
+        self._said = ""
+        self._bottom_shown: list[Line] = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
         super().__init__(self._window, header=header, footer=urwid.Pile([self._step, self._keys]))
 
@@ -112,9 +114,19 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
 
     def show_step(self, step: Line) -> None:
         """Shows what the machine waits for, and the keys that do it."""
-        if step != self._step_shown:
-            self._step_shown = step
-            self._step.set_text(list(step))
+        self._next = step
+        self._show_bottom()
+
+    def say(self, text: str) -> None:
+        """Shows a word in front of the next step, an empty text none; the word has the line where both don't fit."""
+        self._said = text
+        self._show_bottom()
+
+    def _show_bottom(self) -> None:
+        said: Line = [("title", f" {self._said} ")] if self._said else []
+        if [said, self._next] != self._bottom_shown:
+            self._bottom_shown = [said, self._next]
+            self._step.set_text([*said, *self._next])
 
     def render(self, size: Size, focus: bool = False) -> urwid.CompositeCanvas:
         """Fits the line on the machine first: the screen's title is left out where the position would not be seen."""

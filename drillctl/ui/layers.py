@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import urwid
 
+from drillctl.language.words import _
 from drillctl.ui.widgets import dialogs
 from drillctl.ui.widgets.dialogs import ChoiceDialog, Field, FieldsDialog, offer
 from drillctl.ui.widgets.menus import PullDown
@@ -96,18 +97,27 @@ def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: in
 
 
 class Boxes:
-    """The part of a Shell that opens dialogs: lays them on ``layers``."""
+    """The part of a Shell that opens dialogs: lays them on ``layers``; ``say`` shows a word in the bottom lines."""
 
-    def __init__(self, layers: Layers):
-        self.layers = layers
+    def __init__(self, layers: Layers, say: Callable[[str], object]):
+        self.layers, self._say = layers, say
 
     def message(self, title: str, lines: Sequence[str]) -> None:
         """Opens a dialog that tells something."""
         self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop))
 
     def ask(self, question: str, yes: Callable[[], None]) -> None:
-        """Opens a dialog of yes and no."""
-        self.layers.push_dialog(dialogs.question(question, yes, self.layers.pop))
+        """Opens a dialog of yes and no; every answer leaves a word in the bottom lines."""
+
+        def closed() -> None:
+            self.layers.pop()
+            self._say(_("answered no: nothing was started or changed"))
+
+        def answered() -> None:
+            self._say(_("answered yes"))
+            yes()
+
+        self.layers.push_dialog(dialogs.question(question, answered, closed))
 
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
         """Opens a dialog with a line to type in."""

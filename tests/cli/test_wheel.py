@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.ui.pcb_drill import examples
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -25,6 +27,14 @@ def test_every_table_is_in_the_wheel(wheel: Path) -> None:
     tables = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "tables").rglob("*.toml"))
     assert len(tables) > 10
     assert {f"drillctl/{name}" for name in tables} <= names
+
+
+@pytest.mark.timeout(120)
+def test_the_example_boards_and_the_lab_sheets_are_in_the_wheel(wheel: Path) -> None:
+    """Where drillctl/ui/pcb_drill/examples.py looks for them."""
+    names = set(zipfile.ZipFile(wheel).namelist())
+    for inside, files in (("examples", examples.boards()), ("sheets", examples.sheets())):
+        assert files and {f"drillctl/{inside}/{file.name}" for file in files} <= names
 
 
 @pytest.mark.timeout(120)

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from drillctl.language import words
+from drillctl.ui.pcb_drill import examples
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
+from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
@@ -375,3 +377,29 @@ def test_f10_stops_in_a_field_at_rest_too(folder: Path) -> None:
     program = opened()
     program.press("d", "f10")
     assert program.console.asked[-1] == ("emergency_stop",)
+
+
+@pytest.mark.parametrize("first", [(), ("f",)], ids=["from Drilling", "from Files"])
+def test_an_example_board_is_loaded_by_its_number(first: tuple[str, ...]) -> None:
+    program = Program(FakeConsole())
+    program.press(*first, "e")
+    board = examples.boards()[0]
+    assert f"1 board {board.name}" in program.text()
+    program.press("1")
+    assert program.console.asked == [("load", str(board), Asked())]
+    assert isinstance(program.app.screens[-1], Files)
+
+
+def test_a_lab_sheet_is_opened_to_be_read() -> None:
+    program = Program(FakeConsole())
+    program.press("e", *["down"] * len(examples.boards()), "enter")
+    assert "# 1. Phase sequences" in program.text()
+    program.press("page down", "q")
+    assert isinstance(program.app.screens[-1], Drilling) and not program.console.asked
+
+
+def test_an_installation_without_examples_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(examples, "shipped", lambda name, in_checkout: tmp_path)
+    program = Program(FakeConsole())
+    program.press("e")
+    assert "not part of this installation" in program.text()

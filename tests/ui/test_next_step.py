@@ -70,7 +70,7 @@ def test_a_row_names_actions_that_the_menus_have() -> None:
     """On the screen that has the keys, and on one that has not."""
     values = {"fault": "LIMIT", "tool": "T1"}
     for row in ROWS:
-        step = Step(row.attribute, row.text, ACTIONS, values, row.free)
+        step = Step(row.attribute, row.text, ACTIONS, values)
         for screen in (Program(FakeConsole()).app.screens[-1], urwid.SolidFill()):
             named = [part[1] for part in step_line(step, screen, MENUS)[1:] if isinstance(part, tuple)]
             assert len(named) == len(FIELD.findall(row.text)) and all(named)

@@ -14,6 +14,7 @@ from drillctl.language.words import N_, _
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.files import Files
+from drillctl.ui.pcb_drill.next_step import next_step
 from drillctl.ui.pcb_drill.side_window import SideWindow, machine_pages, motor_pages, side_pages
 from drillctl.ui.pcb_drill.unfinished import offer_job
 from drillctl.ui.screens.event_list import EventList
@@ -127,6 +128,8 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def start(self) -> None:
         """Asks, then drills the board; offers to resume first if the job was interrupted."""
         board = self._console.board()
+        if self._refused():
+            return
         if board is None:
             self._answer(self._console.start(dry=False))
             return
@@ -137,12 +140,20 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         question = _("Drill {holes} holes of {name}?").format(holes=len(board.xy_mm), name=board.name)
         self._shell.ask(question, self._drill)
 
+    def _refused(self) -> bool:
+        """Whether no motion can be begun just now; then the bottom line says why, and nothing is asked."""
+        refuses = next_step(self._console, self._console.view()).refuses
+        if refuses:
+            self._answer((_(refuses),))
+        return bool(refuses)
+
     def _drill(self) -> None:
         self._answer(self._console.start(dry=False), _("drilling"))
 
     def dry_run(self) -> None:
         """Runs the board with the drill raised."""
-        self._answer(self._console.start(dry=True), _("dry run"))
+        if not self._refused():
+            self._answer(self._console.start(dry=True), _("dry run"))
 
     def hold_or_resume(self) -> None:
         """Holds the job, or resumes it if it is held."""

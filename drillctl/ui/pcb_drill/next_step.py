@@ -19,6 +19,7 @@ ACTIONS: Mapping[str, tuple[str, str]] = {
     "files": ("files", ""),
     "queue": ("queue_editor", ""),
 }  # fmt: skip
+AT_WORK = N_("the machine is at work")
 
 
 class Row(NamedTuple):
@@ -27,28 +28,30 @@ class Row(NamedTuple):
     holds: Callable[[MachineView, BoardView | None], bool]
     attribute: str
     text: str
-    free: bool = False
+    refuses: str = ""
 
 
 ROWS = (
     Row(lambda view, board: view.condition == "returning", "warning",
-        N_("the machine returns to a known position")),
+        N_("the machine returns to a known position"), AT_WORK),
     Row(lambda view, board: view.condition == "latched", "danger",
-        N_("FAULT {fault}: put its cause right, then {acknowledge} acknowledges it")),
+        N_("FAULT {fault}: put its cause right, then {acknowledge} acknowledges it"),
+        N_("a fault is latched: acknowledge it first")),
     Row(lambda view, board: view.paused, "warning", N_("the clock is stopped: {queue} has the keys that go on")),
-    Row(lambda view, board: view.condition == "stopping", "warning", N_("the job is being ended")),
+    Row(lambda view, board: view.condition == "stopping", "warning", N_("the job is being ended"), AT_WORK),
     Row(lambda view, board: view.condition in ("held", "holding"), "warning",
-        N_("held: {hold_or_resume} goes on, {stop} ends the job")),
+        N_("held: {hold_or_resume} goes on, {stop} ends the job"),
+        N_("the job is held: go on with it, or end it first")),
     Row(lambda view, board: view.tool_wanted is not None, "warning",
-        N_("{tool} is wanted: put it in, then {tool_changed}")),
+        N_("{tool} is wanted: put it in, then {tool_changed}"), N_("the job waits for a tool")),
     Row(lambda view, board: view.at_work or view.moving, "good",
-        N_("at work: {hold_or_resume} holds, {stop} ends the job")),
+        N_("at work: {hold_or_resume} holds, {stop} ends the job"), AT_WORK),
     Row(lambda view, board: not view.position_known, "warning",
-        N_("position not known: {initialise} initialises"), True),
+        N_("position not known: {initialise} initialises")),
     Row(lambda view, board: board is None, "warning",
-        N_("no board: {files} opens one, {examples} shows the examples"), True),
+        N_("no board: {files} opens one, {examples} shows the examples")),
     Row(lambda view, board: True, "good",
-        N_("ready: {start} drills the board, {dry_run} goes over it with the drill up"), True),
+        N_("ready: {start} drills the board, {dry_run} goes over it with the drill up")),
 )  # fmt: skip
 
 
@@ -60,4 +63,4 @@ def next_step(console: Console, view: MachineView) -> Step:
         "fault": view.fault.name if view.fault else "",
         "tool": tool_name(view.tool_wanted) if view.tool_wanted else "",
     }
-    return Step(row.attribute, row.text, ACTIONS, values, row.free)
+    return Step(row.attribute, row.text, ACTIONS, values, row.refuses)

@@ -53,14 +53,14 @@ class Step(NamedTuple):
     attribute  the role that its meaning has: good, warning, danger
     actions    for each field a screen and its method, as the menus name them
     values     what else stands in the text
-    free       a motion can be begun: the machine waits for no other answer
+    refuses    why no motion can be begun before that; empty where one can
     """
 
     attribute: str
     text: str
     actions: Mapping[str, tuple[str, str]] = {}
     values: Mapping[str, str] = {}
-    free: bool = False
+    refuses: str = ""
 
 
 class MachineScreens(NamedTuple):

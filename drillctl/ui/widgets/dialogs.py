@@ -14,18 +14,35 @@ from drillctl.language.words import _
 from drillctl.ui.widgets.texts import Box, Button, Edit, Pick, Size, Text
 
 WIDEST = 72
+LEAST_BUTTON = 14
+YES = "y"  # means yes in every language, beside the letter of the word
+LEAVING = ("q", "Q")  # close a dialog where they are not typed into a field
 
 Act = Callable[[], object]
 Part = Text | urwid.AttrMap[Any]  # text, or a field or a line to be picked, in its colours
 
 
 class Dialog(urwid.WidgetWrap[urwid.Widget]):
-    """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc only closes."""
+    """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc and q only close.
 
-    def __init__(self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act):
+    answers  the first two buttons mean no and yes: they can be pressed by the first letters of these words
+    """
+
+    def __init__(
+        self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act, answers: bool = False
+    ):  # fmt: skip
         self._closing = closing
         self._first = self._closed_by(buttons[0][1])
-        self._row = urwid.GridFlow([self._button(*button) for button in buttons], 14, 2, 0, "center")
+        letters = (_("No")[0], _("Yes")[0]) if answers else ()
+        marked = [f"{label} ({letter})" for (label, _act), letter in zip(buttons, letters, strict=False)]
+        labels = [*marked, *(label for label, _act in buttons[len(marked) :])]
+        acts = [act for _label, act in buttons]
+        self._answers = {letter.lower(): self._closed_by(act) for letter, act in zip(letters, acts, strict=False)}
+        if answers:
+            self._answers[YES] = self._closed_by(acts[1])
+        width = max(LEAST_BUTTON, max(map(len, labels)) + len("<  >"))
+        cells = [self._button(*button) for button in zip(labels, acts, strict=True)]
+        self._row = urwid.GridFlow(cells, width, 1, 0, "center")
         self._parts: list[Part | urwid.Divider | urwid.GridFlow] = [*body, urwid.Divider(), self._row]
         self._list = urwid.ListBox(urwid.SimpleFocusListWalker(self._parts))
         self._list.set_focus(_first_selectable(body, len(body) + 1))
@@ -36,10 +53,13 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
     def keypress(self, size: Size, key: str) -> str | None:
         """Handles every key: no key passes a dialog. Down from the text leads to the first button."""
         above = self._list.focus is not self._row
-        if key == "esc":
+        left = None if key == "esc" else super().keypress(size, key)
+        if key == "esc" or left in LEAVING:
             self._closing()
-        elif super().keypress(size, key) == "enter":
+        elif left == "enter":
             self._first()
+        elif left is not None and left.lower() in self._answers:
+            self._answers[left.lower()]()
         elif above and self._list.focus is self._row:
             self._row.focus_position = 0
         return None
@@ -77,7 +97,8 @@ def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing)
 
 def question(text: str, yes: Act, closing: Act) -> Dialog:
     """A dialog of No and Yes; No stands first, so that Enter alone does nothing."""
-    return Dialog(_("Question"), [Text(text)], [(_("No"), nothing), (_("Yes"), yes)], closing)
+    body = [Text(text), Text(("dark", _("Enter and Esc mean no.")))]
+    return Dialog(_("Question"), body, [(_("No"), nothing), (_("Yes"), yes)], closing, answers=True)
 
 
 def entry(title: str, prompt: str, text: str, accept: Callable[[str], None], closing: Act) -> Dialog:

@@ -34,9 +34,10 @@ EMERGENCY = Key(
 
 FRAME_KEYS = (
     EMERGENCY,
-    Key(("f1",), "F1", "help", N_("this help"), N_("Help")),
+    Key(("f1", "?"), "F1 ?", "help", N_("explains the screen and lists its keys"), N_("Help")),
     Key(("f9",), "F9", "menu", N_("the menu; or Alt with a letter of it"), N_("Menu")),
     Key(("esc",), "Esc", "back", N_("closes what is on top"), N_("Back")),
+    Key(("q",), "Q", "leave_top", N_("as Esc; on the first screen it ends the program")),
     Key(("f4",), "F4", "leave", N_("ends the program; the outputs are made safe"), N_("Quit")),
 )
 

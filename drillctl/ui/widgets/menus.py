@@ -72,7 +72,9 @@ class PullDown(urwid.WidgetWrap[urwid.Widget]):
         return Pick([*label_markup(item), further[0]], lambda: self._chosen(item), *further[1:])
 
     def _choose_by_letter(self, key: str) -> None:
-        for item in self._items:
-            if key.lower() == hot_letter(item):
-                self._chosen(item)
-                return
+        """Chooses the entry with this letter; a q that no entry has closes the menu."""
+        item = next((item for item in self._items if key.lower() == hot_letter(item)), None)
+        if item is not None:
+            self._chosen(item)
+        elif key in ("q", "Q"):
+            self._closing()

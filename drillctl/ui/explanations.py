@@ -1,0 +1,89 @@
+"""What F1 says of each screen before it lists the keys: what is shown, what the signs mean, how one begins.
+
+Rule: a line is no longer than a dialog is wide; every sign that a screen draws is explained here. By a screen's title.
+"""
+
+from collections.abc import Mapping
+
+from drillctl.language.words import N_
+
+EXPLAINED: Mapping[str, tuple[str, ...]] = {
+    "Drilling": (
+        N_("The machine at work. I makes the position known, S drills the board."),
+        N_("Board: the dots are holes to drill, ○ (o) a drilled hole, ◎ (@)"),
+        N_("the hole in work, + the drill."),
+        N_("now mm, steps: where an axis is, from the working base;"),
+        N_("to mm, steps: where it goes."),
+        N_("12 +0 after an axis: column 12 of its phase table, ramp state 0."),
+        N_("[24a]: the wire is on. Names in brackets are on, others are off."),
+        N_("Ticks: interrupts a second, and how many of them came late."),
+        N_("Lost: steps that the simulated rotors did not follow, by axis."),
+    ),
+    "Files": (
+        N_("Left, the drill files of a folder; right, what the chosen one says."),
+        N_("Enter loads a file; Esc goes back to the machine, where S drills it."),
+        N_("The format of the numbers is recognised, and the reason is told."),
+        N_("Every change of placing or order reads the file anew."),
+        N_("- at the beginning of a line is a warning."),
+    ),
+    "Measured holes": (
+        N_("Drive the drill over a hole of the board and press Enter: found."),
+        N_("Two holes fix shift and turn, three also scale and shear."),
+        N_("> marks the hole in question; off by: how far it is from its place."),
+        N_("F2 places the board by the holes that were found."),
+    ),
+    "Phase tables": (
+        N_("The phase tables that there are; Enter opens one."),
+        N_("* marks a table that the machine in use has."),
+        N_("A shipped table stays: what is changed is saved as your own copy."),
+    ),
+    "Ramps": (
+        N_("The ramp tables that there are; Enter opens one."),
+        N_("* marks a table that the machine in use has."),
+        N_("A shipped table stays: what is changed is saved as your own copy."),
+    ),
+    "Machines": (
+        N_("The machines that there are; Enter opens the file of one."),
+        N_("* marks the machine in use."),
+        N_("A shipped file stays: what is changed is saved as your own copy."),
+    ),
+    "Phase table": (
+        N_("A row for each wire, a column for each step of the cycle."),
+        N_("x: the wire is on in that column; . it is off. Space turns it over."),
+        N_("Wires above the lowest voltage force: they are on for one column."),
+        N_("Problems and warnings stand below; one with a problem isn't saved."),
+    ),
+    "Ramp": (
+        N_("A row for each state of the ramp: how many ticks a step takes there,"),
+        N_("and how many steps are needed to stop from it. The bar is the speed."),
+        N_("State 0 is rest; signs + and - are the two directions."),
+        N_("Type a number over the one under the cursor."),
+    ),
+    "Configuration": (
+        N_("The machine's file as fields: value, unit, range, and its meaning."),
+        N_("Type over a value, or choose the next with F6; F2 saves it."),
+        N_("A wrong value is told at once and never saved."),
+    ),
+    "Queue of commands": (
+        N_("Type commands, one a line; Tab completes a word."),
+        N_("F5 runs all, F6 down to the cursor, F7 one line, F8 one tick."),
+        N_("> marks the line in execution; a wrong line says what is wrong."),
+    ),
+    "Signals": (
+        N_("Every input and output of the port as it is now."),
+        N_("[name] is on. Space switches what the cursor is on, at rest."),
+        N_("A motor's wire costs the position, and is asked about first."),
+    ),
+    "Scope": (
+        N_("A run as a logic analyser shows it: time goes to the right."),
+        N_("▁ (_) off, ▔ (-) on, ▒ (#) changes too close to be drawn apart."),
+        N_("▼ (v) the cursor; A and B are marks; · (.) no change since before."),
+        N_("A letter goes to the next event of its kind, a capital to the last."),
+    ),
+    "Port": (
+        N_("The port that the machine's file names, and the one in use."),
+        N_("A test opens the port and asks it; nothing moves."),
+        N_("A real machine is driven only after a question."),
+    ),
+    "Lab sheet": (N_("A task of the laboratory, to be read; arrows and PgDn scroll it."),),
+}
