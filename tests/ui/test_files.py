@@ -320,7 +320,7 @@ def test_holes_are_added_and_taken_off(folder: Path) -> None:
     program = aligning(folder)
     program.press("a", "9", "enter")
     assert "hole '9' can't be added" in program.text()
-    program.press("x", "x", "x", "x", "g", "enter", "t", "tab")
+    program.press("delete", "delete", "delete", "delete", "g", "enter", "t", "tab")
     assert "X10.000 Y10.000" not in program.text()
     program.press("a", "1", "enter")
     assert "X10.000 Y10.000" in program.text()

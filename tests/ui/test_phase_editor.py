@@ -141,9 +141,9 @@ def test_space_turns_the_cell_under_the_cursor_over_and_undo_takes_it_back(edito
 
 
 def test_columns_come_and_go_and_the_cursor_stays_inside(editor: PhaseEditor) -> None:
-    press(editor, *["right"] * 9, "i")
+    press(editor, *["right"] * 9, "insert")
     assert editor.text.startswith("1a 5 xx...\n")
-    press(editor, "right", "x", "x")
+    press(editor, "right", "delete", "delete")
     assert editor.text.startswith("1a 5 xx.\n") and "column 3 of 3" in text_of(editor)
 
 

@@ -191,7 +191,7 @@ def test_rows_are_hidden_isolated_scrolled_and_shown_again(square: TraceFile) ->
     program = Scoped(square)
     program.press("down", "h")
     assert "x.1a" not in program.text() and ">x.1b" in program.text()
-    program.press("i")
+    program.press("k")
     assert "y.1a" not in program.text() and "x.state" in program.text() and "x.1a" in program.text()
     program.press("v", *["page down"] * 9)
     assert ">fault" in program.text() and "command" not in program.row("fault")

@@ -35,7 +35,7 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key(("enter",), "Enter", "found", N_("the drill stands over the hole: this is its place"), N_("Found")),
         Key(("t",), "T", "type_place", N_("types the hole's place in mm"), N_("Type")),
         Key(("a",), "A", "add", N_("measures another hole, by its number"), N_("Add")),
-        Key(("delete", "x"), "X", "remove", N_("takes the hole off the list"), N_("Off")),
+        Key(("delete",), "Del", "remove", N_("takes the hole off the list"), N_("Off")),
         Key(("f2",), "F2", "use", N_("places the board by these holes; with none, as before"), N_("Use")),
         *JOG_KEYS,
     )

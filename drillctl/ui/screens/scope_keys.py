@@ -69,7 +69,7 @@ SCOPE_KEYS = (
     Key(("page up",), "PgUp", "row", N_("eight rows up"), argument=-PAGE_ROWS),
     Key(("page down",), "PgDn", "row", N_("eight rows down"), argument=PAGE_ROWS),
     Key(("h",), "H", "hide", N_("hides this row"), N_("Hide")),
-    Key(("i",), "I", "isolate", N_("shows only the rows of this row's group")),
+    Key(("k",), "K", "isolate", N_("shows only the rows of this row's group")),
     Key(("v",), "V", "show_all", N_("shows all rows again")),
     Key(("o",), "O", "open_file", N_("opens a trace file"), N_("Open")),
     Key(("m",), "M", "show_machine", N_("the run of the machine at hand again"), N_("Machine")),

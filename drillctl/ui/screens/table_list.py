@@ -35,7 +35,7 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         Key(("c",), "C", "copy", N_("copies the table under another name"), N_("Copy")),
         Key(("d",), "D", "compare", N_("what differs between this table and another"), N_("Differences")),
         Key(("r",), "R", "reset", N_("takes your own copy away: the shipped table is in force again"), N_("Reset")),
-        Key(("x", "delete"), "X", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
+        Key(("delete",), "Del", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
     )
 
     def __init__(self, console: Console, shell: Shell, tables: TableEditing, kind: TableKind, plain: bool = False):
