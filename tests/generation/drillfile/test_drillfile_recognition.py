@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drillctl.generation.drillfile import DrillFile, decode, read
+from drillctl.generation.drillfile import DrillFile, decode, read, spacing
 from drillctl.generation.drillfile.model import MM_PER_UNIT
 from drillctl.generation.drillfile.numbers import Evidence, read_numbers
 from drillctl.generation.drillfile.recognise import parse_option
@@ -170,3 +170,16 @@ def test_the_grid_finds_the_same_holes_as_every_pair(places: list[tuple[float, f
                 overlapping.add(later)
     found = meetings(xy_mm, diameter_mm)
     assert (set(found[0].tolist()), set(found[1].tolist())) == (overlapping, duplicate)
+
+
+def test_many_overlaps_cost_no_more_pairs_than_few() -> None:
+    """2,000 holes in one cell: each is found at its first neighbour, and not compared with the rest of the cell."""
+    places = np.random.default_rng(3).uniform(0, 1, (2000, 2))
+    found, pairs = np.zeros(2000, bool), []
+
+    def meets(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        pairs.append(len(first))
+        return np.ones(len(first), bool)
+
+    spacing._mark(found, places, np.arange(2000), 1.0, np.ones(2000, bool), meets)
+    assert found.sum() >= 1999 and sum(pairs) < 4 * 2000
