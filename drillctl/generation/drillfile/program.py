@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 
+from drillctl.generation.waits import Advance, ignored
+
 from . import afterend, comments
 from .commands import execute
 from .errors import PROBLEM_LIMIT, Refusal, Remark, shorten
@@ -20,10 +22,13 @@ LONG_MESSAGE = re.compile(r"\s*M45(?!\d)", re.I)  # for the operator; it goes on
 COMMAND_LIMIT = 40_000  # lines that are no plain holes; a drill file has dozens, a milled panel thousands
 
 
-def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Machine, list[Remark]]:
+def run(
+    text: str, facts: Facts, after_end: str = afterend.REFUSE, advance: Advance = ignored
+) -> tuple[Machine, list[Remark]]:
     """The machine after the whole text, and the problems found on the way (at most PROBLEM_LIMIT).
 
-    after_end: what becomes of holes behind M30, one of afterend.CHOICES.
+    after_end: what becomes of holes behind M30, one of afterend.CHOICES; advance: is called with how much of
+    the text is read.
     """
     machine = Machine(facts)
     tail = afterend.Tail(after_end)
@@ -47,6 +52,7 @@ def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Mach
                 break
         machine.line += text.count("\n", at, end)
         at = end
+        advance(at, len(text))
     _finish(machine, tail, text[text.rfind("\n", 0, -1) + 1 :] if torn else "", problems)
     return machine, problems
 
