@@ -68,6 +68,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._picture = BoardPicture(plain, FIRST_WORDS)
         self._window, self._motors = SideWindow(side_pages), SideWindow(motor_pages)
         self._events = EventList()
+        self._laid_out: tuple[Layout, bool] | None = None
         self._was_at_work = False
         self._footer = Text("")
         self._parts = {
@@ -94,7 +95,11 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Lays the windows out for this size."""
         assert len(size) == 2
-        self._lay_out(layout(*size), beside=size[0] >= layout(*size).side + LEAST_BOARD)
+        room = layout(*size)
+        wanted = (room, size[0] >= room.side + LEAST_BOARD)
+        if wanted != self._laid_out:  # what is laid out anew is drawn anew
+            self._laid_out = wanted
+            self._lay_out(*wanted)
         return super().render(size, focus)
 
     def _lay_out(self, room: Layout, beside: bool) -> None:
