@@ -3,11 +3,13 @@
 A *port image* is one integer: bit 32 n + b is bit b of card n, as on a PCL-720 (32 outputs, 32 inputs a card; the paper
 uses 18 and 6 of one). Outputs and inputs are images of the same shape.
 
-Rule: within a tick inputs are latched once, first, and outputs flushed once, last. Imports nothing of ours.
+Rule: within a tick inputs are latched once, first, and outputs flushed once, last. Knows no layer.
 """
 
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
+
+from drillctl.language import Message, Refusal
 
 CARD_BITS = 32
 CARD_MASK = (1 << CARD_BITS) - 1
@@ -30,11 +32,13 @@ def bits_of(image: int) -> list[int]:
     return [bit for bit in range(image.bit_length()) if image >> bit & 1]
 
 
-class PortError(OSError):
+class PortError(Refusal, OSError):
     """A port that can't be used. ``str()`` is ``PORT: reason, and what to do``."""
 
-    def __init__(self, port: str, reason: str):
-        super().__init__(f"{port}: {reason}")
+    kind = "port"
+
+    def __init__(self, port: str, reason: Message):
+        super().__init__(reason.at(port))
         self.port, self.reason = port, reason
 
 
@@ -123,5 +127,5 @@ class Answering(Protocol):
 class Telling(Protocol):
     """A driver that can describe its port."""
 
-    def facts(self) -> tuple[str, ...]:
+    def facts(self) -> tuple[Message, ...]:
         """Returns what it found when the port was opened, a line for each fact."""

@@ -3,11 +3,11 @@ in segments.
 """
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from drillctl.cli import jobs, options, streams
-from drillctl.cli.operating import waiting
-from drillctl.language import known_words
+from drillctl.language import Message, known_words, message_of
 
 QUEUE = ".kmd"
 TRACES = (".trace", ".seg")
@@ -55,7 +55,13 @@ def _ending(out: Path) -> str:
 
     ending, endings = out.suffix.lower(), (QUEUE, *TRACES, *EXCELLON)
     if ending and ending not in endings:
-        raise OutputError(f"{out}: {ending[:20]!r} is no ending that convert writes; {known_words(ending, endings)}")
+        raise OutputError(
+            Message(
+                "{ending!r} is no ending that convert writes; {words}",
+                ending=ending[:20],
+                words=known_words(ending, endings),
+            ).at(out)
+        )
     return ending
 
 
@@ -66,44 +72,39 @@ def _trace(arguments: argparse.Namespace) -> int:
     from drillctl.replay.header import machine_of
     from drillctl.trace.files import read_trace, write_record
 
-    library = options.library(arguments)
-    with waiting() as wait:
-        wait(f"reading {arguments.file.name}")
-        trace = read_trace(arguments.file, arguments.to_tick)
-        machine = machine_of(trace, arguments.file, library)
-        with reserved([arguments.to], inputs=[arguments.file]) as (output,):
-            assert output is not None
-            converted = in_form_of(arguments.to, trace, machine, wait)
-            wait(f"writing {arguments.to.name}")
-            write_record(converted, output)
+    trace = read_trace(arguments.file, arguments.to_tick)
+    machine = machine_of(trace, arguments.file, options.library(arguments))
+    with reserved([arguments.to], inputs=[arguments.file]) as (output,):
+        assert output is not None
+        write_record(in_form_of(arguments.to, trace, machine), output)
     return 0
 
 
-def _queue(arguments: argparse.Namespace) -> tuple[str, list[str]]:
+def _queue(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     from drillctl.generation.queues import queue_text
 
     job = jobs.load(arguments.file, jobs.recipe(arguments), options.machine(arguments))
-    return queue_text(job), list(job.warnings)
+    return queue_text(job), job.warnings
 
 
-def _excellon(arguments: argparse.Namespace) -> tuple[str, list[str]]:
+def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     """Returns the drill file as text in its own coordinates, with its warnings; placing options don't apply."""
     from drillctl.generation.drillfile import DrillFileError, read
-    from drillctl.generation.drillfile.errors import Refusal
+    from drillctl.generation.drillfile.errors import Complaint
     from drillctl.generation.drillfile.write import write
     from drillctl.generation.errors import JobError
     from drillctl.generation.pcb_drill.board import file_warnings, refusal
 
     try:
-        with waiting() as wait:
-            reading = wait(f"reading {arguments.file.name}")
-            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=reading)
+        drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     try:
         data = write(drill_file, arguments.style)
-    except Refusal as error:
-        raise JobError([f"--style {arguments.style}: not understood; write for instance mm,decimal"]) from error
+    except Complaint as error:
+        raise JobError(
+            Message("not understood; write for instance mm,decimal").at(f"--style {arguments.style}")
+        ) from error
     except ValueError as error:
-        raise JobError([f"--style {arguments.style}: {error}"]) from error
+        raise JobError(message_of(error).at(f"--style {arguments.style}")) from error
     return data.decode("ascii"), file_warnings(arguments.file, drill_file)

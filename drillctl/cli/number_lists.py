@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from decimal import Decimal, InvalidOperation
 
 from drillctl.lab.errors import LabError
+from drillctl.language import Message
 
 MOST_VALUES = 10_000
 
@@ -16,11 +17,13 @@ def numbers(text: str, what: str, least: float, most: float) -> tuple[float, ...
         found = [value for part in text.split(",") for value in _spelled(part)]
     except (InvalidOperation, ValueError) as error:
         reason = "is no list of numbers: say 440,500 or FROM:TO:STEP"
-        raise LabError(f"{what} {text[:60]!r} {reason}") from error
+        raise LabError(Message("{what} {text!r} {reason}", what=what, text=text[:60], reason=reason)) from error
     if bad := [value for value in found if not least <= value <= most]:
-        raise LabError(f"{what} {bad[0]} is outside {least:g} to {most:g}")
+        raise LabError(
+            Message("{what} {bad} is outside {least:g} to {most:g}", what=what, bad=bad[0], least=least, most=most)
+        )
     if len(found) > len(set(found)):
-        raise LabError(f"{what} {text[:60]!r} has a value twice")
+        raise LabError(Message("{what} {text!r} has a value twice", what=what, text=text[:60]))
     return tuple(map(float, found))
 
 
@@ -28,7 +31,7 @@ def whole_numbers(text: str, what: str, least: int, most: int) -> tuple[int, ...
     """As ``numbers``, where each must be a whole number."""
     found = numbers(text, what, least, most)
     if bad := [value for value in found if value != int(value)]:
-        raise LabError(f"{what} {bad[0]:g} is no whole number")
+        raise LabError(Message("{what} {bad:g} is no whole number", what=what, bad=bad[0]))
     return tuple(map(int, found))
 
 

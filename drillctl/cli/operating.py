@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
+from drillctl.language import Message
 
 if TYPE_CHECKING:
     from drillctl.jobs.runner import JobResult
     from drillctl.jobs.session import Session
-    from drillctl.ui.terminal.wait import Wait
 
 
 def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
@@ -22,8 +22,6 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
     from drillctl.ticker.launch import REAL, pace_of
     from drillctl.ui.terminal.progress import ProgressView, ToolPrompt
 
-    with waiting() as wait:
-        session = session.with_forecast(wait)
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
     with ProgressView(streams.bar(sys.stderr), by_clock=paced) as view:
         if not asks and not (paced and _has_watcher(arguments)):
@@ -35,13 +33,6 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
             return replace(session, tool_change=prompt, operator=keys if paced else None).run(view.show)
 
 
-def waiting() -> "Wait":
-    """What is done before a verb's answer, shown to a person at a terminal (``with waiting() as wait``)."""
-    from drillctl.ui.terminal.wait import Wait
-
-    return Wait(streams.bar(sys.stderr))
-
-
 def _asks(arguments: argparse.Namespace, spec: str) -> bool:
     """Returns whether a tool change waits for the operator."""
     from drillctl.generation.errors import JobError
@@ -51,7 +42,9 @@ def _asks(arguments: argparse.Namespace, spec: str) -> bool:
     port, _ = select(spec)
     asks = (arguments.tools or ("ask" if port.real else "assume")) == "ask"
     if asks and not has_keys(sys.stdin):
-        raise JobError(["--tools ask: there is no terminal to ask at; say --tools assume if the right tool is in"])
+        raise JobError(
+            Message("--tools ask: there is no terminal to ask at; say --tools assume if the right tool is in")
+        )
     return asks
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
-from drillctl.language import json_text
+from drillctl.language import Message, json_text
 from drillctl.viewmodel.fault_texts import local_tables
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def library(arguments: argparse.Namespace) -> "Library":
     from drillctl.machine import Library, TableError
 
     if arguments.tables is not None and not arguments.tables.is_dir():
-        raise TableError(arguments.tables, "no such folder")
+        raise TableError(arguments.tables, Message("no such folder"))
     return replace(Library.standard(arguments.tables), tell=LocalTables())
 
 

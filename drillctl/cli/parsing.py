@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from drillctl.cli.refusals import UsageRefused
-from drillctl.language import known_words, nearest, one_line
+from drillctl.language import Message, known_words, nearest, one_line
 
 
 class Parser(argparse.ArgumentParser):
@@ -30,7 +30,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Raises UsageRefused with the message in one line."""
-        raise UsageRefused(f"{one_line(message)} (see {self.prog} --help)")
+        raise UsageRefused(Message("{message} (see {prog} --help)", message=one_line(message), prog=self.prog))
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parses as argparse does; for an unknown option it suggests the one most like it."""
@@ -39,7 +39,7 @@ class Parser(argparse.ArgumentParser):
             verb = self.verbs().get(getattr(found, "verb", ""), self)
             meant = [nearest(word.partition("=")[0], verb.options()) for word in unknown if word.startswith("-")]
             hint = f"; did you mean {', '.join(filter(None, meant))}?" if any(meant) else ""
-            verb.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
+            verb.error(Message("unrecognized arguments: {names}{hint}", names=" ".join(unknown), hint=hint))
         return found
 
     def options(self) -> list[str]:
@@ -57,5 +57,6 @@ class Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """Replaces argparse's own check: names the choices, and the one most like the word."""
         if action.choices is not None and value not in action.choices:
-            reason = f"invalid choice: {value!r}; {known_words(str(value), action.choices)}"
+            words = known_words(str(value), action.choices)
+            reason = Message("invalid choice: {value!r}; {words}", value=value, words=words)
             raise argparse.ArgumentError(action, reason)

@@ -4,94 +4,65 @@ Rule: the object has the same keys whatever was refused: ``{"error": {"code", "l
 that is no refusal is raised on, as a fault of this program.
 """
 
-import re
 from typing import Any
 
 from drillctl.cli import streams
-from drillctl.language import json_text
+from drillctl.language import Message, Refusal, json_text, message_of
+from drillctl.language.messages import shown_of
 
 REFUSED = 2
 # Errors that no reader turns into one of its own.
-_WORDS = (
-    (MemoryError, "not enough memory for what was asked; give it a smaller file, or a part of it"),
-    (RecursionError, "what was given is nested too deeply"),
+_OTHERS = (
+    (MemoryError, "memory", Message("not enough memory for what was asked; give it a smaller file, or a part of it")),
+    (RecursionError, "nesting", Message("what was given is nested too deeply")),
 )
-_PLACE = re.compile(r".*?:(\d+)(?::\d+)?: ")  # FILE:LINE: or FILE:LINE:COLUMN:
 
 
-class UsageRefused(Exception):
+class UsageRefused(Refusal):
     """A command line that can't be understood."""
+
+    kind = "usage"
 
 
 def refuse(error: Exception, as_json: bool) -> int:
     """Prints a refusal; returns the exit code. Raises ``error`` where it is no refusal."""
-    code = _code(error)
-    if code is None and isinstance(error, OSError) and error.filename is None:
+    found = _refused(error)
+    if found is None and isinstance(error, OSError):
         return streams.undelivered(error)
-    if code is None:
+    if found is None:
         raise error
-    from drillctl.generation.errors import JobError
-
-    record = _object(error, code)
+    kind, messages = found
     if as_json:
-        print(json_text(record))
-    for line in _text(error).split("\n") if isinstance(error, JobError) else [_text(error)]:
-        streams.tell(line)
+        print(json_text(_object(error, kind, messages)))
+    for message in shown_of(messages):
+        streams.tell(message)
     return streams.delivered(REFUSED)
 
 
-def _code(error: Exception) -> str | None:
-    """Returns the code of what was refused; None for an exception that is no refusal."""
+def _refused(error: Exception) -> tuple[str, tuple[Message, ...]] | None:
+    """Returns the kind and the messages of what was refused; None for an exception that is no refusal."""
+    if isinstance(error, Refusal):
+        return error.kind, error.messages
     if isinstance(error, OSError) and error.filename is not None:
-        return "unreadable"
-    return next((code for kind, code in _codes() if isinstance(error, kind)), None)
+        return "unreadable", (message_of(error).at(_name(error.filename)),)
+    return next(((kind, (message,)) for other, kind, message in _OTHERS if isinstance(error, other)), None)
 
 
-def _codes() -> list[tuple[type[Exception], str]]:
-    from drillctl.cli.screen import ScreenError
-    from drillctl.files.outputs import OutputError
-    from drillctl.generation.drillfile import DrillFileError
-    from drillctl.generation.errors import JobError
-    from drillctl.generation.measured import AlignmentError
-    from drillctl.generation.placing import PlacingError
-    from drillctl.jobs.journal import JournalError
-    from drillctl.lab.errors import LabError
-    from drillctl.lab.latency import LatencyError
-    from drillctl.machine import TableError
-    from drillctl.ports import PortError
-    from drillctl.trace import TraceError
-    from drillctl.ui.terminal.image_file import PictureRefused
-
-    return [
-        (UsageRefused, "usage"), (JobError, "job"), (TableError, "table"), (TraceError, "trace"),
-        (OutputError, "output"), (DrillFileError, "drill-file"), (PlacingError, "placing"),
-        (AlignmentError, "alignment"), (PortError, "port"), (JournalError, "journal"), (LatencyError, "latency"),
-        (LabError, "lab"), (PictureRefused, "picture"), (ScreenError, "screen"),
-        (MemoryError, "memory"), (RecursionError, "nesting"),
-    ]  # fmt: skip
-
-
-def _text(error: Exception) -> str:
-    """Returns the message, a line for each problem."""
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"{_name(error.filename)}: {error.strerror}"
-    return next((words for kind, words in _WORDS if isinstance(error, kind)), str(error))
-
-
-def _object(error: Exception, code: str) -> dict[str, Any]:
-    """Returns the JSON object. A drill file's error has its own; otherwise the line is the one that the message begins
-    with.
-    """
+def _object(error: Exception, kind: str, messages: tuple[Message, ...]) -> dict[str, Any]:
+    """Returns the JSON object. A drill file's error has its own; otherwise the line is that of the first message."""
     from drillctl.generation.drillfile import DrillFileError
 
     inner = error if isinstance(error, DrillFileError) else error.__cause__
     if isinstance(inner, DrillFileError):
         return dict(inner.as_dict())
-    if isinstance(error, OSError) and code == "unreadable":
-        return {"error": {"code": code, "line": None, "text": "", "reason": f"can't be read: {error.strerror}"}}
-    text = _text(error)
-    place = _PLACE.match(text)
-    return {"error": {"code": code, "line": int(place[1]) if place else None, "text": "", "reason": text}}
+    if isinstance(error, OSError) and kind == "unreadable":
+        return _error(kind, None, Message("can't be read: {why}", why=message_of(error)))
+    text = str(error) if isinstance(error, Refusal) else messages[0]
+    return _error(kind, messages[0].line, text)
+
+
+def _error(kind: str, line: int | None, reason: str) -> dict[str, Any]:
+    return {"error": {"code": kind, "line": line, "text": "", "reason": reason}}
 
 
 def _name(file: object) -> str:

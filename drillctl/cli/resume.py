@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import operating, options, streams
+from drillctl.language import Message
 
 if TYPE_CHECKING:
     from drillctl.jobs.journal import Account
@@ -53,8 +54,7 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     recipe = Recipe.of_options(account.head.options, file)
     tables = recipe.tables and Path(recipe.tables)
     machine = options.machine(argparse.Namespace(machine=recipe.machine, tables=tables, tick_hz=recipe.tick_hz))
-    with operating.waiting() as wait:
-        left = rest_of(file, account, machine, wait).left
+    left = rest_of(file, account, machine).left
     return Session(left, _running(file, account, arguments), file, account)
 
 
@@ -69,7 +69,7 @@ def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     running = running_at(account.site, given)
     if not arguments.elsewhere and (reason := moved(account.site, site_of(running))):
         there = "leave --port, --pace, --plant, --fault and --seed out to go on there"
-        raise JobError([f"{file}: {reason}; {there}, or say --elsewhere as well"])
+        raise JobError(Message("{reason}; {there}, or say --elsewhere as well", reason=reason, there=there).at(file))
     return replace(running, engine=arguments.engine)
 
 
@@ -80,7 +80,7 @@ def _newest() -> Path:
 
     found = newest_unfinished(journals())
     if found is None:
-        raise JobError([f"{journals()}: no unfinished journal is kept here; name one"])
+        raise JobError(Message("no unfinished journal is kept here; name one").at(journals()))
     return found[0]
 
 
@@ -90,7 +90,7 @@ def _tell(account: "Account", session: "Session") -> None:
 
     file, left, here = session.journal, session.job, site_of(session.running)
     where = f"as it ran: {here}" if here == account.site else f"elsewhere: {here}; it ran on {account.site}"
-    counted = f"{account.holes_done} of {account.head.holes} holes are drilled"
+    counted = Message("{done} of {total} holes are drilled", done=account.holes_done, total=account.head.holes)
     streams.tell(f"{file}: {counted}; it goes on {where}")
     if account.torn:
         streams.tell(f"{file}: its last line is torn, and left out")

@@ -7,13 +7,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options
+from drillctl.language import Message, Refusal
 
 if TYPE_CHECKING:
     from drillctl.viewmodel.scope import ScopeSource
 
 
-class ScreenError(Exception):
+class ScreenError(Refusal):
     """The screen can't be shown: there is no terminal to draw on."""
+
+    kind = "screen"
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -44,7 +47,9 @@ def call(arguments: argparse.Namespace) -> int:
 def check_terminal() -> None:
     """Raises ScreenError where standard input or output is no terminal."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise ScreenError("the screen needs a terminal; for a pipe or a script there are verbs: drillctl --help")
+        raise ScreenError(
+            Message("the screen needs a terminal; for a pipe or a script there are verbs: drillctl --help")
+        )
 
 
 def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int:

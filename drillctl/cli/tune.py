@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import options, streams
+from drillctl.language import Message
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
@@ -60,7 +61,7 @@ def _new(out: Path) -> "Iterator[Output]":
     from drillctl.files.outputs import OutputError, reserved
 
     if os.path.lexists(out):
-        raise OutputError(f"{out}: is there already; give another --name or --out")
+        raise OutputError(Message("{out}: is there already; give another --name or --out", out=out))
     out.parent.mkdir(parents=True, exist_ok=True)
     with reserved([out], []) as (output,):
         assert output is not None

@@ -29,6 +29,7 @@ from drillctl.jobs.journal.folder import give_up, unfinished
 from drillctl.jobs.runner import JobRunner
 from drillctl.jobs.session import default_journal, journals, rest_of
 from drillctl.jobs.site import moved
+from drillctl.language import Message, Refusal, message_of
 from drillctl.machine import Library, Machine
 from drillctl.viewmodel.console import BoardView, Problems
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, Site, UnfinishedJob
@@ -76,7 +77,7 @@ class Boards:
         try:
             recipe = recipe_of(asked, machine, base)
         except msgspec.ValidationError as error:
-            return (f"{file}: it can't be opened with these settings: {error}",)
+            return (Message("it can't be opened with these settings: {why}", why=message_of(error)).at(file),)
         if problems := self._planned(file, recipe, machine):
             return problems
         self._recent.add(file, asked)
@@ -108,9 +109,13 @@ class Boards:
         try:
             account = read_journal(journal)
             if account.head.machine != machine.name:
-                return (f"the job was begun on machine {account.head.machine}; choose that one first",)
+                return (
+                    Message(
+                        "the job was begun on machine {machine}; choose that one first", machine=account.head.machine
+                    ),
+                )
             if not elsewhere and (reason := moved(account.site, here)):
-                return (f"{journal}: {reason}",)
+                return (reason.at(journal),)
             rest = rest_of(journal, account, machine)
             estimate, ticks = estimate_with_ticks(rest.left)
             view = board_view(Path(account.head.job), rest.whole, estimate, *rest.recipe.reading())
@@ -156,7 +161,7 @@ class Boards:
         try:
             job = load_job(file, machine, recipe.wishes(machine), *recipe.reading())
             if job.work is None:
-                return (f"{file}: a queue of commands; it is run from the queue editor",)
+                return (Message("a queue of commands; it is run from the queue editor").at(file),)
             estimate, ticks = estimate_with_ticks(job)
             view = board_view(file, job, estimate, *recipe.reading())
             head = head_of(file, job, recipe.options())
@@ -219,10 +224,10 @@ def _row(hole: MeasuredHole) -> MeasuredRow:
     return hole.file_x_mm, hole.file_y_mm, hole.machine_x_mm, hole.machine_y_mm
 
 
-def _problems(error: Exception) -> Problems:
+def _problems(error: Refusal | OSError) -> Problems:
     if isinstance(error, OSError):
-        return (f"{error.filename}: can't be read: {error.strerror}",)
-    return tuple(str(error).splitlines())
+        return (Message("can't be read: {why}", why=message_of(error)).at(error.filename),)
+    return error.messages
 
 
 def _unfinished_job(file: Path, account: Account, here: Site) -> UnfinishedJob:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import Problems
 
@@ -16,7 +17,7 @@ REPEAT_S = 0.09  # terminals repeat a key 20 to 40 times a second, fingers less 
 HELD_PRESSES = 3
 SILENT_S = 0.2  # a repeat may be late by as much where the computer is busy
 
-TOO_FAR = "the axis can't go so far: its reach ends before"
+TOO_FAR = Message("the axis can't go so far: its reach ends before")
 
 Step = tuple[str, int]  # axis, signed steps
 

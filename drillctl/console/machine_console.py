@@ -21,6 +21,7 @@ from drillctl.console.views import machine_list, machine_view
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
 from drillctl.kmd import Condition, KmdError, Request, parse_program
+from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.link import Link
@@ -28,7 +29,7 @@ from drillctl.viewmodel.console import BoardView, MachineView, Problems
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
 
-BUSY = "the machine is at work; hold or stop it first"
+BUSY = Message("the machine is at work; hold or stop it first")
 
 
 class MachineConsole:
@@ -168,7 +169,7 @@ class MachineConsole:
     def start(self, dry: bool) -> Problems:
         """Drills the board with a journal; ``dry``: follows its way with the drill up, without one."""
         if self._boards.plan is None:
-            return ("no board is loaded: open a drill file first",)
+            return (Message("no board is loaded: open a drill file first"),)
         if problems := self.busy() or self._boards.plan_again(self.machine, self._base.xy):
             return problems
         if not dry:
@@ -182,7 +183,7 @@ class MachineConsole:
         try:
             program = parse_program(text, names_of(self.machine), "queue")
         except KmdError as error:
-            return (str(error),)
+            return error.messages
         if problems := self.busy():
             return problems
         self._job.begin(Job("queue", program, self.machine))
@@ -244,7 +245,7 @@ class MachineConsole:
         if self.link.lost():
             return self.choose_machine(self.machine.name)
         if self.link.status()["condition"] != Condition.LATCHED:
-            return ("there is nothing to acknowledge",)
+            return (Message("there is nothing to acknowledge"),)
         self.link.post(Request.ACK)
         return ()
 
@@ -252,9 +253,9 @@ class MachineConsole:
         """Why nothing new can be begun now; empty where it can."""
         status = self.link.status()
         if self.link.lost():
-            return ("the ticker's process is gone; acknowledge, and it is started anew",)
+            return (Message("the ticker's process is gone; acknowledge, and it is started anew"),)
         if status["condition"] == Condition.LATCHED:
-            return ("a fault waits to be acknowledged",)
+            return (Message("a fault waits to be acknowledged"),)
         return (BUSY,) if self.at_work or status["moving"] else ()
 
     def close(self) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from drillctl.console.scope import RunRecording
 from drillctl.files.scratch import KEPT_IN_FOLDERS, Folder
 from drillctl.jobs.site import site_of
+from drillctl.language import Message
 from drillctl.machine import Library, Machine, TableError
 from drillctl.machine.bundle import bundle, unbundle
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
@@ -69,13 +70,17 @@ class MachineInUse:
             if self._only_edited(machine):
                 return self._load(bundle(machine))
         except (TableError, PortError) as error:
-            return (str(error),)
+            return error.messages
         return self._change(machine, self._settings)
 
     def go_real(self) -> Problems:
         """Changes to the port that the machine's file configures; the position is unknown afterwards."""
         if not self.port.configured:
-            return (f"no port drives the card {self.port.card!r}; name one in its place (drillctl ports)",)
+            return (
+                Message(
+                    "no port drives the card {card!r}; name one in its place (drillctl ports)", card=self.port.card
+                ),
+            )
         return self._change(self.machine, on_port(self._settings, self.port.configured))
 
     def go_simulated(self) -> Problems:
@@ -85,12 +90,19 @@ class MachineInUse:
     def set_tick_hz(self, hz: int) -> Problems:
         """Asks for another tick rate (PACE); it is in force from the tick that serves it."""
         if not SLOWEST_TICK_HZ <= hz <= FASTEST_TICK_HZ:
-            return (f"the tick rate can be {SLOWEST_TICK_HZ} to {FASTEST_TICK_HZ} Hz, not {hz}",)
+            return (
+                Message(
+                    "the tick rate can be {least} to {most} Hz, not {hz}",
+                    least=SLOWEST_TICK_HZ,
+                    most=FASTEST_TICK_HZ,
+                    hz=hz,
+                ),
+            )
         try:
             check_rate(self.machine.at_rate(hz), self.running)
         except PortError as error:
-            return (str(error),)
-        return () if self.link.set_rate(hz) else ("too many requests at once; try again",)
+            return error.messages
+        return () if self.link.set_rate(hz) else (Message("too many requests at once; try again"),)
 
     def follow_rate(self) -> bool:
         """Takes over the tick rate in force; whether it is another one than at the last call."""
@@ -133,12 +145,19 @@ class MachineInUse:
         """Sentences: which tables are local; why the tick rate is not that of the file or of ``--tick-hz``."""
         found = (local_tables([str(file) for file in self.local]),) if self.local else ()
         if self.machine.tick_hz != self._first_hz:
-            return (*found, f"the tick rate was set to {self.machine.tick_hz} Hz; it was {self._first_hz}")
+            return (
+                *found,
+                Message(
+                    "the tick rate was set to {now} Hz; it was {before}",
+                    now=self.machine.tick_hz,
+                    before=self._first_hz,
+                ),
+            )
         if self._tick_hz is None:
             return found
         if self.machine.name == self._rate_is_for:
-            return (*found, "--tick-hz is in force, not the rate of the machine's file")
-        return (*found, "--tick-hz was for another machine: this one runs at its own rate")
+            return (*found, Message("--tick-hz is in force, not the rate of the machine's file"))
+        return (*found, Message("--tick-hz was for another machine: this one runs at its own rate"))
 
     def close(self) -> None:
         """Ends the ticker, the outputs safe, and deletes the folder of its status file."""
@@ -166,7 +185,7 @@ class MachineInUse:
             self._take(machine, running)
         except PortError as error:
             self._take(self.machine, simulated(self._settings))
-            return (str(error),)
+            return error.messages
         return ()
 
     def _take(self, machine: Machine, running: RunSettings) -> None:

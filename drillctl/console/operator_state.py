@@ -1,6 +1,7 @@
 """What the operator has to do or has set: the tool change that is waited for, and the working base."""
 
 from drillctl.generation.job import Job
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import Problems, ToolWanted
 
@@ -26,7 +27,7 @@ class ToolChangePrompt:
     def confirm(self) -> Problems:
         """The operator says that the tool is in. Refused where none is waited for."""
         if self.wanted is None:
-            return ("no tool is waited for",)
+            return (Message("no tool is waited for"),)
         self._changed = True
         return ()
 

@@ -7,6 +7,7 @@ import time
 
 from drillctl.console.machine_console import MachineConsole
 from drillctl.console.machine_in_use import MachineInUse
+from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.portio.registry import open_port, rate_of, select
 from drillctl.ports import Driver, PortError, Telling
@@ -23,7 +24,7 @@ def look_at_port(machine: Machine, spec: str) -> PortReport:
     try:
         port, address = select(spec)
         if not address and (reason := port.missing()):
-            return PortReport(spec, problem=f"{reason}; it needs {port.needs}")
+            return PortReport(spec, problem=Message("{reason}; it needs {what}", reason=reason, what=port.needs))
         driver = open_port(spec, port_layout(machine))
         try:
             facts = (port.summary, *(driver.facts() if isinstance(driver, Telling) else ()), _rate(machine, spec))
@@ -31,9 +32,9 @@ def look_at_port(machine: Machine, spec: str) -> PortReport:
         finally:
             driver.close()
     except PortError as error:
-        return PortReport(spec, problem=str(error))
+        return PortReport(spec, problem=error.message)
     except OSError as error:
-        return PortReport(spec, problem=f"{spec}: {error.strerror or error}; check cable, power and rights")
+        return PortReport(spec, problem=Message("{why}; check cable, power and rights", why=message_of(error)).at(spec))
 
 
 def sensors_of(machine: Machine, inputs: int) -> tuple[tuple[str, bool], ...]:
@@ -50,10 +51,13 @@ def _listened(driver: Driver) -> int:
     return driver.latch()
 
 
-def _rate(machine: Machine, spec: str) -> str:
+def _rate(machine: Machine, spec: str) -> Message:
     most_hz = rate_of(spec, port_layout(machine))
-    carries = "any rate of this program" if most_hz is None else f"up to {most_hz} Hz with all axes moving"
-    return f"carries {carries}; the machine wants {machine.tick_hz} Hz"
+    if most_hz is None:
+        return Message("carries any rate of this program; the machine wants {hz} Hz", hz=machine.tick_hz)
+    return Message(
+        "carries up to {most} Hz with all axes moving; the machine wants {hz} Hz", most=most_hz, hz=machine.tick_hz
+    )
 
 
 class MachinePort:
@@ -72,11 +76,13 @@ class MachinePort:
         if port.real:
             reached = int(self._console.link.status()["sensors"])
             inputs = tuple((sensor.name, bool(reached >> sensor.bit & 1)) for sensor in machine.sensors)
-            return PortReport(port.in_use, ("this port is in use: the machine runs on it",), inputs)
+            return PortReport(port.in_use, (Message("this port is in use: the machine runs on it"),), inputs)
         if problems := self._console.busy():
             return PortReport(port.configured, problem=problems[0])
         if not port.configured:
-            problem = f"no port drives the card {port.card!r}; name one in its place (drillctl ports)"
+            problem = Message(
+                "no port drives the card {card!r}; name one in its place (drillctl ports)", card=port.card
+            )
             return PortReport("", problem=problem)
         return look_at_port(machine, port.configured)
 

@@ -11,6 +11,7 @@ from drillctl.files.outputs import write_text
 from drillctl.generation.job import names_of
 from drillctl.kmd import COMMANDS, KmdError, Names, Op, parse_program
 from drillctl.kmd.commands import BY_OP, ArgumentForm
+from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.tables import CommandHelp, TextFinding
@@ -45,12 +46,12 @@ class QueueFiles:
     def open_queue(self, file: str) -> tuple[str, Problems]:
         """The text of a queue file, which is UTF-8; or an empty text and why it can't be read."""
         try:
-            data = read_bytes(file, LARGEST_QUEUE_BYTES, "a queue to be edited; run it as it is")
+            data = read_bytes(file, LARGEST_QUEUE_BYTES, Message("a queue to be edited; run it as it is"))
             return data.decode("utf-8-sig"), ()
         except UnicodeDecodeError:
-            return "", (f"{file}: not UTF-8 text, so not a queue",)
+            return "", (Message("not UTF-8 text, so not a queue").at(file),)
         except OSError as error:
-            return "", (f"{file}: can't be read: {error.strerror}",)
+            return "", (Message("can't be read: {why}", why=message_of(error)).at(file),)
 
     def save_queue(self, file: str, text: str) -> Problems:
         """Writes a queue to a file, sound or not: it may be finished later."""
@@ -79,7 +80,12 @@ def _too_far(text: str, machine: Machine) -> Iterator[TextFinding]:
         for axis, steps in zip(machine.axes, command["args"].tolist(), strict=False):
             if abs(steps) > (span := axis.span_steps):
                 name = axis.name.upper()
-                yield TextFinding(number, f"{name}: {steps} steps reach beyond the work range, which is {span} long")
+                yield TextFinding(
+                    number,
+                    Message(
+                        "{steps} steps reach beyond the work range, which is {span} long", steps=steps, span=span
+                    ).at(name),
+                )
 
 
 def _wrong(text: str, names: Names, lines_before: int) -> Iterator[TextFinding]:

@@ -12,6 +12,7 @@ import msgspec
 
 from drillctl.files.inputs import read_bytes, real_path
 from drillctl.files.outputs import write_text
+from drillctl.language import Message
 from drillctl.viewmodel.jobs import Asked, RecentJob
 
 MOST_RECENT = 9  # as many as there are digits to choose them by
@@ -31,7 +32,7 @@ class RecentJobs:
     def read(self) -> list[RecentJob]:
         """The list, empty where the file can't be read as one."""
         try:
-            data = read_bytes(self.file, LARGEST_LIST_BYTES, "a list of jobs")
+            data = read_bytes(self.file, LARGEST_LIST_BYTES, Message("a list of jobs"))
             return msgspec.json.decode(data, type=_File).recent[:MOST_RECENT]
         except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return []

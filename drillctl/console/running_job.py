@@ -16,6 +16,7 @@ from drillctl.generation.sequences import holes_passed
 from drillctl.jobs.journal import Journal
 from drillctl.jobs.runner import JobRunner
 from drillctl.kmd import Condition, Op, Request
+from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.records import Progress
 
@@ -81,7 +82,7 @@ class RunningJob:
     def hold(self) -> Problems:
         """Asks the machine to hold the job; where that is not possible yet, the runner asks again."""
         if self._runner is None:
-            return ("nothing runs that could be held",)
+            return (Message("nothing runs that could be held"),)
         self._runner.hold.wanted = True
         self._used.link.post(Request.HOLD)
         return ()
@@ -95,7 +96,7 @@ class RunningJob:
             held |= self._runner.hold.held
             self._runner.hold.wanted = False
         if not held:
-            return ("nothing is held",)
+            return (Message("nothing is held"),)
         link.post(Request.RESUME)
         return ()
 

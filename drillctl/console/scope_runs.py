@@ -163,4 +163,4 @@ class ScopeRuns:
         try:
             return TraceFile(Path(file), self._library), ()
         except (TraceError, TableError) as error:
-            return None, (str(error),)
+            return None, error.messages

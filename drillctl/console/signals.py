@@ -6,6 +6,7 @@ Rule: what is shown comes from the status record; what is asked goes down as a r
 from collections.abc import Iterator
 
 from drillctl.console.machine_console import MachineConsole
+from drillctl.language import Message
 from drillctl.machine import AxisTable, Machine
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.signals import SignalView
@@ -33,9 +34,9 @@ class MachineSignals:
         if problems := self._console.busy():
             return problems
         if bit not in {signal.bit for signal in _outputs(self._console.machine, 0)}:
-            return (f"bit {bit} is no output of this machine",)
+            return (Message("bit {bit} is no output of this machine", bit=bit),)
         taken = self._console.link.set_output(bit, int(on))
-        return () if taken else ("too many outputs at once; try again",)
+        return () if taken else (Message("too many outputs at once; try again"),)
 
     def run_paused(self, text: str) -> Problems:
         """Runs a queue with the clock stopped before its first tick."""
@@ -49,16 +50,20 @@ class MachineSignals:
     def tick(self, ticks: int) -> Problems:
         """Lets so many ticks through, then stops the clock."""
         if not self._console.at_work:
-            return ("nothing runs that could be let on by ticks",)
+            return (Message("nothing runs that could be let on by ticks"),)
         if not 1 <= ticks <= MOST_TICKS:
-            return (f"from 1 to {MOST_TICKS} ticks can be asked for, not {ticks}",)
+            return (
+                Message(
+                    "from 1 to {MOST_TICKS} ticks can be asked for, not {ticks}", MOST_TICKS=MOST_TICKS, ticks=ticks
+                ),
+            )
         self._console.link.gate.grant(ticks)
         return ()
 
     def go(self) -> Problems:
         """Starts a clock that was stopped."""
         if not self._console.link.gate.paused:
-            return ("the clock is not stopped",)
+            return (Message("the clock is not stopped"),)
         self._console.link.gate.open()
         return ()
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from drillctl.files.outputs import write_text
+from drillctl.language import Message, message_of
 from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
 from drillctl.machine.edit import (
     UNSAVED,
@@ -80,27 +81,32 @@ class TableFiles:
         """Writes a sound text to the user's folder. Refused where an earlier folder has that name: it would win."""
         own = self._own(kind, name)
         if problems := self._check(kind, Source(own, text)).problems:
-            return tuple(map(str, problems))
+            return tuple(problem.message for problem in problems)
         found = self._library.find(kind, name)
         if found is not None and self._origin(kind, name) == "other":
-            return (f"{found} is looked at before your own copy; change it there, or start without that folder",)
+            return (
+                Message(
+                    "{file} is looked at before your own copy; change it there, or start without that folder",
+                    file=found,
+                ),
+            )
         return write_text(own, text)
 
     def reset(self, kind: TableKind, name: str) -> Problems:
         """Deletes the user's copy of a table, where there is a shipped one to go back to."""
         own = self._own(kind, name)
         if not own.is_file():
-            return ("there is no copy of your own to take away",)
+            return (Message("there is no copy of your own to take away"),)
         if not self._shipped(kind, name).is_file():
-            return (f"{name} does not come with the program; there is nothing to go back to",)
+            return (Message("{name} does not come with the program; there is nothing to go back to", name=name),)
         return _unlinked(own)
 
     def delete(self, kind: TableKind, name: str) -> Problems:
         """Deletes a table of the user's own; one that comes with the program is reset instead."""
         if self._shipped(kind, name).is_file():
-            return (f"{name} comes with the program and stays; your own copy goes by a reset",)
+            return (Message("{name} comes with the program and stays; your own copy goes by a reset", name=name),)
         if self._origin(kind, name) != "yours":
-            return (f"{self._library.find(kind, name)}: not in your own folder; it is not deleted from here",)
+            return (Message("not in your own folder; it is not deleted from here").at(self._library.find(kind, name)),)
         return _unlinked(self._own(kind, name))
 
     def diff(self, kind: TableKind, name: str, text: str) -> tuple[str, ...]:
@@ -113,13 +119,17 @@ class TableFiles:
     def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
         """Saves a table under another name, which stands in its text as well."""
         if not NAME.fullmatch(new_name) or len(new_name) > LONGEST_NAME:
-            return (f"{new_name!r}: a name is at most {LONGEST_NAME} letters, digits, - and _, no - or _ first",)
+            return (
+                Message("a name is at most {most} letters, digits, - and _, no - or _ first", most=LONGEST_NAME).at(
+                    new_name
+                ),
+            )
         if self._library.find(kind, new_name) is not None:
-            return (f"there is a table named {new_name} already",)
+            return (Message("there is a table named {name} already", name=new_name),)
         try:
             return self.save(kind, new_name, set_value(self.read(kind, name), ("name",), new_name))
         except TableError as error:
-            return (str(error),)
+            return error.messages
 
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
         """The rows of a phase table, sound or not; none where they can't be read."""
@@ -192,7 +202,7 @@ class TableFiles:
                 return text, (_locked(source, setting),)
             return set_value(text, place, setting.parsed(typed)), ()
         except (TableError, ValueError) as error:
-            return text, (str(error),)
+            return text, (message_of(error),)
 
     def _field_view(self, setting: Setting) -> FieldView:
         choices = self._tables_for(setting) if setting.key in TABLES_OF_A_MOTOR else setting.choices
@@ -216,11 +226,17 @@ class TableFiles:
     def _check(self, kind: TableKind, source: Source) -> Checked:
         try:
             if not set(KEY_OF[kind]) & source.tree().keys():
-                return Checked((TextFinding(None, f"[{KEY_OF[kind][0]}] is missing: not a table of this kind"),))
+                return Checked(
+                    (
+                        TextFinding(
+                            None, Message("[{section}] is missing: not a table of this kind", section=KEY_OF[kind][0])
+                        ),
+                    )
+                )
             return Checked((), tuple(TextFinding(None, hazard) for hazard in self._library.check_source(source)))
         except TableError as error:
             ours = error.file == str(source.file)
-            return Checked((TextFinding(error.line, error.reason) if ours else TextFinding(None, str(error)),))
+            return Checked((TextFinding(error.line, error.reason) if ours else TextFinding(None, error.message),))
 
     def _origin(self, kind: TableKind, name: str) -> str:
         places = {self._own(kind, name): "yours", self._shipped(kind, name): "shipped"}
@@ -249,13 +265,17 @@ def _unlinked(own: Path) -> Problems:
     try:
         own.unlink()
     except OSError as error:
-        return (f"{own}: can't be taken away: {error.strerror}",)
+        return (Message("can't be taken away: {why}", why=message_of(error)).at(own),)
     return ()
 
 
-def _locked(source: Source, setting: Setting) -> str:
+def _locked(source: Source, setting: Setting) -> Message:
     line = source.line_of("locked")
-    return f"{setting.key} is locked in line {line} of the machine's file; whoever keeps the file opens it there"
+    return Message(
+        "{field} is locked in line {line} of the machine's file; whoever keeps the file opens it there",
+        field=setting.key,
+        line=line,
+    )
 
 
 def _shown(setting: Setting) -> str:

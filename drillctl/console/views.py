@@ -119,11 +119,11 @@ def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None, after_
         file_xy_mm=work.hits.xy_mm,
         tool=tool.astype(np.int64),
         tools=tuple(ToolView(g.number, g.diameter_mm, g.stop - g.start) for g in work.groups),
-        format=str(drill_file.format),
+        format=drill_file.format.message,
         dialect=drill_file.format.dialect,
         confidence=drill_file.confidence,
         reason=drill_file.reason,
-        runner_up=str(drill_file.runner_up or ""),
+        runner_up=drill_file.runner_up.message if drill_file.runner_up else None,
         warnings=job.warnings,
         estimate=estimate,
     )

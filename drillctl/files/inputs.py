@@ -15,6 +15,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from drillctl.language import Message
+
 Named = str | os.PathLike[str]
 STANDARD_INPUT = 0  # its descriptor
 KIB = 1024
@@ -37,7 +39,7 @@ def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
         check_kind(os.stat(file), file)  # a device may not even be touched; what is opened is looked at again
         handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
     except ValueError as error:  # a null character, or half of a surrogate pair
-        raise OSError(errno.EINVAL, "no name that a file can have", os.fspath(file)) from error
+        raise OSError(errno.EINVAL, Message("no name that a file can have"), os.fspath(file)) from error
     try:
         check_kind(os.fstat(handle), file)
         os.set_blocking(handle, True)
@@ -48,7 +50,7 @@ def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
     return io.BufferedReader(plain if limit is None else _Limited(plain, limit, os.fspath(file)))
 
 
-def read_bytes(file: Named, limit: int, what: str) -> bytes:
+def read_bytes(file: Named, limit: int, what: Message) -> bytes:
     """Returns all of a file. Raises OSError as ``opened``; a file of more than ``limit`` bytes is refused as not being
     ``what`` ("a table"), and no more than that is read.
     """
@@ -57,7 +59,9 @@ def read_bytes(file: Named, limit: int, what: str) -> bytes:
         while len(data) <= limit and (chunk := stream.read(min(CHUNK_BYTES, limit + 1 - len(data)))):
             data += chunk
     if len(data) > limit:
-        raise OSError(errno.EFBIG, f"larger than {size_words(limit)}: not {what}", os.fspath(file))
+        raise OSError(
+            errno.EFBIG, Message("larger than {size}: not {what}", size=size_words(limit), what=what), os.fspath(file)
+        )
     return bytes(data)
 
 
@@ -73,17 +77,17 @@ def toml_of(text: str) -> dict[str, Any]:
     """
     if found := _LONG_KEY.search(text):
         line = text.count("\n", 0, found.start()) + 1
-        raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts in line {line}")
+        raise ValueError(Message("a key of more than {parts} parts in line {line}", parts=MOST_KEY_PARTS, line=line))
     if _LONG_NUMBER.search(text):
-        raise ValueError("a number of thousands of digits")
+        raise ValueError(Message("a number of thousands of digits"))
     try:
         return tomllib.loads(text)
     except RecursionError as error:
-        raise ValueError("nested too deeply") from error
+        raise ValueError(Message("nested too deeply")) from error
     except tomllib.TOMLDecodeError:
         raise
     except ValueError as error:  # int() takes no more than a few thousand digits
-        raise ValueError("a number of thousands of digits") from error
+        raise ValueError(Message("a number of thousands of digits")) from error
 
 
 def json_of(text: str | bytes) -> Any:
@@ -91,7 +95,7 @@ def json_of(text: str | bytes) -> Any:
     try:
         return json.loads(text)
     except RecursionError as error:
-        raise ValueError("nested too deeply") from error
+        raise ValueError(Message("nested too deeply")) from error
 
 
 def check_kind(found: os.stat_result, file: Named) -> None:
@@ -99,7 +103,7 @@ def check_kind(found: os.stat_result, file: Named) -> None:
     if stat.S_ISDIR(found.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), os.fspath(file))
     if not stat.S_ISREG(found.st_mode) and not _is_standard_input(found):
-        raise OSError(errno.EINVAL, "a pipe or a device, not a file", os.fspath(file))
+        raise OSError(errno.EINVAL, Message("a pipe or a device, not a file"), os.fspath(file))
 
 
 def real_path(path: Named) -> Path:
@@ -133,7 +137,7 @@ class _Limited(io.RawIOBase):
         count = self._plain.readinto(buffer) or 0
         self._left -= count
         if self._left < 0:
-            raise OSError(errno.EFBIG, f"larger than {size_words(self._limit)}", self.name)
+            raise OSError(errno.EFBIG, Message("larger than {size}", size=size_words(self._limit)), self.name)
         return count
 
     def close(self) -> None:

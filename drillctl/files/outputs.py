@@ -11,10 +11,13 @@ from pathlib import Path
 from typing import TextIO
 
 from drillctl.files import scratch
+from drillctl.language import Message, Refusal, message_of, verbatim
 
 
-class OutputError(Exception):
+class OutputError(Refusal):
     """A file that can't be written. ``str()`` is ``FILE: reason``."""
+
+    kind = "output"
 
 
 class Output:
@@ -32,7 +35,7 @@ class Output:
             scratch.sweep(self._place.parent)
             self._handle, self._temporary = scratch.make_file(self._place)
         except OSError as error:
-            raise OutputError(f"{path}: can't be written: {error.strerror}") from error
+            raise OutputError(Message("can't be written: {why}", why=message_of(error)).at(path)) from error
 
     def write(self, fill: Callable[[TextIO], object]) -> None:
         """Calls ``fill`` with an open text file (LF ends). Raises OutputError; the old file then still stands."""
@@ -47,7 +50,7 @@ class Output:
                 self._temporary = None
                 self.drop()
         except OSError as error:
-            raise OutputError(f"{self.path}: can't be written: {error.strerror}") from error
+            raise OutputError(Message("can't be written: {why}", why=message_of(error)).at(self.path)) from error
 
     def write_bytes(self, data: bytes) -> None:
         """As ``write``, for a file that is no text."""
@@ -70,7 +73,7 @@ def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Ite
     for wanted in filter(None, paths):
         place = os.path.realpath(wanted)
         if place in taken:
-            raise OutputError(f"{wanted}: would overwrite a file that this run reads or writes")
+            raise OutputError(Message("would overwrite a file that this run reads or writes").at(wanted))
         taken.add(place)
     outputs: list[Output | None] = []
     try:
@@ -83,20 +86,20 @@ def reserved(paths: Sequence[Path | None], inputs: Sequence[Path | None]) -> Ite
                 output.drop()
 
 
-def unwritten(*writes: Callable[[], None]) -> list[str]:
+def unwritten(*writes: Callable[[], None]) -> list[Message]:
     """Writes each result of a run; returns the reasons of those that failed. The machine has moved, so nothing is
     refused.
     """
-    problems = []
+    problems: list[Message] = []
     for write in writes:
         try:
             write()
         except OutputError as error:
-            problems.append(str(error))
+            problems += error.messages
     return problems
 
 
-def write_text(path: Path, text: str) -> tuple[str, ...]:
+def write_text(path: Path, text: str) -> tuple[Message, ...]:
     """Writes a text to a path, whole or not at all, and makes its folder where it is missing; returns the reason where
     that fails.
     """
@@ -105,8 +108,10 @@ def write_text(path: Path, text: str) -> tuple[str, ...]:
         path.parent.mkdir(parents=True, exist_ok=True)
         output = Output(path)
         output.write(lambda file: print(text, end="", file=file))
-    except (OSError, ValueError, OutputError) as error:  # ValueError: a null character in the path
-        return (str(error),)
+    except OutputError as error:
+        return error.messages
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        return (verbatim(str(error)),)
     finally:
         if output is not None:
             output.drop()

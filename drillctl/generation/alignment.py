@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from drillctl.files.inputs import read_bytes
 from drillctl.generation.measured import MAX_BYTES, AlignmentError, Millimetres, parse
 from drillctl.generation.placing import Affine
+from drillctl.language import Message, message_of
 
 COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
 SHORT_SPAN_MM = 10.0  # 0.1 mm of error over this length is half a degree of turn
@@ -53,8 +54,8 @@ class Alignment:
     residual_mm: Millimetres
     length_ratio: float
     span_mm: float
-    warnings: tuple[str, ...]
-    rejected: tuple[str, ...] = ()
+    warnings: tuple[Message, ...]
+    rejected: tuple[Message, ...] = ()
 
     @property
     def rms_mm(self) -> float:
@@ -75,14 +76,14 @@ class Alignment:
 def load(path: Path, *, mirrored: bool = False) -> Alignment:
     """Read an alignment file and fit it. Raises AlignmentError, with FILE:LINE:COLUMN where it can."""
     try:
-        data = read_bytes(path, MAX_BYTES, "a list of holes")
+        data = read_bytes(path, MAX_BYTES, Message("a list of holes"))
     except OSError as error:
-        raise AlignmentError(f"{path}: cannot be read: {error.strerror}") from error
+        raise AlignmentError(Message("cannot be read: {why}", why=message_of(error)).at(path)) from error
     measured = parse(data, name=str(path))
     try:
         return fit(measured.file_xy_mm, measured.machine_xy_mm, mirrored=mirrored)
     except AlignmentError as error:
-        raise AlignmentError(f"{path}: {error}") from error
+        raise AlignmentError(error.message.at(path)) from error
 
 
 def fit(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike, *, mirrored: bool = False) -> Alignment:
@@ -127,17 +128,27 @@ def _pairs(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike) -> tuple[Millimetres
     file_mm = np.asarray(file_xy_mm, np.float64).reshape(-1, 2)
     machine_mm = np.asarray(machine_xy_mm, np.float64).reshape(-1, 2)
     if file_mm.shape != machine_mm.shape:
-        raise AlignmentError(f"{len(file_mm)} holes of the file but {len(machine_mm)} measured ones")
+        raise AlignmentError(
+            Message(
+                "{count} holes of the file but {measured} measured ones", count=len(file_mm), measured=len(machine_mm)
+            )
+        )
     if len(file_mm) < 2:
-        raise AlignmentError(f"{len(file_mm)} measured hole(s); a turn needs two, scale and shear need three")
+        raise AlignmentError(
+            Message("{count} measured hole(s); a turn needs two, scale and shear need three", count=len(file_mm))
+        )
     return file_mm, machine_mm
 
 
 def _refuse_same_place(whose: str, span_mm: float) -> None:
     if span_mm < COINCIDENT_MM:
         raise AlignmentError(
-            f"all {whose} coordinates are the same place within {COINCIDENT_MM} mm, so they show no turn; "
-            "measure holes far apart"
+            Message(
+                "all {whose} coordinates are the same place within {mm} mm, so they show no turn; measure holes far "
+                "apart",
+                whose=whose,
+                mm=COINCIDENT_MM,
+            )
         )
 
 
@@ -173,33 +184,47 @@ def _fit_affine(file_mm: Millimetres, machine_mm: Millimetres) -> Affine:
     most, least = np.linalg.svd(linear, compute_uv=False)
     if least <= LINE_RATIO * most:
         raise AlignmentError(
-            "the measured places press the board flat onto a line: were they confused with one another?"
+            Message("the measured places press the board flat onto a line: were they confused with one another?")
         )
     return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
 
 
-def _hints(alignment: Alignment) -> Iterator[str]:
+def _hints(alignment: Alignment) -> Iterator[Message]:
     """How the measurement could be better, a sentence each."""
     if alignment.kind == "rigid" and alignment.spare_holes > 0:
-        yield "the holes lie on one line, so only shift and turn were fitted; for scale measure one beside it"
+        yield Message("the holes lie on one line, so only shift and turn were fitted; for scale measure one beside it")
     if alignment.span_mm < SHORT_SPAN_MM:
-        yield f"the holes lie within {alignment.span_mm:.1f} mm: the turn is uncertain; take holes far apart"
+        yield Message(
+            "the holes lie within {mm:.1f} mm: the turn is uncertain; take holes far apart", mm=alignment.span_mm
+        )
 
 
-def _contradictions(alignment: Alignment, mirrored: bool) -> Iterator[str]:
+def _contradictions(alignment: Alignment, mirrored: bool) -> Iterator[Message]:
     """Whatever makes the measurement implausible, a sentence each."""
     parts = decompose(alignment.affine)
-    scales = {"along the holes": alignment.length_ratio}
+    scales = {Message("along the holes"): alignment.length_ratio}
     if alignment.kind == "affine":
-        scales = {"in x": parts.scale_x, "in y": parts.scale_y}
+        scales = {Message("in x"): parts.scale_x, Message("in y"): parts.scale_y}
     for direction, scale in scales.items():
         if abs(scale - 1) > MAX_SCALE_ERROR:
-            yield f"the scale {direction} is {scale:.4f}, not near 1: wrong holes, or wrong units?"
+            yield Message(
+                "the scale {direction} is {scale:.4f}, not near 1: wrong holes, or wrong units?",
+                direction=direction,
+                scale=scale,
+            )
     if abs(parts.shear) > MAX_SHEAR:
-        yield f"the shear is {parts.shear:.4f}: the board would be no rectangle; was a wrong hole measured?"
+        yield Message(
+            "the shear is {shear:.4f}: the board would be no rectangle; was a wrong hole measured?", shear=parts.shear
+        )
     if parts.mirrored != mirrored:
-        seen, asked = ("face down", "face up") if parts.mirrored else ("face up", "face down")
-        yield f"the measured holes show the board {seen}, but {asked} was asked for"
+        seen, asked = (
+            (Message("face down"), Message("face up")) if parts.mirrored else (Message("face up"), Message("face down"))
+        )
+        yield Message("the measured holes show the board {seen}, but {wanted} was asked for", seen=seen, wanted=asked)
     worst = int(alignment.residual_mm.argmax())
     if alignment.residual_mm[worst] > MAX_RESIDUAL_MM:
-        yield f"measured hole {worst + 1} is {alignment.residual_mm[worst]:.3f} mm off; was it another hole?"
+        yield Message(
+            "measured hole {number} is {mm:.3f} mm off; was it another hole?",
+            number=worst + 1,
+            mm=alignment.residual_mm[worst],
+        )

@@ -21,6 +21,7 @@ from typing import Annotated
 import msgspec
 
 from drillctl.generation.errors import JobError
+from drillctl.language import Message
 from drillctl.machine import TableError
 from drillctl.machine.source import Source
 
@@ -75,15 +76,20 @@ def read_drills(file: Path) -> DrillTable:
     try:
         raw = Source.read(file).records(_File)
     except TableError as error:
-        raise JobError([str(error)]) from error
+        raise JobError(error.message) from error
     return DrillTable(tuple(raw.drill), raw.tolerance_mm)
 
 
-def drill_problems(table: DrillTable, tools: list[tuple[int, float | None]], name: str) -> Iterator[str]:
+def drill_problems(table: DrillTable, tools: list[tuple[int, float | None]], name: str) -> Iterator[Message]:
     """A line for each (number, diameter) that no drill serves."""
     for number, diameter_mm in tools:
         if diameter_mm is None:
-            yield f"{name}: tool T{number} has no diameter, so no drill can be chosen for it"
+            yield Message("tool T{number} has no diameter, so no drill can be chosen for it", number=number).at(name)
         elif table.serving(diameter_mm) is None:
             nearest = table.nearest(diameter_mm).diameter_mm
-            yield f"{name}: no drill serves tool T{number} ({diameter_mm:.3f} mm); the nearest is {nearest:.3f} mm"
+            yield Message(
+                "no drill serves tool T{number} ({diameter:.3f} mm); the nearest is {nearest:.3f} mm",
+                number=number,
+                diameter=diameter_mm,
+                nearest=nearest,
+            ).at(name)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from drillctl.generation.placing import Affine
 from drillctl.generation.worklist import Group, WorkList
 from drillctl.kmd import Names
+from drillctl.language import Message
 from drillctl.machine import Machine
 
 UNMOVED = Affine.of(np.eye(2))
@@ -32,7 +33,7 @@ class Job:
     program: NDArray[np.void]
     machine: Machine
     work: WorkList | None = None
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Message, ...] = ()
 
     @property
     def holes_total(self) -> int:

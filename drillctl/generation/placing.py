@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from drillctl.generation.choices import ORIGINS
+from drillctl.language import Message, Refusal
 
 MIRRORS = {
     None: ((1.0, 0.0), (0.0, 1.0)),
@@ -29,8 +30,10 @@ PANEL_ORDERS = ("serpentine", "rows")
 MAX_BOARDS = 1000  # more than any bed holds; a slip of the finger must not fill the memory
 
 
-class PlacingError(ValueError):
+class PlacingError(Refusal):
     """A placing that cannot be meant: the operator's options contradict each other or are out of range."""
+
+    kind = "placing"
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +45,7 @@ class Affine:
     def __post_init__(self) -> None:
         matrix = np.array(self.matrix, dtype=np.float64)
         if matrix.shape != (2, 3) or not np.isfinite(matrix).all():
-            raise PlacingError(f"a map needs 2 x 3 finite numbers, not {self.matrix!r}")
+            raise PlacingError(Message("a map needs 2 x 3 finite numbers, not {numbers!r}", numbers=self.matrix))
         matrix.flags.writeable = False
         object.__setattr__(self, "matrix", matrix)
 
@@ -86,7 +89,7 @@ class Affine:
     @cached_property
     def _inverse(self) -> Affine:
         if abs(np.linalg.det(self.linear)) < 1e-12:
-            raise PlacingError("the map presses the board flat onto a line; there is no way back from it")
+            raise PlacingError(Message("the map presses the board flat onto a line; there is no way back from it"))
         back = np.linalg.inv(self.linear)
         return Affine.of(back, -back @ self.shift_mm)
 
@@ -108,11 +111,24 @@ class Panel:
         _one_of("panel order", self.order, PANEL_ORDERS)
         _finite("the panel's pitch", self.pitch_x_mm, self.pitch_y_mm)
         if self.columns < 1 or self.rows < 1:
-            raise PlacingError(f"a panel of {self.columns} x {self.rows} boards has no board; give 1 or more")
+            raise PlacingError(
+                Message(
+                    "a panel of {columns} x {rows} boards has no board; give 1 or more",
+                    columns=self.columns,
+                    rows=self.rows,
+                )
+            )
         if self.columns * self.rows > MAX_BOARDS:
-            raise PlacingError(f"a panel of {self.columns} x {self.rows} boards; {MAX_BOARDS} are the most")
+            raise PlacingError(
+                Message(
+                    "a panel of {columns} x {rows} boards; {most} are the most",
+                    columns=self.columns,
+                    rows=self.rows,
+                    most=MAX_BOARDS,
+                )
+            )
         if (self.columns > 1 and self.pitch_x_mm == 0) or (self.rows > 1 and self.pitch_y_mm == 0):
-            raise PlacingError("a panel with pitch 0 would drill one board into another")
+            raise PlacingError(Message("a panel with pitch 0 would drill one board into another"))
 
     def shifts_mm(self) -> NDArray[np.float64]:
         """How far each board lies from the first, (columns * rows, 2), in drilling order, (0, 0) first."""
@@ -154,8 +170,11 @@ class Placing:
         _finite("rotation and offset", self.rotate_deg, *self.offset_mm)
         if self.alignment is not None and self._asked_beside_alignment():
             raise PlacingError(
-                f"{' and '.join(self._asked_beside_alignment())} given together with an alignment: "
-                "the measured holes already say where the board lies; leave one of the two out"
+                Message(
+                    "{what} given together with an alignment: the measured holes already say where the board lies; "
+                    "leave one of the two out",
+                    what=" and ".join(self._asked_beside_alignment()),
+                )
             )
 
     def _asked_beside_alignment(self) -> list[str]:
@@ -211,9 +230,9 @@ def _corner_shift_mm(placing: Placing, turned: Affine, xy_mm: ArrayLike) -> NDAr
 def _one_of(what: str, value: object, allowed: tuple[object, ...]) -> None:
     if value not in allowed:
         names = " or ".join(repr(name) for name in allowed if name is not None)
-        raise PlacingError(f"{what} {value!r} is not known; give {names}")
+        raise PlacingError(Message("{what} {value!r} is not known; give {names}", what=what, value=value, names=names))
 
 
 def _finite(what: str, *values: float) -> None:
     if not all(math.isfinite(value) for value in values):
-        raise PlacingError(f"{what} must be plain numbers, not {values}")
+        raise PlacingError(Message("{what} must be plain numbers, not {values}", what=what, values=values))

@@ -5,10 +5,9 @@ from pathlib import Path
 from drillctl.files.inputs import read_bytes
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, names_of
-from drillctl.generation.waits import Waits, reading
 from drillctl.generation.wishes import Wishes
 from drillctl.kmd import KmdError, parse_program, to_text
-from drillctl.language import one_line
+from drillctl.language import Message, message_of, one_line
 from drillctl.machine import Machine
 
 LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
@@ -20,18 +19,17 @@ def is_queue(path: Path) -> bool:
     return path.suffix.lower() == ENDING
 
 
-def load_queue(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str, waits: Waits) -> Job:
+def load_queue(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str) -> Job:
     """A queue as a job, as it stands: nothing is placed or ordered. Raises JobError with file, line and column."""
-    waits(reading(path.name))
     try:
-        text = read_bytes(path, LARGEST_QUEUE_BYTES, "a queue").decode()
+        text = read_bytes(path, LARGEST_QUEUE_BYTES, Message("a queue")).decode()
         program = parse_program(text, names_of(machine), str(path))
     except OSError as error:
-        raise JobError([f"{path}: can't be read: {error.strerror}"]) from error
+        raise JobError(Message("can't be read: {why}", why=message_of(error)).at(path)) from error
     except UnicodeDecodeError as error:
-        raise JobError([f"{path}: not UTF-8 text, so not a .kmd queue"]) from error
+        raise JobError(Message("not UTF-8 text, so not a .kmd queue").at(path)) from error
     except KmdError as error:
-        raise JobError([str(error)]) from error
+        raise JobError(error.message) from error
     return Job(path.name, program, machine)
 
 

@@ -20,6 +20,7 @@ from drillctl.generation.measured import MAX_MM
 from drillctl.generation.placing import Affine, Panel, Placing
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import positioning_axes
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.machine.shape import Steps, TickHz
 
@@ -61,8 +62,10 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         try:
             return cls.checked(told)
         except BAD_VALUES as error:
-            reason = f"its options were written by another version of this program, or altered: {error}"
-            raise JobError([f"{journal}:1: {reason}"]) from error
+            reason = Message(
+                "its options were written by another version of this program, or altered: {why}", why=error
+            )
+            raise JobError(reason.at(journal, 1)) from error
 
     @classmethod
     def checked(cls, told: Mapping[str, Any]) -> "Recipe":

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from drillctl.generation.drills import DrillTable
 from drillctl.generation.errors import JobError
 from drillctl.generation.placing import Placing
+from drillctl.language import Message
 
 LEAST_PECK_MM = 0.05
 
@@ -31,6 +32,10 @@ class Wishes:
     base_steps: tuple[int, int] = (0, 0)
 
     def __post_init__(self) -> None:
-        for name, depth_mm in (("--peck", self.peck_mm), ("--spot", self.spot_mm)):
+        for name, depth_mm in ((Message("peck depth"), self.peck_mm), (Message("spot depth"), self.spot_mm)):
             if depth_mm is not None and not LEAST_PECK_MM <= depth_mm <= 1000:
-                raise JobError([f"{name}: {depth_mm} mm is not a depth of {LEAST_PECK_MM} mm or more"])
+                raise JobError(
+                    Message("{depth} mm is not a depth of {least} mm or more", depth=depth_mm, least=LEAST_PECK_MM).at(
+                        name
+                    )
+                )

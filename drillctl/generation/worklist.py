@@ -14,8 +14,8 @@ from drillctl.generation.drills import Drill, drill_problems
 from drillctl.generation.errors import JobError
 from drillctl.generation.order import TravelCost, plan_groups
 from drillctl.generation.placing import Affine, boards
-from drillctl.generation.waits import Advance, ignored
 from drillctl.generation.wishes import Wishes
+from drillctl.language import Message
 from drillctl.machine import Machine, travel_table
 
 if TYPE_CHECKING:
@@ -74,11 +74,8 @@ class WorkList:
         return WorkList(groups, self.hits.take(left), self.steps[left], self.boards, self.number[left])
 
 
-def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine, advance: Advance = ignored) -> WorkList:
-    """The work list of a file on a machine; ``advance`` is called with how far the ordering is.
-
-    Raises JobError for a machine, tools or holes that don't fit.
-    """
+def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine) -> WorkList:
+    """The work list of a file on a machine. Raises JobError for a machine, tools or holes that don't fit."""
     axes = positioning_axes(machine)
     extent_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
     maps = boards(wishes.placing, extent_mm)
@@ -91,7 +88,7 @@ def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine, advance: Ad
     steps = np.rint(placed_mm * scale).astype(np.int64)
     _check_reach(drill_file, hits, steps, wishes.base_steps, machine)
     groups = _groups(drill_file, hits, wishes)
-    order = _order(groups, steps, wishes.order, machine, axes, advance)
+    order = _order(groups, steps, wishes.order, machine, axes)
     return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1))
 
 
@@ -100,7 +97,9 @@ def positioning_axes(machine: Machine) -> tuple[int, int]:
     x, y = machine.axis_index("x"), machine.axis_index("y")
     if x is None or y is None or {x, y} & set(machine.drill_axes):
         heads = ", ".join(machine.axis_names[index] for index in machine.drill_axes)
-        raise JobError([f"{machine.name}: a board needs axes x and y beside the drilling ones ({heads})"])
+        raise JobError(
+            Message("a board needs axes x and y beside the drilling ones ({heads})", heads=heads).at(machine.name)
+        )
     return x, y
 
 
@@ -130,11 +129,18 @@ def _chosen(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> Hits:
     unknown = wishes.skip_tools - set(numbers.tolist())
     if unknown:
         there = ", ".join(f"T{number}" for number in numbers.tolist())
-        raise JobError([f"--skip-tools: {drill_file.name} has no tool T{min(unknown)}; there are {there}"])
+        raise JobError(
+            Message(
+                "tools to skip: {file} has no tool T{number}; there are {tools}",
+                file=drill_file.name,
+                number=min(unknown),
+                tools=there,
+            )
+        )
     skipped = np.isin(hits.tool, np.flatnonzero(np.isin(numbers, list(wishes.skip_tools))))
     left = hits.take(~skipped)
     if not len(left.xy_mm):
-        raise JobError([f"{drill_file.name}: there is no hole to drill"])
+        raise JobError(Message("there is no hole to drill").at(drill_file.name))
     return left
 
 
@@ -151,7 +157,7 @@ def _groups(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> tuple[Group,
     if wishes.drills is not None:
         pairs = [(tool.number, tool.diameter_mm) for tool in tools]
         if problems := list(drill_problems(wishes.drills, pairs, drill_file.name)):
-            raise JobError(problems)
+            raise JobError(*problems)
         drills = [wishes.drills.serving(tool.diameter_mm or 0.0) for tool in tools]
     return tuple(
         Group(tool.number, tool.diameter_mm, bounds[index], bounds[index + 1], drills[index])
@@ -160,12 +166,12 @@ def _groups(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> tuple[Group,
 
 
 def _order(
-    groups: tuple[Group, ...], steps: Integers, how: str, machine: Machine, axes: tuple[int, int], advance: Advance
+    groups: tuple[Group, ...], steps: Integers, how: str, machine: Machine, axes: tuple[int, int]
 ) -> NDArray[np.intp]:
     """Rows of ``steps`` in drilling order; the head starts at the working base."""
     tables = [_travel(machine, axis, int(np.ptp([0, *steps[:, k]]))) for k, axis in enumerate(axes)]
     parts = [steps[group.start : group.stop] for group in groups]
-    orders = plan_groups(parts, TravelCost(*tables), how, np.zeros(2, np.int64), advance)
+    orders = plan_groups(parts, TravelCost(*tables), how, np.zeros(2, np.int64))
     return np.concatenate([group.start + order for group, order in zip(groups, orders, strict=True)])
 
 
@@ -183,17 +189,29 @@ def _check_reach(
     problems = []
     for hole in np.flatnonzero(outside.any(axis=1)).tolist():
         told = "; ".join(
-            f"{'XY'[k]} {steps[hole, k]} steps is outside {reach[k, 0]}..{reach[k, 1]}"
+            Message(
+                "{axis} {steps} steps is outside {low}..{high}",
+                axis="XY"[k],
+                steps=steps[hole, k],
+                low=reach[k, 0],
+                high=reach[k, 1],
+            )
             for k in (0, 1)
             if outside[hole, k]
         )
         x_mm, y_mm = hits.xy_mm[hole]
         problems.append(
-            f"{drill_file.name}:{hits.line[hole]}: hole of tool T{drill_file.tools[hits.tool[hole]].number} "
-            f"at X{x_mm:.4f} Y{y_mm:.4f} mm is out of reach of {machine.name}: {told}"
+            Message(
+                "hole of tool T{number} at X{x:.4f} Y{y:.4f} mm is out of reach of {machine}: {axes}",
+                number=drill_file.tools[hits.tool[hole]].number,
+                x=x_mm,
+                y=y_mm,
+                machine=machine.name,
+                axes=told,
+            ).at(drill_file.name, hits.line[hole])
         )
     if problems:
-        raise JobError(problems)
+        raise JobError(*problems)
 
 
 def _reach(machine: Machine, axis: int) -> tuple[int, int]:

@@ -19,13 +19,14 @@ from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
 from drillctl.jobs.operator import JobHold, Operator, ToolChange
 from drillctl.kmd import Fault, Request
+from drillctl.language import Message
 from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link, is_over
 from drillctl.trace import Segments, Trace
 from drillctl.viewmodel import Outcome, Progress, fault_report
 
-BY_OPERATOR = "the operator stopped the job"
-BY_OTHERS = "the job was stopped before its end"  # by a signal to a process beside this one
+BY_OPERATOR = Message("the operator stopped the job")
+BY_OTHERS = Message("the job was stopped before its end")  # by a signal to a process beside this one
 Watcher = Callable[[Progress], None]
 
 
@@ -43,8 +44,8 @@ class JobResult:
     holes: list[MadeHole]
     trace: Trace | Segments | None
     signal: int | None
-    trouble: str | None = None
-    notices: tuple[str, ...] = ()
+    trouble: Message | None = None
+    notices: tuple[Message, ...] = ()
 
 
 @dataclass
@@ -67,7 +68,7 @@ class JobRunner:
     done_before: int = 0
     ticks: NDArray[np.int64] | None = None
     holes: list[MadeHole] = field(default_factory=list)
-    trouble: str | None = None
+    trouble: Message | None = None
     tool_change: ToolChange | None = None
     operator: Operator | None = None
     resumes_itself: bool = True
@@ -195,7 +196,7 @@ class JobRunner:
     def _stop_for(self, error: JournalError) -> None:
         """Stops the job because its journal can't be written."""
         if self.trouble is None:
-            self.trouble = str(error)
+            self.trouble = error.message
             self.link.post(Request.STOP)
 
     def _end_journal(self, outcome: Outcome) -> None:
@@ -205,7 +206,7 @@ class JobRunner:
         try:
             self.journal.ended(outcome.fault.name if outcome.fault else how)
         except JournalError as error:
-            self.trouble = self.trouble or str(error)
+            self.trouble = self.trouble or error.message
 
     def _outcome(self, status: np.void, interrupted: bool) -> Outcome:
         names = self.job.machine.axis_names

@@ -6,6 +6,7 @@ Rule: a job goes on where it ran; on another port, at another pace or with anoth
 import os
 from dataclasses import dataclass
 
+from drillctl.language import Message
 from drillctl.plant import IDEAL_PLANT, PlantChoice, PlantRefused
 from drillctl.plant.choice import DYNAMIC, NONE
 from drillctl.portio.registry import select
@@ -44,13 +45,17 @@ def running_at(site: Site, options: SiteOptions) -> RunSettings:
     return RunSettings(port, options.pace or (site.pace if same else None), plant=plant)
 
 
-def moved(ran: Site, here: Site) -> str:
-    """A sentence that says in what the two sites differ; empty where they are the same."""
+def moved(ran: Site, here: Site) -> Message | None:
+    """A sentence that says in what the two sites differ; None where they are the same."""
     if ran == here:
-        return ""
+        return None
     if ran.real and not here.real:
-        return f"the job ran with {ran}; what {here} drills is simulated, and would count as drilled"
-    return f"the job ran with {ran}, and not with {here}"
+        return Message(
+            "the job ran with {ran}; what {here} drills is simulated, and would count as drilled",
+            ran=ran.message,
+            here=here.message,
+        )
+    return Message("the job ran with {ran}, and not with {here}", ran=ran.message, here=here.message)
 
 
 def _whole(spec: str) -> str:
@@ -63,4 +68,4 @@ def _plant_at(site: Site) -> PlantChoice:
     try:
         return PlantChoice.of_header(site.plant, str(site.seed))
     except PlantRefused as error:
-        raise PortRefused(site.port, str(error)) from error
+        raise PortRefused(site.port, error.message) from error

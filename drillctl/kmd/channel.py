@@ -17,6 +17,7 @@ from drillctl.files.scratch import make_file
 from drillctl.kmd.commands import RECORD, Command
 from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, Requests, hand_of, pace_of, request_of
 from drillctl.kmd.status import STATUS
+from drillctl.language import Message
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
 MOST_READS = 1000
@@ -62,7 +63,7 @@ class Channel:
             if create:
                 _fill(handle, file)
             elif os.fstat(handle).st_size != CHANNEL.itemsize:
-                raise OSError(f"{file}: not a channel of this program")
+                raise OSError(Message("not a channel of this program").at(file))
             self.file = file
             self.memory = mmap.mmap(handle, CHANNEL.itemsize)
         except OSError:
@@ -76,7 +77,7 @@ class Channel:
             self.fields["magic"] = MAGIC
             place.replace(file)
         elif int(self.fields["magic"][0]) != MAGIC:
-            raise OSError(f"{file}: not a channel of this program")
+            raise OSError(Message("not a channel of this program").at(file))
 
     def status(self) -> np.void:
         """Returns a whole copy of the newest status record. Raises OSError if the ticker died while it wrote one."""
@@ -85,7 +86,7 @@ class Channel:
             copy = self.fields["status"][0].copy()
             if before % 2 == 0 and int(self.fields["lock"][0]) == before:
                 return copy
-        raise OSError(f"{self.file}: the status record was left half written")
+        raise OSError(Message("the status record was left half written").at(self.file))
 
     def publish(self, status: np.void) -> None:
         """Makes this the newest status record. For the ticker only."""

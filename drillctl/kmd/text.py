@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, MOST_AXES, RECORD, ArgumentForm, Names, Op, Spec
-from drillctl.language import known_words, nearest
+from drillctl.language import Message, Refusal, known_words, nearest
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
@@ -22,12 +22,14 @@ _PREFIX = "KMD_"
 _INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
 
 
-class KmdError(Exception):
+class KmdError(Refusal):
     """A fault in a queue's text. ``str()`` is ``FILE:LINE:COLUMN: reason``."""
 
-    def __init__(self, file: str, line: int, column: int, reason: str):
+    kind = "queue"
+
+    def __init__(self, file: str, line: int, column: int, reason: Message):
         self.file, self.line, self.column, self.reason = file, line, column, reason
-        super().__init__(f"{file}:{line}:{column}: {reason}")
+        super().__init__(reason.at(file, line, column))
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +38,8 @@ class _Word:
     column: int
 
 
-class _LineError(Exception):
-    def __init__(self, word: _Word, reason: str):
+class _LineError(Refusal):
+    def __init__(self, word: _Word, reason: Message):
         self.word, self.reason = word, reason
         super().__init__(reason)
 
@@ -51,12 +53,12 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
     for number, line in _lines(text, file):
         try:
             if ended:
-                raise _LineError(_words(line)[0], "nothing may follow KMD_KONIEC")
+                raise _LineError(_words(line)[0], Message("nothing may follow KMD_KONIEC"))
             spec, axes, args = parsed(line)
         except _LineError as error:
             raise KmdError(file, number, error.word.column, error.reason) from None
         if count == MOST_COMMANDS:
-            raise KmdError(file, number, 1, f"more than {MOST_COMMANDS} commands")
+            raise KmdError(file, number, 1, Message("more than {count} commands", count=MOST_COMMANDS))
         if spec.op is Op.PREDKOSC:
             floor_ticks = args[0]
         moves = spec.form in (ArgumentForm.XY, ArgumentForm.MOVES) or spec.op in (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
@@ -64,7 +66,7 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
         count += 1
         ended = spec.op is Op.KONIEC
     if not count:
-        raise KmdError(file, 1, 1, "no command in it; a queue that does nothing is KMD_KONIEC alone")
+        raise KmdError(file, 1, 1, Message("no command in it; a queue that does nothing is KMD_KONIEC alone"))
     if not ended:
         program[count] = (count + 1, 0, Op.KONIEC, 0, 0, 0, 0, 0, (0,) * MOST_AXES)
     return program[: count + (not ended)]
@@ -80,7 +82,9 @@ def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:
     """Yields the lines that hold a command, with their numbers and without their comments."""
     for number, line in enumerate(_split(text.removeprefix("\ufeff")), start=1):
         if len(line) > LONGEST_LINE:
-            raise KmdError(file, number, LONGEST_LINE + 1, f"a line of more than {LONGEST_LINE} characters")
+            raise KmdError(
+                file, number, LONGEST_LINE + 1, Message("a line of more than {count} characters", count=LONGEST_LINE)
+            )
         said = line.partition("#")[0]
         if _WORD.search(said):
             yield number, said
@@ -109,48 +113,58 @@ def _parse_line(words: list[_Word], names: Names) -> tuple[Spec, int, tuple[int,
     return spec, axes, (*args, *[0] * (MOST_AXES - len(args)))
 
 
-def _unknown(name: str) -> str:
+def _unknown(name: str) -> Message:
     """The reason of refusal, with the command that was probably meant. The prefix that all commands share doesn't
     count.
     """
     known = {command.removeprefix(_PREFIX).upper(): command for command in COMMANDS}
     close = nearest(name.upper().removeprefix(_PREFIX), known)
-    return f"unknown command {name!r}; did you mean {known[close]}?" if close else f"unknown command {name!r}"
+    if close:
+        return Message("unknown command {name!r}; did you mean {other}?", name=name, other=known[close])
+    return Message("unknown command {name!r}", name=name)
 
 
 def _count(spec: Spec, name: _Word, rest: list[_Word], wanted: int) -> None:
     if len(rest) != wanted:
         word = rest[wanted] if len(rest) > wanted else name
         written = f"{spec.name} {spec.usage}".rstrip()
-        count = "1 argument" if len(rest) == 1 else f"{len(rest)} arguments"
-        raise _LineError(word, f"{count}; it is written {written}")
+        count = Message("1 argument") if len(rest) == 1 else Message("{count} arguments", count=len(rest))
+        raise _LineError(word, Message("{count}; it is written {command}", count=count, command=written))
 
 
 def _integer(word: _Word, least: int = -MOST_ARGUMENT) -> int:
     value = int(word.text) if _INTEGER.match(word.text) else None
     if value is None or not least <= value <= MOST_ARGUMENT:
         text = word.text[:40]
-        wanted = f"{text!r} is not a whole number" if least < 0 else f"{text!r} is not a whole number from {least}"
+        wanted = (
+            Message("{word!r} is not a whole number", word=text)
+            if least < 0
+            else Message("{word!r} is not a whole number from {least}", word=text, least=least)
+        )
         raise _LineError(word, wanted)
     return value
 
 
 def _axis(word: _Word, name: str, names: Names) -> int:
     if name not in names.axes:
-        raise _LineError(word, f"no axis is named {name[:40]!r}; {known_words(name, names.axes)}")
+        raise _LineError(
+            word, Message("no axis is named {name!r}; {words}", name=name[:40], words=known_words(name, names.axes))
+        )
     return names.axes.index(name)
 
 
-def _known(word: _Word, table: Mapping[str, int], kind: str) -> int:
+def _known(word: _Word, table: Mapping[str, int], kind: Message) -> int:
     if word.text not in table:
-        there = known_words(word.text, table) if table else "this machine has none"
-        raise _LineError(word, f"no {kind} is named {word.text[:40]!r}; {there}")
+        there = known_words(word.text, table) if table else Message("this machine has none")
+        raise _LineError(
+            word, Message("no {kind} is named {name!r}; {others}", kind=kind, name=word.text[:40], others=there)
+        )
     return table[word.text]
 
 
 def _level(word: _Word) -> int:
     if word.text not in ("0", "1"):
-        raise _LineError(word, f"{word.text[:40]!r} is not 0 or 1")
+        raise _LineError(word, Message("{word!r} is not 0 or 1", word=word.text[:40]))
     return int(word.text)
 
 
@@ -175,10 +189,10 @@ def _moves_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple
     for word in rest:
         axis, equals, value = word.text.partition("=")
         if not equals:
-            raise _LineError(word, f"{word.text[:40]!r} is not axis=steps")
+            raise _LineError(word, Message("{word!r} is not axis=steps", word=word.text[:40]))
         index = _axis(word, axis, names)
         if axes >> index & 1:
-            raise _LineError(word, f"axis {axis} is named twice")
+            raise _LineError(word, Message("axis {name} is named twice", name=axis))
         axes |= 1 << index
         args[index] = _integer(_Word(value, word.column + len(axis) + 1))
     return axes, args
@@ -195,12 +209,12 @@ def _number_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tupl
 
 def _output_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
     _count(spec, name, rest, 2)
-    return 0, [_known(rest[0], names.outputs, "output"), _level(rest[1])]
+    return 0, [_known(rest[0], names.outputs, Message("output")), _level(rest[1])]
 
 
 def _input_in(spec: Spec, name: _Word, rest: list[_Word], names: Names) -> tuple[int, list[int]]:
     _count(spec, name, rest, 3)
-    return 0, [_known(rest[0], names.inputs, "input"), _level(rest[1]), _integer(rest[2], 1)]
+    return 0, [_known(rest[0], names.inputs, Message("input")), _level(rest[1]), _integer(rest[2], 1)]
 
 
 def _masked(record: np.void, names: Names) -> list[int]:
@@ -239,4 +253,3 @@ _ARGUMENTS_OUT: Mapping[ArgumentForm, Callable[[np.void, Names], list[str]]] = {
     ArgumentForm.OUTPUT: lambda record, names: _switch_out(names.outputs, record, 2),
     ArgumentForm.INPUT: lambda record, names: _switch_out(names.inputs, record, 3),
 }
-

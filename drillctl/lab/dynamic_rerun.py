@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from drillctl.lab.errors import LabError
 from drillctl.lab.tables import axis_index
+from drillctl.language import Message
 from drillctl.machine import AxisTable, Library, Machine
 from drillctl.plant.choice import DYNAMIC
 from drillctl.plant.dynamic.plant import DynamicPlant
@@ -62,12 +63,18 @@ def rerun_axis(file: Path, library: Library, axis_name: str | None = None) -> Ax
     recorded = read_trace(file)
     machine = machine_of(recorded, file, library)
     if recorded.end > MOST_TICKS:
-        raise LabError(f"{file}: {recorded.end} ticks; a picture takes at most {MOST_TICKS}")
+        raise LabError(
+            Message("{end} ticks; a picture takes at most {most_ticks}", end=recorded.end, most_ticks=MOST_TICKS).at(
+                file
+            )
+        )
     if not same_tables(recorded, machine, file):
-        reason = f"recorded with other tables of {machine.name}; record it again, or give them (--tables)"
-        raise LabError(f"{file}: {reason}")
+        reason = Message(
+            "recorded with other tables of {name}; record it again, or give them (--tables)", name=machine.name
+        )
+        raise LabError(reason.at(file))
     if recorded.has("pace"):
-        raise LabError(f"{file}: the tick rate was changed on the way (PACE); a picture has one scale of time")
+        raise LabError(Message("the tick rate was changed on the way (PACE); a picture has one scale of time").at(file))
     again = with_columns(recorded, machine, file)
     columns = [_unwrapped(dense(again, f"{axis.name}.column"), axis.phase.columns) for axis in machine.axes]
     index = axis_index(machine, axis_name) if axis_name else _farthest(columns)
@@ -92,7 +99,7 @@ def _plant(recorded: Trace, machine: Machine) -> tuple[DynamicPlant, bool]:
         as_run = choice.kind == DYNAMIC
         return DynamicPlant(machine, choice.faults if as_run else (), choice.seed), as_run
     except PlantRefused as error:
-        raise LabError(str(error)) from error
+        raise LabError(error.message) from error
 
 
 def _driven(

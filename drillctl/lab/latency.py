@@ -20,6 +20,7 @@ import numpy as np
 from drillctl.execution.clock import PacedClock
 from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
 from drillctl.lab.wakeups import MOST_TEXT, WakeupLog, bars, covered_ns, lateness, overlapping, quantile_us
+from drillctl.language import Message, Refusal
 from drillctl.machine import Machine
 from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.realtime import become_punctual
@@ -34,8 +35,10 @@ START_S = 10.0
 LEAVE_S = 2.0
 
 
-class LatencyError(Exception):
+class LatencyError(Refusal):
     """Nothing could be measured on this computer; ``str()`` says why."""
+
+    kind = "latency"
 
 
 def a_moment() -> bool:
@@ -50,7 +53,7 @@ def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_
     Raises LatencyError.
     """
     if not sys.platform.startswith("linux"):
-        raise LatencyError("latency is measured on Linux only")
+        raise LatencyError(Message("latency is measured on Linux only"))
     processors = sorted(os.sched_getaffinity(0))[:MOST_PROCESSORS]
     log, canaries = WakeupLog(), [WakeupLog() for _ in processors]
     interrupted = False
@@ -63,7 +66,9 @@ def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_
         while not ticker.gone and not interrupted:
             interrupted = meanwhile()
     if not log.wakeups or not log.record["to_ns"]:
-        raise LatencyError(f"no figures: the ticker's process was ended, or died, after {log.wakeups} ticks")
+        raise LatencyError(
+            Message("no figures: the ticker's process was ended, or died, after {wakeups} ticks", wakeups=log.wakeups)
+        )
     return _report(machine, log, canaries, interrupted)
 
 
@@ -78,9 +83,13 @@ def _children() -> Iterator[Callable[[WakeupLog, Callable[[], None]], ChildProce
         until_s = time.monotonic() + START_S
         while not log.record["ready"]:
             if child.gone:
-                raise LatencyError("no figures: a process was ended, or died, before it began")
+                raise LatencyError(Message("no figures: a process was ended, or died, before it began"))
             if time.monotonic() > until_s:
-                raise LatencyError(f"a process did not begin within {START_S:.0f} s: is the computer overloaded?")
+                raise LatencyError(
+                    Message(
+                        "a process did not begin within {start_s:.0f} s: is the computer overloaded?", start_s=START_S
+                    )
+                )
             time.sleep(TURN_S / 10)
         return child
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
+from drillctl.language import Message
 from drillctl.machine import AxisTable
 
 LONGEST_MOVE_TICKS = 1_000_000
@@ -37,7 +38,13 @@ def move(table: AxisTable, steps: int, column: int = -1, rest_ticks: int = REST_
     axis.set_target(steps, 0)
     while axis.counting:
         if len(images) > LONGEST_MOVE_TICKS:
-            raise ValueError(f"a move of {steps} steps takes more than {LONGEST_MOVE_TICKS} ticks")
+            raise ValueError(
+                Message(
+                    "a move of {steps} steps takes more than {longest_move_ticks} ticks",
+                    steps=steps,
+                    longest_move_ticks=LONGEST_MOVE_TICKS,
+                )
+            )
         axis.interrupt()
         images.append(axis.bits)
         columns.append(start + axis.travelled * axis.direction_sign)

@@ -14,6 +14,7 @@ from drillctl.lab.dynamic_rerun import AxisRun
 from drillctl.lab.errors import LabError
 from drillctl.lab.moves import move
 from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, Trial, errors_full_steps, lost
+from drillctl.language import Message
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.dynamics import WINDING_DEGREES
 from drillctl.plant.rotor import FULL_TURN
@@ -39,7 +40,14 @@ class Window:
         ticks = len(run.commanded)
         found = slice(self.first, ticks if self.end is None else min(self.end, ticks))
         if found.start >= found.stop:
-            raise LabError(f"no ticks from {found.start} to {found.stop}; the run has {ticks}")
+            raise LabError(
+                Message(
+                    "no ticks from {start} to {stop}; the run has {ticks}",
+                    start=found.start,
+                    stop=found.stop,
+                    ticks=ticks,
+                )
+            )
         return found
 
 
@@ -88,7 +96,7 @@ def board(run: AxisRun, _window: Window) -> Picture:
     """The holes of the whole run: where each was sent, and how far off it was drilled, enlarged. Raises LabError."""
     sent, error = run.sent_mm, run.drilled_mm - run.sent_mm
     if not len(sent):
-        raise LabError("the bit never met the board in this run: there is no hole to be shown")
+        raise LabError(Message("the bit never met the board in this run: there is no hole to be shown"))
     off_mm = np.hypot(*error.T)
     times = _enlarged(sent, off_mm)
     holes = Curve.of("sent to", sent[:, 0], sent[:, 1], Style.POINTS)

@@ -13,7 +13,7 @@ from random import Random
 import numpy as np
 
 from drillctl.lab.errors import LabError
-from drillctl.language import known_words
+from drillctl.language import Message, known_words
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
@@ -63,15 +63,25 @@ class Question:
 
     def __post_init__(self) -> None:
         if self.axis.dynamics is None:
-            raise LabError(f"axis {self.axis.name} has no dynamics; docs/PLANT.md says how to name some")
+            raise LabError(
+                Message("axis {name} has no dynamics; docs/PLANT.md says how to name some", name=self.axis.name)
+            )
         for name, _ in self.times:
             if name not in PARAMETERS:
-                raise LabError(f"no parameter {name!r}; {known_words(name, PARAMETERS)}")
+                raise LabError(
+                    Message("no parameter {name!r}; {words}", name=name, words=known_words(name, PARAMETERS))
+                )
         _check_same_once([name for name, _ in self.times])
         for name, table in self.phases:
             _check_wires(name, table, self.axis.phase)
         if self.machines > MOST_MACHINES:
-            raise LabError(f"{self.machines} machines; a sweep has {MOST_MACHINES} at most")
+            raise LabError(
+                Message(
+                    "{machines} machines; a sweep has {most_machines} at most",
+                    machines=self.machines,
+                    most_machines=MOST_MACHINES,
+                )
+            )
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -117,10 +127,17 @@ def _scaled(dynamics: Dynamics, scales: dict[str, float]) -> Dynamics:
 
 def _check_same_once(names: Sequence[str]) -> None:
     if twice := [name for name in names if names.count(name) > 1]:
-        raise LabError(f"{twice[0]} is varied twice")
+        raise LabError(Message("{twice} is varied twice", twice=twice[0]))
 
 
 def _check_wires(name: str, table: PhaseTable, own: PhaseTable) -> None:
     if table.wire_names() != own.wire_names():
         needs = " ".join(own.wire_names())
-        raise LabError(f"phase table {name} has the wires {' '.join(table.wire_names())}; the axis has {needs}")
+        raise LabError(
+            Message(
+                "phase table {name} has the wires {names}; the axis has {needs}",
+                name=name,
+                names=" ".join(table.wire_names()),
+                needs=needs,
+            )
+        )

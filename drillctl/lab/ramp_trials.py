@@ -14,6 +14,7 @@ from drillctl.lab.errors import LabError
 from drillctl.lab.moves import move, starts
 from drillctl.lab.question import FASTEST_HZ, SLOWEST_HZ
 from drillctl.lab.trials import Trial, errors_full_steps, lost
+from drillctl.language import Message
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.ramp import RampTable
 from drillctl.machine.travel import travel_ticks
@@ -47,9 +48,18 @@ class Bench:
 
     def __post_init__(self) -> None:
         if self.axis.dynamics is None:
-            raise LabError(f"axis {self.axis.name} has no dynamics; docs/PLANT.md says how to name some")
+            raise LabError(
+                Message("axis {name} has no dynamics; docs/PLANT.md says how to name some", name=self.axis.name)
+            )
         if not SLOWEST_HZ <= self.tick_hz <= FASTEST_HZ:
-            raise LabError(f"{self.tick_hz} Hz is outside {SLOWEST_HZ} to {FASTEST_HZ}")
+            raise LabError(
+                Message(
+                    "{tick_hz} Hz is outside {slowest_hz} to {fastest_hz}",
+                    tick_hz=self.tick_hz,
+                    slowest_hz=SLOWEST_HZ,
+                    fastest_hz=FASTEST_HZ,
+                )
+            )
 
     def losing(self, ramps: Sequence[RampTable], distances: Sequence[int] = ()) -> list[bool]:
         """Which ramps lose steps, on the moves most likely to and on ``distances``; all in one fleet."""

@@ -17,6 +17,7 @@ from drillctl.lab.answers import chunks, head
 from drillctl.lab.errors import LabError
 from drillctl.lab.question import Question
 from drillctl.lab.workers import on_cluster, on_cores
+from drillctl.language import Message
 
 MAGIC = "# drillctl-sweep 1"
 LONGEST_ROW_BYTES = 4096
@@ -52,12 +53,16 @@ class Results:
         limit = (question.machines + len(_first_lines(question))) * LONGEST_ROW_BYTES
         data = self._file.read(limit + 1)
         if len(data) > limit:
-            raise LabError(f"{self.path}: larger than any answer to this question; give the new one another file")
+            raise LabError(
+                Message("larger than any answer to this question; give the new one another file").at(self.path)
+            )
         *whole, torn = data.split(b"\n")
         wanted = _first_lines(question)
         begun = wanted[0].startswith(torn) if not whole else whole[:2] == wanted[: len(whole)]
         if not begun:
-            raise LabError(f"{self.path}: {_what_else(whole)}; give the new one another file")
+            raise LabError(
+                Message("{what_else}; give the new one another file", what_else=_what_else(whole)).at(self.path)
+            )
         _check_rows(whole[2:], wanted[1], question, self.path)
         self._file.seek(-len(torn), os.SEEK_END)
         self._file.truncate()
@@ -91,18 +96,24 @@ def _what_else(whole: list[bytes]) -> str:
 def _check_rows(rows: list[bytes], names: bytes, question: Question, path: Path) -> None:
     """Raises LabError for more rows than machines, or one without a value for every column."""
     if len(rows) > question.machines:
-        raise LabError(f"{path}: has {len(rows)} rows, and the question {question.machines} machines")
+        raise LabError(
+            Message(
+                "has {count} rows, and the question {machines} machines", count=len(rows), machines=question.machines
+            ).at(path)
+        )
     values = names.count(b",")
     for number, row in enumerate(rows):
         if row.count(b",") != values:
-            raise LabError(f"{path}:{number + 3}: not a row of this table; take away this line and all below it")
+            raise LabError(
+                Message("not a row of this table; take away this line and all below it").at(path, number + 3)
+            )
 
 
 def _lock(file: BinaryIO, path: Path) -> None:
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
-        raise LabError(f"{path}: another sweep is writing it") from error
+        raise LabError(Message("another sweep is writing it").at(path)) from error
 
 
 @dataclass(frozen=True, slots=True)

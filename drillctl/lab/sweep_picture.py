@@ -14,6 +14,7 @@ from drillctl.files.inputs import read_bytes
 from drillctl.lab.answers import FIXED_TAIL
 from drillctl.lab.question import MOST_MACHINES, Question
 from drillctl.lab.sweep import LONGEST_ROW_BYTES
+from drillctl.language import Message
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 
 LARGEST_RESULTS_BYTES = MOST_MACHINES * LONGEST_ROW_BYTES
@@ -25,7 +26,7 @@ Factor = tuple[str, tuple[float, ...] | tuple[str, ...]]
 
 def losing(path: Path) -> NDArray[np.bool_]:
     """(machines,): which of them lost steps in any move, from a whole results file."""
-    rows = read_bytes(path, LARGEST_RESULTS_BYTES, "a results file").decode().splitlines()[2:]
+    rows = read_bytes(path, LARGEST_RESULTS_BYTES, Message("a results file")).decode().splitlines()[2:]
     return np.array([row.split(",")[LOST] != "0" for row in rows])
 
 

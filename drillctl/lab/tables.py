@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import NoReturn
 
 from drillctl.lab.errors import LabError
-from drillctl.language import known_words
+from drillctl.language import Message, known_words
 from drillctl.machine import AxisTable, Library, Machine
 from drillctl.machine.phase import NAME, PhaseTable, Wire, parse_phase
 from drillctl.machine.ramp import RampTable, read_ramp
@@ -23,7 +23,14 @@ def axis_index(machine: Machine, name: str) -> int:
     """The index of the axis of this name. Raises LabError."""
     index = machine.axis_index(name)
     if index is None:
-        raise LabError(f"{machine.name} has no axis {name!r}; {known_words(name, machine.axis_names)}")
+        raise LabError(
+            Message(
+                "{name} has no axis {name2!r}; {words}",
+                name=machine.name,
+                name2=name,
+                words=known_words(name, machine.axis_names),
+            )
+        )
     return index
 
 
@@ -52,7 +59,13 @@ def phases(names: str | None, axis: AxisTable, library: Library) -> tuple[tuple[
 def check_name(name: str) -> str:
     """Returns a name for a new table. Raises LabError for one that a table can't have."""
     if not NAME.fullmatch(name) or len(name) > LONGEST_NAME:
-        raise LabError(f"{name[:60]!r} can't name a table: letters, digits, - and _, {LONGEST_NAME} at most")
+        raise LabError(
+            Message(
+                "{name!r} can't name a table: letters, digits, - and _, {longest_name} at most",
+                name=name[:60],
+                longest_name=LONGEST_NAME,
+            )
+        )
     return name
 
 
@@ -67,18 +80,20 @@ def _phase(name: str, axis: AxisTable, library: Library) -> PhaseTable:
     if name in BROKEN:
         return BROKEN[name](axis.phase)
     known = [*library.names("phase"), *BROKEN]
-    return parse_phase(Source.read(library.find("phase", name) or _unknown("phase table", name, known)))
+    return parse_phase(Source.read(library.find("phase", name) or _unknown(Message("phase table"), name, known)))
 
 
 def _unknown(kind: str, name: str, known: list[str]) -> NoReturn:
-    raise LabError(f"no {kind} is named {name[:60]!r}; {known_words(name, known)}")
+    raise LabError(
+        Message("no {kind} is named {name!r}; {others}", kind=kind, name=name[:60], others=known_words(name, known))
+    )
 
 
 def _listed(names: str) -> list[str]:
     """The names of a list separated by commas. Raises LabError for one that comes twice."""
     found = [name.strip() for name in names.split(",")]
     if len(found) > len(set(found)):
-        raise LabError(f"{names[:80]!r} has a name twice")
+        raise LabError(Message("{names!r} has a name twice", names=names[:80]))
     return found
 
 

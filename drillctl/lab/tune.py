@@ -13,6 +13,7 @@ from pathlib import Path
 from drillctl.lab.errors import LabError
 from drillctl.lab.ramp_trials import PROOF_LOADS, Bench, Proof
 from drillctl.lab.retargeting import first_missed, targets_tried
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.machine.ramp import RampTable, parse_ramp
 from drillctl.machine.source import Source
@@ -52,7 +53,12 @@ def tune(bench: Bench, name: str, report: Report = lambda line: None) -> Tuned:
             return Tuned(ramp, proof, bench.mean_ticks(ramp), bench.proof(own), bench.mean_ticks(own))
         report(f"{_spoken(profile)} loses steps on moves of {proof.lost_at_steps}")
         also.append(proof.lost_at_steps)
-    raise LabError(f"after {MOST_PROOFS} searches there is still a distance that loses steps; ask for less margin")
+    raise LabError(
+        Message(
+            "after {most_proofs} searches there is still a distance that loses steps; ask for less margin",
+            most_proofs=MOST_PROOFS,
+        )
+    )
 
 
 def ramp_of(name: str, profile: Profile) -> RampTable:
@@ -72,8 +78,14 @@ def _gentle(bench: Bench) -> Profile:
         if carried:
             return carried[0]
     raise LabError(
-        f"at {bench.tick_hz} Hz and with a margin of {bench.margin:g} axis {bench.axis.name} loses steps however "
-        f"gently it starts, up to an interval of {CRUISES[-1]}: ask for less margin or a lower rate"
+        Message(
+            "at {tick_hz} Hz and with a margin of {margin:g} axis {name} loses steps however gently it starts, up "
+            "to an interval of {cruises}: ask for less margin or a lower rate",
+            tick_hz=bench.tick_hz,
+            margin=bench.margin,
+            name=bench.axis.name,
+            cruises=CRUISES[-1],
+        )
     )
 
 
@@ -89,7 +101,12 @@ def _gentle_to(cruise: int, dwell: int) -> Profile:
 def _quickest(bench: Bench, profile: Profile, also: list[int], report: Report) -> Profile:
     """From a profile that loses nothing to one of which every single change loses or is slower."""
     if bench.losing([ramp_of("gentle", profile)], also)[0]:
-        raise LabError(f"moves of {', '.join(map(str, also))} steps lose even on a gentle ramp; ask for less margin")
+        raise LabError(
+            Message(
+                "moves of {names} steps lose even on a gentle ramp; ask for less margin",
+                names=", ".join(map(str, also)),
+            )
+        )
     while True:
         ticks = bench.mean_ticks(ramp_of("now", profile))
         report(f"{_spoken(profile)}: {ticks:.1f} ticks a move")

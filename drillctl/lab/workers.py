@@ -17,6 +17,7 @@ from typing import Any
 from drillctl.lab.answers import answer
 from drillctl.lab.errors import LabError
 from drillctl.lab.question import Question
+from drillctl.language import Message, message_of
 
 CHUNKS_A_THREAD = 4  # sent to a cluster at once: what is done is kept after each such load
 CONNECT_S = 20
@@ -49,12 +50,18 @@ def on_cluster(question: Question, chunks: list[range], address: str) -> Rows:
         from distributed import Client
         from joblib import Parallel, delayed, parallel_config
     except ImportError as error:
-        raise LabError("--cluster needs dask and joblib: pip install 'dask[distributed]' joblib") from error
+        raise LabError(Message("--cluster needs dask and joblib: pip install 'dask[distributed]' joblib")) from error
     try:
         make: Any = Client  # distributed has no type hints, and need not be installed
         client = make(address, timeout=CONNECT_S)
     except (OSError, ValueError) as error:
-        raise LabError(f"--cluster {address}: no dask scheduler answers there ({error})") from error
+        raise LabError(
+            Message(
+                "--cluster {address}: no dask scheduler answers there ({error})",
+                address=address,
+                error=message_of(error),
+            )
+        ) from error
     with client, parallel_config(backend="dask"):
         load = CHUNKS_A_THREAD * max(1, sum(client.nthreads().values()))
         for first in range(0, len(chunks), load):

@@ -2,12 +2,26 @@
 
 visible.py    characters that a terminal would obey, or not show at all, as escapes
 nearest.py    the word that was probably meant
-words.py      the operator's language: catalogues
-sentences.py  sentences of other rooms, translated
+messages.py   a template and its fields; the root of all refusals
+words.py      the operator's language: catalogues, messages translated
 figures.py    durations, numbers, millimetres
 """
 
+from drillctl.language.messages import Message, Refusal, joined, message_of, verbatim
 from drillctl.language.nearest import known_words, nearest
 from drillctl.language.visible import LINES, json_text, masked, one_line, visible
 
-__all__ = ["LINES", "json_text", "known_words", "masked", "nearest", "one_line", "visible"]
+__all__ = [
+    "LINES",
+    "Message",
+    "Refusal",
+    "joined",
+    "json_text",
+    "known_words",
+    "masked",
+    "message_of",
+    "nearest",
+    "one_line",
+    "verbatim",
+    "visible",
+]

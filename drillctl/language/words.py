@@ -7,15 +7,13 @@ stale. The standard library reads only compiled catalogues, hence ``catalogue`` 
 import ast
 import gettext
 import os
+import pkgutil
 import re
 import unicodedata
 from collections.abc import Mapping
-from pathlib import Path
 
-from drillctl.files.inputs import read_bytes
+from drillctl.language.messages import Message
 
-LARGEST_CATALOGUE_BYTES = 1 << 22
-LOCALE = Path(__file__).resolve().parent.parent / "locale"
 LANGUAGES = ("en", "pl")
 ENTRY = re.compile(r'^msgid ((?:".*"\s*)+)^msgstr ((?:".*"\s*)+)', re.MULTILINE)
 QUOTED = re.compile(r'".*"')
@@ -44,7 +42,7 @@ def catalogue(text: str) -> dict[str, str]:
 
 def use(language: str, plain: bool = False) -> None:
     """Sets the language of ``_`` to one of LANGUAGES; ``plain``: without accents, for a terminal that has none."""
-    words = {} if language == "en" else catalogue(_text(language))
+    words = {} if language == "en" else catalogue(catalogue_text(language))
     if plain:
         words = {source: _without_accents(word) for source, word in words.items()}
     _spoken.words = words
@@ -55,12 +53,19 @@ def spoken_words() -> Mapping[str, str]:
     return _spoken.words
 
 
-def _text(language: str) -> str:
-    return read_bytes(_file(language), LARGEST_CATALOGUE_BYTES, "a catalogue").decode()
+def translated(message: str) -> str:
+    """Returns a message in the operator's language: its template's translation with its fields, Messages among them
+    translated too. A text that is no Message is data and returned as it is.
+    """
+    if not isinstance(message, Message):
+        return message
+    fields = {name: translated(value) if isinstance(value, str) else value for name, value in message.fields.items()}
+    return _(message.template).format(**fields)
 
 
-def _file(language: str) -> Path:
-    return LOCALE / language / "LC_MESSAGES" / "drillctl.po"
+def catalogue_text(language: str) -> str:
+    """Returns the text of a language's catalogue. Raises OSError where it is not installed."""
+    return (pkgutil.get_data("drillctl", f"locale/{language}/LC_MESSAGES/drillctl.po") or b"").decode()
 
 
 def _without_accents(text: str) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
-from drillctl.language import known_words, nearest
+from drillctl.language import Message, known_words, nearest
 from drillctl.machine.model import AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
@@ -57,13 +57,17 @@ def _check_names(source: Source, raw: MachineFile) -> None:
     for key, names in (("axis", [row.name for row in raw.axis]), ("sensor", [row.name for row in raw.sensor])):
         for index, name in enumerate(names):
             if name in names[:index]:
-                raise source.error(f"{key} {name}: a second one of this name", key, index, "name")
+                raise source.error(
+                    Message("{kind} {name}: a second one of this name", kind=key, name=name), key, index, "name"
+                )
     for index, row in enumerate(raw.axis):
         if row.name in TRACE_NAMES:
-            raise source.error(f"axis {row.name}: traces use this name for their own", "axis", index, "name")
+            raise source.error(
+                Message("axis {name}: traces use this name for their own", name=row.name), "axis", index, "name"
+            )
     for name in raw.outputs:
         if not NAME.fullmatch(name):
-            reason = f"outputs: {name!r}: a name is letters, digits, - and _, no - or _ first"
+            reason = Message("outputs: {name!r}: a name is letters, digits, - and _, no - or _ first", name=name)
             raise source.error(reason, "outputs", name)
 
 
@@ -75,13 +79,26 @@ def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int
     dynamics = parts.dynamics(row.dynamics, motor, phase, source, ("axis", index, "dynamics"))
     low, high = row.range
     if low > 0 or high <= 0:
-        reason = f"axis {row.name}: range {low}..{high} must reach from 0 or below to above 0"
+        reason = Message(
+            "axis {name}: range {low}..{high} must reach from 0 or below to above 0", name=row.name, low=low, high=high
+        )
         raise source.error(reason, "axis", index, "range")
     if not low <= row.start <= high:
-        reason = f"axis {row.name}: start {row.start} is outside its range {low}..{high}"
+        reason = Message(
+            "axis {name}: start {start} is outside its range {low}..{high}",
+            name=row.name,
+            start=row.start,
+            low=low,
+            high=high,
+        )
         raise source.error(reason, "axis", index, "start")
     if row.columns_per_step > phase.columns:
-        reason = f"axis {row.name}: {row.columns_per_step} columns a step, its table has {phase.columns}"
+        reason = Message(
+            "axis {name}: {columns} columns a step, its table has {length}",
+            name=row.name,
+            columns=row.columns_per_step,
+            length=phase.columns,
+        )
         raise source.error(reason, "axis", index, "columns_per_step")
     bits = tuple(_wire_bit(source, wiring, f"{row.name}.{wire}") for wire in phase.wire_names())
     return AxisTable(
@@ -92,7 +109,7 @@ def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int
 
 def _wire_bit(source: Source, wiring: Mapping[str, int], name: str) -> int:
     if name not in wiring:
-        raise source.error(f'wiring: no bit for "{name}", a wire of its phase table', "wiring")
+        raise source.error(Message('wiring: no bit for "{name}", a wire of its phase table', name=name), "wiring")
     return wiring[name]
 
 
@@ -104,13 +121,23 @@ def _check_wiring(
         if name in wires:
             continue
         if meant := nearest(name, sorted(wires)):
-            raise source.error(f'wiring: no axis has a wire "{name}"; did you mean "{meant}"?', "wiring", name)
-        raise source.error(f'wiring: no axis has a wire "{name}"', "wiring", name)
+            raise source.error(
+                Message('wiring: no axis has a wire "{name}"; did you mean "{meant}"?', name=name, meant=meant),
+                "wiring",
+                name,
+            )
+        raise source.error(Message('wiring: no axis has a wire "{name}"', name=name), "wiring", name)
     taken: dict[int, str] = {}
     for table, bits in (("wiring", wiring), ("outputs", outputs)):
         for name, bit in bits.items():
             if bit in taken:
-                raise source.error(f'{table}: output bit {bit} of "{name}" is {taken[bit]}\'s already', table, name)
+                raise source.error(
+                    Message(
+                        'output bit {bit} of "{name}" is {other}\'s already', bit=bit, name=name, other=taken[bit]
+                    ).at(table),
+                    table,
+                    name,
+                )
             taken[bit] = name
 
 
@@ -118,7 +145,12 @@ def _check_inputs(source: Source, raw: MachineFile) -> None:
     taken: dict[int, str] = {}
     for index, sensor in enumerate(raw.sensor):
         if sensor.bit in taken:
-            reason = f"sensor {sensor.name}: input bit {sensor.bit} is {taken[sensor.bit]}'s already"
+            reason = Message(
+                "sensor {name}: input bit {bit} is {other}'s already",
+                name=sensor.name,
+                bit=sensor.bit,
+                other=taken[sensor.bit],
+            )
             raise source.error(reason, "sensor", index, "bit")
         taken[sensor.bit] = sensor.name
 
@@ -129,14 +161,28 @@ def _check_locked(source: Source, raw: MachineFile) -> None:
     settings = frozenset(name for setting in (*settings_of(raw), *wire_settings_of(raw)) for name in setting.names)
     for name in raw.locked:
         if name not in settings:
-            raise source.error(f"locked: no setting is named {name!r}; {known_words(name, sorted(settings))}", "locked")
+            raise source.error(
+                Message(
+                    "locked: no setting is named {name!r}; {words}",
+                    name=name,
+                    words=known_words(name, sorted(settings)),
+                ),
+                "locked",
+            )
 
 
 def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -> None:
     for head in heads:
         if drill.down is not None and not 0 < drill.down <= head.high_steps:
             raise source.error(
-                f"drill: down {drill.down} is outside 1..{head.high_steps} of {head.name}", "drill", "down"
+                Message(
+                    "drill: down {down} is outside 1..{high} of {name}",
+                    down=drill.down,
+                    high=head.high_steps,
+                    name=head.name,
+                ),
+                "drill",
+                "down",
             )
 
 
@@ -148,9 +194,13 @@ def _sensor(source: Source, raw: MachineFile, index: int, axes: tuple[AxisTable,
     brake = table.ramp.top
     room = row.edge - brake >= table.low_steps if row.end == "min" else row.edge + brake <= table.high_steps
     if not room:
-        reason = (
-            f"sensor {row.name}: edge {row.edge} leaves no room to brake ({brake} steps) "
-            f"inside the range {table.low_steps}..{table.high_steps}"
+        reason = Message(
+            "sensor {name}: edge {edge} leaves no room to brake ({brake} steps) inside the range {low}..{high}",
+            name=row.name,
+            edge=row.edge,
+            brake=brake,
+            low=table.low_steps,
+            high=table.high_steps,
         )
         raise source.error(reason, "sensor", index, "edge")
     return Sensor(row.name, row.bit, row.active, axis, row.end, row.edge, row.hysteresis)
@@ -162,10 +212,22 @@ def _check_other_end(source: Source, raw: MachineFile, index: int) -> None:
         if other.axis != row.axis:
             continue
         if other.end == row.end:
-            raise source.error(f"sensor {row.name}: {row.axis} has a {row.end} sensor already", "sensor", index, "end")
+            raise source.error(
+                Message("sensor {name}: {axis} has a {end} sensor already", name=row.name, axis=row.axis, end=row.end),
+                "sensor",
+                index,
+                "end",
+            )
         low, high = (other, row) if row.end == "max" else (row, other)
         if low.edge >= high.edge:
-            reason = f"sensor {row.name}: edge {low.edge} of {low.name} must lie below edge {high.edge} of {high.name}"
+            reason = Message(
+                "sensor {name}: edge {edge} of {low} must lie below edge {other} of {high}",
+                name=row.name,
+                edge=low.edge,
+                low=low.name,
+                other=high.edge,
+                high=high.name,
+            )
             raise source.error(reason, "sensor", index, "edge")
 
 
@@ -174,7 +236,9 @@ def _homing(source: Source, row: HomingRow, index: int, names: list[str], sensor
     sensed = {sensor.axis for sensor in sensors if sensor.end == row.end}
     for axis in axes:
         if row.do != "zero" and axis not in sensed:
-            reason = f"homing: {row.do} needs a {row.end} sensor, and {names[axis]} has none"
+            reason = Message(
+                "homing: {what} needs a {end} sensor, and {axis} has none", what=row.do, end=row.end, axis=names[axis]
+            )
             raise source.error(reason, "homing", index, "axes")
     return HomingStep(row.do, axes, row.end, row.limit)
 
@@ -188,6 +252,8 @@ def _surfaces(source: Source, surfaces: Mapping[str, object], names: list[str]) 
 def _indexes(source: Source, wanted: Iterable[str], names: list[str], *place: str | int) -> tuple[int, ...]:
     for name in wanted:
         if name not in names:
-            reason = f"{place[0]}: no axis is named {name!r}; {known_words(name, names)}"
+            reason = Message("no axis is named {name!r}; {words}", name=name, words=known_words(name, names)).at(
+                place[0]
+            )
             raise source.error(reason, *place)
     return tuple(names.index(name) for name in wanted)

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import msgspec
 
+from drillctl.language import Message
 from drillctl.machine.motor import Motor
 from drillctl.machine.phase import Name, PhaseTable
 from drillctl.machine.source import Source
@@ -69,21 +70,34 @@ def parse_dynamics(source: Source) -> Dynamics:
     """Reads a motor and its load from a file's text. Raises TableError."""
     raw = source.records(_File)
     if raw.forcing_volts < raw.normal_volts:
-        raise source.error("forcing_volts is below normal_volts", "forcing_volts")
+        raise source.error(Message("forcing_volts is below normal_volts"), "forcing_volts")
     fields = msgspec.structs.asdict(raw)
     del fields["description"]
     fields["forcing"] = tuple((wire, tuple(windings)) for wire, windings in raw.forcing.items())
     return Dynamics(**fields)
 
 
-def misfit(dynamics: Dynamics, motor: Motor, phase: PhaseTable) -> str | None:
+def misfit(dynamics: Dynamics, motor: Motor, phase: PhaseTable) -> Message | None:
     """Returns why these dynamics can't describe the motor with this phase table, or None where they can."""
     if sorted(angle % 360 for _, angle in motor.windings) != sorted(WINDING_DEGREES):
-        return f"motor {motor.name} has not the four half windings, a quarter cycle apart, that dynamics are told of"
+        return Message(
+            "motor {name} has not the four half windings, a quarter cycle apart, that dynamics are told of",
+            name=motor.name,
+        )
     forcing = {wire.name for wire in phase.wires if wire.forcing}
     if unfed := forcing - {wire for wire, _ in dynamics.forcing}:
-        return f"forcing wire {min(unfed)} of table {phase.name} is not under [forcing] of dynamics {dynamics.name}"
+        return Message(
+            "forcing wire {wire} of table {table} is not under [forcing] of dynamics {dynamics}",
+            wire=min(unfed),
+            table=phase.name,
+            dynamics=dynamics.name,
+        )
     named = {winding for wire, windings in dynamics.forcing if wire in forcing for winding in windings}
     if strange := named - motor.wire_names():
-        return f"dynamics {dynamics.name}: motor {motor.name} has no winding {min(strange)}"
+        return Message(
+            "dynamics {name}: motor {motor} has no winding {winding}",
+            name=dynamics.name,
+            motor=motor.name,
+            winding=min(strange),
+        )
     return None

@@ -11,6 +11,7 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Integer, Table
 
+from drillctl.language import Message, message_of
 from drillctl.machine.errors import TableError
 from drillctl.machine.positions import Place
 from drillctl.machine.source import Value
@@ -73,7 +74,9 @@ def opened(text: str) -> tomlkit.TOMLDocument:
     try:
         return tomlkit.parse(text)
     except TOMLKitError as error:
-        raise TableError(UNSAVED, f"not TOML: {error}", getattr(error, "line", None)) from error
+        raise TableError(
+            UNSAVED, Message("not TOML: {reason}", reason=message_of(error)), getattr(error, "line", None)
+        ) from error
 
 
 def _inside(document: Any, place: Place) -> Any:
@@ -88,7 +91,7 @@ def _inside(document: Any, place: Place) -> Any:
 
 
 def _missing(place: Place) -> TableError:
-    return TableError(UNSAVED, f"there is no {'.'.join(map(str, place))} in it")
+    return TableError(UNSAVED, Message("there is no {name} in it", name=".".join(map(str, place))))
 
 
 def _as_written(inner: Any, key: str | int, value: Value) -> Any:
@@ -103,7 +106,7 @@ def _row_of(text: str, rows: str, key: str, wanted: str | int) -> int:
     for index, row in enumerate(opened(text).get(rows, ())):
         if row.get(key) == wanted:
             return index
-    raise TableError(UNSAVED, f"no [[{rows}]] has {key} {wanted}")
+    raise TableError(UNSAVED, Message("no [[{rows}]] has {key} {wanted}", rows=rows, key=key, wanted=wanted))
 
 
 def with_states(text: str, state: int, accelerate: int, brake: int, interval: int) -> str:

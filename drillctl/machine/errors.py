@@ -2,11 +2,14 @@
 
 from pathlib import Path
 
+from drillctl.language import Message, Refusal
 
-class TableError(Exception):
+
+class TableError(Refusal):
     """A table that can't be used. ``str()`` is one line: ``FILE:LINE: reason`` (LINE where one is known)."""
 
-    def __init__(self, file: Path | str, reason: str, line: int | None = None):
+    kind = "table"
+
+    def __init__(self, file: Path | str, reason: Message, line: int | None = None):
         self.file, self.reason, self.line = str(file), reason, line
-        place = f"{file}:{line}" if line else f"{file}"
-        super().__init__(f"{place}: {reason}")
+        super().__init__(reason.at(file, line))

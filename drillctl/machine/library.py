@@ -10,7 +10,7 @@ from pathlib import Path
 
 from drillctl.files.inputs import read_bytes, real_path
 from drillctl.files.shipped import shipped
-from drillctl.language import known_words
+from drillctl.language import Message, known_words
 from drillctl.machine.config import parse_machine
 from drillctl.machine.dynamics import parse_dynamics
 from drillctl.machine.errors import TableError
@@ -95,21 +95,23 @@ class Library:
         found = find_table(self.folders, "machines", name_or_file)
         if found is None:
             hint = known_words(name_or_file, self.machine_names())
-            raise TableError(name_or_file, f"no machine of this name; {hint}")
+            raise TableError(name_or_file, Message("no machine of this name; {words}", words=hint))
         return self._parse(Source.read(found))
 
-    def check(self, file: Path) -> list[str]:
+    def check(self, file: Path) -> list[Message]:
         """Reads any table; returns its hazards as sentences. Raises TableError where it can't be used."""
         return self.check_source(Source.read(file))
 
-    def check_source(self, source: Source) -> list[str]:
+    def check_source(self, source: Source) -> list[Message]:
         """As ``check``, for a text that need not be in its file yet."""
         written = source.tree()
         for key, hazards in _KINDS.items():
             if key in written:
                 return hazards(self, source)
-        kinds = "a phase table has [[wire]], a ramp [[state]], a motor [windings], a machine [[axis]]"
-        raise TableError(source.file, f"no table of this program: {kinds}, dynamics have inertia_kgm2")
+        kinds = Message("a phase table has [[wire]], a ramp [[state]], a motor [windings], a machine [[axis]]")
+        raise TableError(
+            source.file, Message("no table of this program: {kinds}, dynamics have inertia_kgm2", kinds=kinds)
+        )
 
     def _machine_of(self, source: Source) -> Machine:
         """Returns a machine given by its file, with the tables beside it searched first."""
@@ -124,28 +126,28 @@ class Library:
             self.tell(local)
         return machine if shipped else replace(machine, shipped=_same_as_shipped(machine.files))
 
-    def _phase_hazards(self, source: Source) -> list[str]:
+    def _phase_hazards(self, source: Source) -> list[Message]:
         table = parse_phase(source)
         return phase_hazards(table, Parts(self.folders, source.file).motor(None, table, source, ("name",)))
 
-    def _machine_hazards(self, source: Source) -> list[str]:
+    def _machine_hazards(self, source: Source) -> list[Message]:
         return machine_hazards(self._machine_of(source))
 
-    def _ramp_hazards(self, source: Source) -> list[str]:
+    def _ramp_hazards(self, source: Source) -> list[Message]:
         parse_ramp(source)
         return []
 
-    def _motor_hazards(self, source: Source) -> list[str]:
+    def _motor_hazards(self, source: Source) -> list[Message]:
         parse_motor(source)
         return []
 
-    def _dynamics_hazards(self, source: Source) -> list[str]:
+    def _dynamics_hazards(self, source: Source) -> list[Message]:
         parse_dynamics(source)
         return []
 
 
 # What a table is, by a key that only its kind has.
-_KINDS: Mapping[str, Callable[[Library, Source], list[str]]] = {
+_KINDS: Mapping[str, Callable[[Library, Source], list[Message]]] = {
     "wire": Library._phase_hazards,
     "state": Library._ramp_hazards,
     "axis": Library._machine_hazards,
@@ -174,7 +176,7 @@ def _same_bytes(file: Path, other: Path) -> bool:
 
 
 def _bytes(file: Path) -> bytes:
-    return read_bytes(file, LARGEST_TABLE_BYTES, "a table")
+    return read_bytes(file, LARGEST_TABLE_BYTES, Message("a table"))
 
 
 def _tables_beside(machine_file: Path) -> Path:
@@ -183,7 +185,7 @@ def _tables_beside(machine_file: Path) -> Path:
     return folder.parent if folder.name == "machines" else folder
 
 
-def machine_hazards(machine: Machine) -> list[str]:
+def machine_hazards(machine: Machine) -> list[Message]:
     """Returns the hazards of all the phase tables of a machine, each table once."""
     tables = {axis.phase: axis.motor for axis in machine.axes}
-    return [f"{table.name}: {hazard}" for table, motor in tables.items() for hazard in phase_hazards(table, motor)]
+    return [hazard.at(table.name) for table, motor in tables.items() for hazard in phase_hazards(table, motor)]

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import msgspec
 
+from drillctl.language import Message
 from drillctl.machine.phase import Name
 from drillctl.machine.source import Source
 
@@ -73,8 +74,8 @@ def parse_motor(source: Source) -> Motor:
     if len(raw.windings) > 1 and raw.columns_per_cycle and raw.rests_per_cycle and not any(drive):
         windings = tuple(source.numbers(raw.windings, Degrees, "windings").items())
         return Motor(raw.name, windings, raw.columns_per_cycle, raw.rests_per_cycle, raw.zero_degrees)
-    reason = (
-        "a motor has either [windings] with columns_per_cycle and rests_per_cycle, "
-        "or pulse, direction and columns_per_pulse"
+    reason = Message(
+        "a motor has either [windings] with columns_per_cycle and rests_per_cycle, or pulse, direction and "
+        "columns_per_pulse"
     )
     raise source.error(reason, "name")

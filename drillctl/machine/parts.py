@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from drillctl.language import known_words
+from drillctl.language import Message, known_words
 from drillctl.machine.dynamics import Dynamics, misfit, parse_dynamics
 from drillctl.machine.motor import Motor, parse_motor
 from drillctl.machine.phase import PhaseTable, parse_phase
@@ -53,7 +53,15 @@ class Parts:
         motor = parse_motor(self._open("motor", name, source, place))
         if missing := motor.wire_names() - wires:
             needs = ", ".join(sorted(missing))
-            raise source.error(f"motor {name} needs wires {needs}; table {table.name} has none", *place)
+            raise source.error(
+                Message(
+                    "motor {motor} needs wires {wires}; table {table} has none",
+                    motor=name,
+                    wires=needs,
+                    table=table.name,
+                ),
+                *place,
+            )
         return motor
 
     def dynamics(
@@ -73,13 +81,23 @@ class Parts:
             if motor.wire_names() == wires:
                 self.files.append(found.file)
                 return motor
-        raise source.error(f"no motor has just the wires {', '.join(sorted(wires))}; name one", *place)
+        raise source.error(
+            Message("no motor has just the wires {wires}; name one", wires=", ".join(sorted(wires))), *place
+        )
 
     def _open(self, kind: str, name: str, source: Source, place: Place) -> Source:
         found = self._find(kind, name)
         if found is None:
             names = sorted({file.stem for folder in self._folders for file in (folder / kind).glob("*.toml")})
-            raise source.error(f"no {kind} table is named {name[:60]!r}; {known_words(name, names)}", *place)
+            raise source.error(
+                Message(
+                    "no {kind} table is named {name!r}; {words}",
+                    kind=kind,
+                    name=name[:60],
+                    words=known_words(name, names),
+                ),
+                *place,
+            )
         self.files.append(found.file)
         return found
 

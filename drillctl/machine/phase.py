@@ -9,6 +9,7 @@ from typing import Annotated
 
 import msgspec
 
+from drillctl.language import Message
 from drillctl.machine.source import Source
 
 LONGEST_TABLE = 96
@@ -72,14 +73,19 @@ def parse_phase(source: Source) -> PhaseTable:
     raw = source.records(_File)
     columns = len(raw.wire[0].pattern)
     if not 2 <= columns <= LONGEST_TABLE:
-        reason = f"wire {raw.wire[0].name}: {columns} columns; a table has 2 to {LONGEST_TABLE}"
+        reason = Message(
+            "wire {name}: {columns} columns; a table has 2 to {most}",
+            name=raw.wire[0].name,
+            columns=columns,
+            most=LONGEST_TABLE,
+        )
         raise source.error(reason, "wire", 0, "pattern")
     backward = _reverse_rows(source, raw, columns)
     normal_volts = min(row.volts for row in raw.wire)
     wires: list[Wire] = []
     for index, row in enumerate(raw.wire):
         if row.name in {wire.name for wire in wires}:
-            raise source.error(f"wire {row.name}: a second row of this name", "wire", index, "name")
+            raise source.error(Message("wire {name}: a second row of this name", name=row.name), "wire", index, "name")
         forward = _bits(source, row.name, row.pattern, columns, "wire", index)
         wires.append(Wire(row.name, row.volts > normal_volts, forward, backward.get(row.name, forward)))
     if raw.direction is not None:
@@ -101,29 +107,37 @@ def _reverse_rows(source: Source, raw: _File, columns: int) -> dict[str, tuple[b
     rows: dict[str, tuple[bool, ...]] = {}
     for index, row in enumerate(raw.reverse):
         if row.name not in names or row.name in rows:
-            reason = f"reverse {row.name}: one row for each wire of the table, and no others"
+            reason = Message("reverse {name}: one row for each wire of the table, and no others", name=row.name)
             raise source.error(reason, "reverse", index, "name")
         rows[row.name] = _bits(source, row.name, row.pattern, columns, "reverse", index)
     if rows and rows.keys() != names:
         missing = ", ".join(sorted(names - rows.keys()))
-        raise source.error(f"reverse: no row for {missing}", "reverse", 0)
+        raise source.error(Message("reverse: no row for {names}", names=missing), "reverse", 0)
     return rows
 
 
 def _bits(source: Source, name: str, pattern: str, columns: int, key: str, index: int) -> tuple[bool, ...]:
     if strange := pattern.strip("x."):
-        reason = f"{key} {name}: {strange[0]!r} in the pattern; only 'x' (on) and '.' (off)"
+        reason = Message(
+            "{key} {name}: {sign!r} in the pattern; only 'x' (on) and '.' (off)", key=key, name=name, sign=strange[0]
+        )
         raise source.error(reason, key, index, "pattern")
     if len(pattern) != columns:
-        reason = f"{key} {name}: {len(pattern)} columns, the first row has {columns}"
+        reason = Message(
+            "{key} {name}: {columns} columns, the first row has {first}",
+            key=key,
+            name=name,
+            columns=len(pattern),
+            first=columns,
+        )
         raise source.error(reason, key, index, "pattern")
     return tuple(mark == "x" for mark in pattern)
 
 
 def _direction_wire(source: Source, row: _Direction, columns: int, taken: list[str]) -> Wire:
     if row.name in taken:
-        raise source.error(f"direction {row.name}: a row has this name already", "direction", "name")
+        raise source.error(Message("direction {name}: a row has this name already", name=row.name), "direction", "name")
     if row.forward not in ("x", "."):
-        raise source.error(f"direction {row.name}: forward is 'x' or '.'", "direction", "forward")
+        raise source.error(Message("direction {name}: forward is 'x' or '.'", name=row.name), "direction", "forward")
     level = row.forward == "x"
     return Wire(row.name, False, (level,) * columns, (not level,) * columns)

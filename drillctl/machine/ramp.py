@@ -12,6 +12,7 @@ from typing import Annotated
 
 import msgspec
 
+from drillctl.language import Message
 from drillctl.machine.phase import Name
 from drillctl.machine.source import Source
 
@@ -149,7 +150,9 @@ def parse_ramp(source: Source) -> RampTable:
     _check_order(source, raw, rows)
     if (inexact := ramp.first_inexact()) is not None:
         state, steps = inexact
-        reason = f"state {state}: a move of {steps} steps is not landed on exactly; brake earlier"
+        reason = Message(
+            "state {state}: a move of {steps} steps is not landed on exactly; brake earlier", state=state, steps=steps
+        )
         raise source.error(reason, "state", rows[state], "brake")
     return ramp
 
@@ -174,11 +177,18 @@ def _rows_by_state(source: Source, raw: _File) -> dict[int, int]:
     rows: dict[int, int] = {}
     for index, row in enumerate(raw.state):
         if row.state in rows:
-            raise source.error(f"state {row.state}: a second row of this state", "state", index, "state")
+            raise source.error(
+                Message("state {state}: a second row of this state", state=row.state), "state", index, "state"
+            )
         rows[row.state] = index
     top = max(map(abs, rows))
     if missing := [state for state in range(-top, top + 1) if state not in rows]:
-        reason = f"no row for state {', '.join(map(str, missing))}; a ramp has all from {-top} to {top}"
+        reason = Message(
+            "no row for state {states}; a ramp has all from {lowest} to {top}",
+            states=", ".join(map(str, missing)),
+            lowest=-top,
+            top=top,
+        )
         raise source.error(reason, "state", 0)
     return rows
 
@@ -186,7 +196,12 @@ def _rows_by_state(source: Source, raw: _File) -> dict[int, int]:
 def _check_row(source: Source, index: int, row: _Row) -> None:
     for key, distance in (("accelerate", row.accelerate), ("brake", row.brake)):
         if distance * row.state < 0 or (row.state == 0) != (distance == 0):
-            reason = f"state {row.state}: {key} distance {distance} must have the state's sign (0 for state 0)"
+            reason = Message(
+                "state {state}: {key} distance {distance} must have the state's sign (0 for state 0)",
+                state=row.state,
+                key=key,
+                distance=distance,
+            )
             raise source.error(reason, "state", index, key)
 
 
@@ -195,5 +210,10 @@ def _check_order(source: Source, raw: _File, rows: dict[int, int]) -> None:
         below = state - (state > 0) + (state < 0)
         if state and abs(raw.state[index].brake) < abs(raw.state[rows[below]].brake):
             distance = raw.state[index].brake
-            reason = f"state {state}: brake distance {distance} is below state {below}'s"
+            reason = Message(
+                "state {state}: brake distance {distance} is below state {below}'s",
+                state=state,
+                distance=distance,
+                below=below,
+            )
             raise source.error(reason, "state", index, "brake")

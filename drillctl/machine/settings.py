@@ -14,6 +14,7 @@ from typing import Any
 import msgspec
 from msgspec.inspect import FloatType, IntType, LiteralType, StructType, TupleType, Type, type_info
 
+from drillctl.language import Message
 from drillctl.machine.positions import Place
 from drillctl.machine.shape import LAST_BIT, MachineFile
 from drillctl.machine.source import Source, Value
@@ -76,12 +77,12 @@ class Setting:
         """
         value = self._converted(typed.strip())
         if self.choices and value not in self.choices:
-            raise ValueError(f"{typed!r}: it is one of {', '.join(self.choices)}")
+            raise ValueError(Message("it is one of {choices}", choices=", ".join(self.choices)).at(typed))
         if isinstance(value, str):
             return value
         too_low = (self.least is not None and value < self.least) or (self.above is not None and value <= self.above)
         if too_low or (self.greatest is not None and value > self.greatest):
-            raise ValueError(f"{typed}: out of range")
+            raise ValueError(Message("out of range").at(typed))
         return value
 
     def _converted(self, typed: str) -> Value:
@@ -92,8 +93,8 @@ class Setting:
                 raise ValueError
             return self.kind(typed)
         except ValueError:
-            wanted = "a whole number" if self.kind is int else "a number"
-            raise ValueError(f"{typed!r}: {wanted} is wanted") from None
+            wanted = Message("a whole number") if self.kind is int else Message("a number")
+            raise ValueError(Message("{kind} is wanted", kind=wanted).at(typed)) from None
 
 
 def settings(source: Source) -> tuple[Setting, ...]:

@@ -13,6 +13,8 @@ from typing import Any, TypeVar
 import msgspec
 
 from drillctl.files.inputs import read_bytes, toml_of
+from drillctl.language import Message, message_of, verbatim
+from drillctl.language.words import N_
 from drillctl.machine.errors import TableError
 from drillctl.machine.positions import key_lines
 
@@ -23,11 +25,14 @@ RecordT = TypeVar("RecordT", bound=msgspec.Struct)
 _AT = re.compile(r"(.*?) - at `\$\.?(.*)`$", re.S)
 _TOML_LINE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)$", re.S)
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`", re.S)
-# Messages of msgspec in an instructor's words; its other messages are plain enough.
+# Sentences of msgspec, which has no codes, and the templates that say the same to an instructor.
 _PLAINLY = (
-    (_UNKNOWN, r"unknown key \1"),
-    (re.compile(r"Object missing required field `(.+)`"), r"\1 is missing"),
-    (re.compile(r"Expected `str` matching regex .*", re.S), "a name is letters, digits, - and _, no - or _ first"),
+    (re.compile(r"Object contains unknown field `(?P<name>.+)`", re.S), N_("unknown key {name}")),
+    (re.compile(r"Object missing required field `(?P<name>.+)`"), N_("{name} is missing")),
+    (re.compile(r"Expected `str` matching regex .*", re.S), N_("a name is letters, digits, - and _, no - or _ first")),
+    (re.compile(r"Expected `(?P<wanted>.+)`, got `(?P<found>.+)`", re.S), N_("expected {wanted}, got {found}")),
+    (re.compile(r"Expected (?P<wanted>.+)", re.S), N_("expected {wanted}")),
+    (re.compile(r"Invalid enum value (?P<value>.+)", re.S), N_("invalid enum value {value}")),
 )
 
 
@@ -42,14 +47,14 @@ class Source:
     def read(cls, file: Path) -> "Source":
         """Reads a file. Raises TableError where it can't be opened, is too large or is not UTF-8."""
         try:
-            data = read_bytes(file, LARGEST_TABLE_BYTES, "a table")
+            data = read_bytes(file, LARGEST_TABLE_BYTES, Message("a table"))
         except OSError as error:
-            raise TableError(file, f"can't be read: {error.strerror}") from error
+            raise TableError(file, Message("can't be read: {why}", why=message_of(error))) from error
         try:
             return cls(file, data.decode("utf-8-sig"))
         except UnicodeDecodeError as error:
             line = data.count(b"\n", 0, error.start) + 1
-            raise TableError(file, "not UTF-8 text, so not a table", line) from error
+            raise TableError(file, Message("not UTF-8 text, so not a table"), line) from error
 
     def tree(self) -> dict[str, Any]:
         """Returns the file as plain tables, lists and values. Raises TableError for what is not TOML."""
@@ -59,9 +64,9 @@ class Source:
             found = _TOML_LINE.match(str(error))
             reason = found[1] if found else str(error)
             line = int(found[2] or self.text.count("\n") + 1) if found else None
-            raise TableError(self.file, f"not TOML: {reason}", line) from error
+            raise TableError(self.file, Message("not TOML: {reason}", reason=reason), line) from error
         except ValueError as error:
-            raise TableError(self.file, str(error)) from error
+            raise TableError(self.file, message_of(error)) from error
 
     def records(self, shape: type[RecordT]) -> RecordT:
         """Returns the file as a record of the given shape. Raises TableError for bad TOML, unknown
@@ -81,10 +86,14 @@ class Source:
             try:
                 checked[key] = msgspec.convert(value, kind)
             except msgspec.ValidationError as error:
-                raise self.error(f'{place[-1]}: "{key}": {_plainly(str(error))}', *place, key) from error
+                raise self.error(
+                    _plainly(str(error)).at(f'"{key}"').at(place[-1]),
+                    *place,
+                    key,
+                ) from error
         return checked
 
-    def error(self, reason: str, *place: str | int) -> TableError:
+    def error(self, reason: Message, *place: str | int) -> TableError:
         """Returns a TableError at a place such as ``"state", 2, "brake"``: the key in the third ``[[state]]``."""
         return TableError(self.file, reason, self.line_of(*place))
 
@@ -103,12 +112,13 @@ class Source:
         place = [int(p) if p.isdigit() else p for p in re.split(r"[.\[\]]+", path) if p and p != "..."]
         unknown = _UNKNOWN.search(reason)
         line = self.line_of(*place, *([unknown[1]] if unknown else [])) if place or unknown else None
-        where = f"{path}: " if path else ""
-        return TableError(self.file, f"{where}{_plainly(reason)}", line)
+        plain = _plainly(reason)
+        return TableError(self.file, plain.at(path) if path else plain, line)
 
 
-def _plainly(reason: str) -> str:
-    for pattern, words in _PLAINLY:
+def _plainly(reason: str) -> Message:
+    """Returns a sentence of msgspec as a message; one that no pattern knows as it is, from a small letter on."""
+    for pattern, template in _PLAINLY:
         if found := pattern.fullmatch(reason):
-            return found.expand(words)
-    return f"{reason[:1].lower()}{reason[1:].replace('`', '')}"
+            return Message(template, **{name: part.replace("`", "") for name, part in found.groupdict().items()})
+    return verbatim(f"{reason[:1].lower()}{reason[1:].replace('`', '')}")

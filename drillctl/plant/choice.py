@@ -6,6 +6,7 @@ A trace's header has the same words.
 
 from dataclasses import dataclass
 
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.plant.base import Plant
 from drillctl.plant.faults import PlantRefused
@@ -29,7 +30,7 @@ class PlantChoice:
         if kind == NONE:
             return IDEAL_PLANT
         if kind not in (IDEAL, DYNAMIC):
-            raise PlantRefused(f"plant {described[:60]!r} is none that can be built")
+            raise PlantRefused(Message("plant {described!r} is none that can be built", described=described[:60]))
         return cls(kind, tuple(faults), int(seed[:20]) if seed.isdecimal() else 0)
 
     def build(self, machine: Machine) -> Plant:
@@ -39,7 +40,7 @@ class PlantChoice:
 
             return DynamicPlant(machine, self.faults, self.seed)
         if self.faults:
-            raise PlantRefused("only the dynamic plant can have faults: say --plant dynamic")
+            raise PlantRefused(Message("only the dynamic plant can have faults: say --plant dynamic"))
         return IdealPlant(machine)
 
 

@@ -7,12 +7,14 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from drillctl.language import nearest
+from drillctl.language import Message, Refusal, nearest
 from drillctl.machine import Machine
 
 
-class PlantRefused(Exception):
+class PlantRefused(Refusal):
     """A plant that this machine can't have. ``str()`` says why, and what to do."""
+
+    kind = "plant"
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +61,18 @@ class Faults:
             kind = FAULT_KINDS[fault.name].part
             if fault.part not in parts[kind]:
                 has = ", ".join(parts[kind])
-                raise PlantRefused(f"fault {fault.name}: {machine.name} has no {kind} {fault.part!r}; it has {has}")
+                raise PlantRefused(
+                    Message(
+                        "fault {name}: {machine} has no {kind} {part!r}; it has {has}",
+                        name=fault.name,
+                        machine=machine.name,
+                        kind=kind,
+                        part=fault.part,
+                        has=has,
+                    )
+                )
             if (fault.name, fault.part) in self._values:
-                raise PlantRefused(f"fault {fault}: told twice")
+                raise PlantRefused(Message("fault {fault}: told twice", fault=fault))
             self._values[fault.name, fault.part] = fault.value
 
     def of(self, name: str, part: str = "") -> float | None:
@@ -76,12 +87,27 @@ def parse_fault(text: str) -> Fault:
     if found is None or kind is None:
         word = re.split("[.=]", text, maxsplit=1)[0]
         meant = nearest(word, FAULT_KINDS)
-        hint = f"; did you mean {_usage(meant)}?" if meant else ""
-        raise PlantRefused(f"fault {text[:60]!r}: not known; there are {', '.join(map(_usage, FAULT_KINDS))}{hint}")
+        hint = Message("; did you mean {usage}?", usage=_usage(meant)) if meant else ""
+        raise PlantRefused(
+            Message(
+                "fault {text!r}: not known; there are {names}{hint}",
+                text=text[:60],
+                names=", ".join(map(_usage, FAULT_KINDS)),
+                hint=hint,
+            )
+        )
     if bool(found[2]) != bool(kind.part):
-        raise PlantRefused(f"fault {text[:60]!r}: it is told as {_usage(found[1])}")
+        raise PlantRefused(Message("fault {text!r}: it is told as {usage}", text=text[:60], usage=_usage(found[1])))
     if not kind.least <= float(found[3]) <= kind.most:
-        raise PlantRefused(f"fault {text[:60]!r}: {kind.meaning}: from {kind.least:g} to {kind.most:g}")
+        raise PlantRefused(
+            Message(
+                "fault {text!r}: {meaning}: from {least:g} to {most:g}",
+                text=text[:60],
+                meaning=kind.meaning,
+                least=kind.least,
+                most=kind.most,
+            )
+        )
     return Fault(found[1], found[2] or "", float(found[3]))
 
 

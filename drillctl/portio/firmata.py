@@ -11,6 +11,7 @@ questions by which a reset is noticed.
 from collections.abc import Iterable
 from contextlib import suppress
 
+from drillctl.language import Message
 from drillctl.portio.firmata_line import LISTEN_S, FirmataLine
 from drillctl.portio.firmata_pins import Board, Pins
 from drillctl.portio.firmata_protocol import MESSAGE_BYTES, DigitalReport, Firmware
@@ -37,10 +38,10 @@ class FirmataCard:
         self._inputs = 0
         self._safe = b"".join(pins.messages(SAFE_IMAGE))
 
-    def facts(self) -> tuple[str, ...]:
+    def facts(self) -> tuple[Message, ...]:
         """Returns which firmware answered, and which pins are set up (ports.Telling)."""
         version = "{}.{}".format(*self._firmware.version)
-        return (f"{self._firmware.name} {version} answers", *self._pins.facts())
+        return (Message("{name} {version} answers", name=self._firmware.name, version=version), *self._pins.facts())
 
     def latch(self) -> int:
         """Returns the inputs as last reported; a change takes 0.5 ms on the wire. Raises PortLost, also for a board
@@ -126,7 +127,15 @@ def _split(address: str) -> tuple[str, int]:
     if not at:
         return address, BAUD
     if not baud.isdecimal() or not SLOWEST_BAUD <= int(baud) <= FASTEST_BAUD:
-        raise PortRefused(f"firmata:{address}", f"{baud!r} is no baud rate: {SLOWEST_BAUD} to {FASTEST_BAUD}")
+        raise PortRefused(
+            f"firmata:{address}",
+            Message(
+                "{baud!r} is no baud rate: {least} to {most}",
+                baud=baud,
+                least=SLOWEST_BAUD,
+                most=FASTEST_BAUD,
+            ),
+        )
     return device, int(baud)
 
 
@@ -134,5 +143,7 @@ def _only_device() -> str:
     found = usb_devices()
     if len(found) != 1:
         there = ", ".join(found) or "none"
-        raise PortRefused("firmata", f"which serial line? At USB there is {there}; name it: firmata:/dev/ttyACM0")
+        raise PortRefused(
+            "firmata", Message("which serial line? At USB there is {there}; name it: firmata:/dev/ttyACM0", there=there)
+        )
     return found[0]

@@ -12,7 +12,8 @@ from typing import TypeVar
 
 import serial
 
-from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, Decoder, Firmware, Message, Version
+from drillctl.language import Message, verbatim
+from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, BoardMessage, Decoder, Firmware, Version
 from drillctl.ports import LONGEST_WAIT_S, PortLost, PortRefused, PortSlow
 
 OLDEST_FIRMWARE = (2, 3)
@@ -21,7 +22,7 @@ GREETING_S = 10.0
 ASK_AGAIN_S = 1.0
 ANSWER_S = 1.0
 MOST_WAITING_BYTES = 512  # in the kernel, not yet on the wire: at 57600 baud 89 ms, far too late for a motor
-MessageT = TypeVar("MessageT", bound=Message)
+MessageT = TypeVar("MessageT", bound=BoardMessage)
 
 
 class FirmataLine:
@@ -31,11 +32,14 @@ class FirmataLine:
         """Opens the device for this process alone. Raises PortRefused. On a Mega the outputs go low for 1 to 3 s."""
         self.name = name
         self._decoder = Decoder()
-        self._earlier: list[Message] = []
+        self._earlier: list[BoardMessage] = []
         try:
             self._serial = serial.Serial(device, baud, timeout=0, write_timeout=LONGEST_WAIT_S, exclusive=True)
         except (OSError, ValueError) as error:
-            reason = f"can't be opened ({error}); see that it is there, that nobody else has it, and your rights"
+            reason = Message(
+                "can't be opened ({why}); see that it is there, that nobody else has it, and your rights",
+                why=verbatim(str(error)),
+            )
             raise PortRefused(name, reason) from error
         # May fail: only some USB converters hold bytes back, and only some of their drivers can be set not to.
         with suppress(OSError, ValueError, NotImplementedError):
@@ -51,10 +55,18 @@ class FirmataLine:
             self.send(FIRMWARE_QUERY)
             firmware = self._next(Firmware, ASK_AGAIN_S)
         if firmware is None:
-            raise PortRefused(self.name, "no Firmata answers; upload StandardFirmata, and check the baud rate")
+            raise PortRefused(self.name, Message("no Firmata answers; upload StandardFirmata, and check the baud rate"))
         if firmware.version < OLDEST_FIRMWARE:
             found, oldest = ("{}.{}".format(*version) for version in (firmware.version, OLDEST_FIRMWARE))
-            raise PortRefused(self.name, f"firmware {firmware.name} {found} is too old; upload {oldest} or newer")
+            raise PortRefused(
+                self.name,
+                Message(
+                    "firmware {name} {found} is too old; upload {oldest} or newer",
+                    name=firmware.name,
+                    found=found,
+                    oldest=oldest,
+                ),
+            )
         self._earlier.clear()  # reports and answers that an earlier run has asked for
         return firmware
 
@@ -68,7 +80,10 @@ class FirmataLine:
         except OSError as error:
             raise self._lost(error) from error
         if waiting > MOST_WAITING_BYTES:
-            raise PortSlow(self.name, f"too slow: {waiting} bytes wait to be sent; use fewer interrupts a second")
+            raise PortSlow(
+                self.name,
+                Message("too slow: {waiting} bytes wait to be sent; use fewer interrupts a second", waiting=waiting),
+            )
 
     def send_first(self, data: bytes) -> None:
         """As ``send``, before anything that still waits in the kernel, which is dropped."""
@@ -78,7 +93,7 @@ class FirmataLine:
             raise self._lost(error) from error
         self.send(data)
 
-    def received(self) -> list[Message]:
+    def received(self) -> list[BoardMessage]:
         """Returns the messages that have arrived since the last call, without waiting. Raises PortLost."""
         messages, self._earlier = self._earlier, []
         try:
@@ -95,7 +110,7 @@ class FirmataLine:
         self.send(question)
         message = self._next(kind, ANSWER_S)
         if message is None:
-            raise PortRefused(self.name, "the board answers no more; press its reset button and start again")
+            raise PortRefused(self.name, Message("the board answers no more; press its reset button and start again"))
         return message
 
     def forget_greetings(self) -> None:
@@ -109,7 +124,7 @@ class FirmataLine:
     def _next(self, kind: type[MessageT], wait_s: float) -> MessageT | None:
         """Returns the first message of a kind within this time, or None; all others are left for ``received``."""
         ends = time.monotonic() + wait_s
-        kept: list[Message] = []
+        kept: list[BoardMessage] = []
         found: MessageT | None = None
         while found is None and (left_s := ends - time.monotonic()) > 0:
             select.select([self._serial], [], [], left_s)
@@ -123,5 +138,10 @@ class FirmataLine:
 
     def _lost(self, error: Exception) -> PortLost:
         if isinstance(error, serial.SerialTimeoutException):
-            return PortSlow(self.name, "too slow: the line took no more; use fewer interrupts a second")
-        return PortLost(self.name, f"the board is gone ({error}); check cable and power, then initialise again")
+            return PortSlow(self.name, Message("too slow: the line took no more; use fewer interrupts a second"))
+        return PortLost(
+            self.name,
+            Message(
+                "the board is gone ({why}); check cable and power, then initialise again", why=verbatim(str(error))
+            ),
+        )

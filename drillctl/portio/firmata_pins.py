@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from drillctl.language import Message
 from drillctl.portio.firmata_protocol import (
     PORT_PINS,
     PORTS,
@@ -55,7 +56,9 @@ class Pins:
         self._outputs = [self._pin(board.outputs, bit) for bit in bits_of(layout.outputs)]
         self._inputs = [self._pin(board.inputs, bit) for bit in bits_of(layout.inputs)]
         if both := set(self._outputs) & set(self._inputs):
-            raise PortRefused(name, f"the machine's wiring has D{min(both)} both as output and as input")
+            raise PortRefused(
+                name, Message("the machine's wiring has D{both} both as output and as input", both=min(both))
+            )
         self._spare = [] if self._inputs else self._unused_input(board)
         used = {pin // PORT_PINS for pin in self._outputs}
         self._written = [(PORT_PINS * n, port) for n, port in enumerate(board.outputs) if port in used]
@@ -66,10 +69,20 @@ class Pins:
     def _pin(self, ports: Sequence[int], bit: int) -> int:
         most = len(ports) * PORT_PINS
         if bit >= most:
-            raise PortRefused(self._name, f"the machine uses bit {bit}; a {self._board.name} has bits 0..{most - 1}")
+            raise PortRefused(
+                self._name,
+                Message(
+                    "the machine uses bit {bit}; a {name} has bits 0..{most}",
+                    bit=bit,
+                    name=self._board.name,
+                    most=most - 1,
+                ),
+            )
         pin = ports[bit // PORT_PINS] * PORT_PINS + bit % PORT_PINS
         if pin in SERIAL_PINS:
-            raise PortRefused(self._name, f"the machine uses bit {bit}, and D{pin} is the serial line's own")
+            raise PortRefused(
+                self._name, Message("the machine uses bit {bit}, and D{pin} is the serial line's own", bit=bit, pin=pin)
+            )
         return pin
 
     def _unused_input(self, board: Board) -> list[int]:
@@ -80,10 +93,10 @@ class Pins:
         free = set(range(first, first + PORT_PINS)) - {*self._outputs, *SERIAL_PINS}
         return sorted(free)[:1]
 
-    def facts(self) -> tuple[str, str]:
+    def facts(self) -> tuple[Message, Message]:
         """Returns the pins that the machine uses, as text."""
         outputs, inputs = (" ".join(f"D{pin}" for pin in pins) for pins in (self._outputs, self._inputs))
-        return (f"outputs: {outputs}", f"inputs with pull-up: {inputs}")
+        return (Message("outputs: {pins}", pins=outputs), Message("inputs with pull-up: {pins}", pins=inputs))
 
     def messages(self, image: int, changed: int = ALL_CHANGED) -> Iterator[bytes]:
         """Yields one message for each output port that has a changed bit.
@@ -137,4 +150,7 @@ class Pins:
         if answer != self._wanted(pin):
             pull_up = "with pull-up" if pin in self._inputs else "without pull-up"
             kind = "a low output" if pin in self._outputs else f"an input {pull_up}"
-            raise PortRefused(self._name, f"D{pin} did not become {kind}; is it StandardFirmata, unmodified?")
+            raise PortRefused(
+                self._name,
+                Message("D{pin} did not become {kind}; is it StandardFirmata, unmodified?", pin=pin, kind=kind),
+            )

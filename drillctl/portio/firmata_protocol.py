@@ -63,7 +63,7 @@ class PinState:
     state: int
 
 
-Message = DigitalReport | Firmware | PinState | Version
+BoardMessage = DigitalReport | Firmware | PinState | Version
 
 
 def write_port(port: int, value: int) -> bytes:
@@ -95,12 +95,12 @@ class Decoder:
     def __init__(self) -> None:
         self._begun = bytearray()
 
-    def feed(self, data: bytes) -> list[Message]:
+    def feed(self, data: bytes) -> list[BoardMessage]:
         """Returns the messages that these bytes complete, in order. Never raises."""
         complete = (self._take(byte) for byte in data)
         return [message for message in complete if message is not None]
 
-    def _take(self, byte: int) -> Message | None:
+    def _take(self, byte: int) -> BoardMessage | None:
         """Takes one byte; returns the message that it completes, or None."""
         if byte >= 0x80 and byte != END_SYSEX:
             self._begun[:] = (byte,)
@@ -114,13 +114,13 @@ class Decoder:
             self._begun.clear()
         return None
 
-    def _ended(self, read: Callable[[bytearray], Message | None]) -> Message | None:
+    def _ended(self, read: Callable[[bytearray], BoardMessage | None]) -> BoardMessage | None:
         message = read(self._begun)
         self._begun.clear()
         return message
 
 
-def _short_message(command: int) -> Callable[[bytearray], Message] | None:
+def _short_message(command: int) -> Callable[[bytearray], BoardMessage] | None:
     """Returns the reader of a message of three bytes, by its first byte; None for a longer or unknown message."""
     if command & 0xF0 == DIGITAL_MESSAGE:
         return _digital
@@ -136,7 +136,7 @@ def _digital(begun: bytearray) -> DigitalReport:
     return DigitalReport(command & 0x0F, low | (high & 1) << 7)
 
 
-def _sysex(begun: bytearray) -> Message | None:
+def _sysex(begun: bytearray) -> BoardMessage | None:
     """Returns the message from START_SYSEX to END_SYSEX, or None for a cut or unknown one."""
     if len(begun) < 5 or begun[0] != START_SYSEX:
         return None

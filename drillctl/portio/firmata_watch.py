@@ -12,7 +12,8 @@ import time
 from collections.abc import Callable, Mapping
 from itertools import cycle
 
-from drillctl.portio.firmata_protocol import Firmware, Message, PinState, Version, query_pin
+from drillctl.language import Message
+from drillctl.portio.firmata_protocol import BoardMessage, Firmware, PinState, Version, query_pin
 from drillctl.ports import PortLost
 
 SHARE_OF_LINE = 0.02
@@ -82,26 +83,30 @@ class Watch:
         self._repeat_s = now_s + self._delay_s + AGAIN_S
         return query_pin(self._asked)
 
-    def hear(self, message: Message) -> None:
+    def hear(self, message: BoardMessage) -> None:
         """Judges a message. Raises PortLost for a greeting, and for a pin that is not as it was set."""
         if isinstance(message, Firmware | Version):
-            raise self._lost("the board has greeted anew, so it was reset in mid-run")
+            raise self._lost(Message("the board has greeted anew, so it was reset in mid-run"))
         if not isinstance(message, PinState):
             return
         wanted = self._wanted.get(message.pin)
         if wanted is not None and message != wanted:
-            raise self._lost(f"D{message.pin} is not as it was set, so the board was reset in mid-run")
+            raise self._lost(
+                Message("D{pin} is not as it was set, so the board was reset in mid-run", pin=message.pin)
+            )
         if message.pin == self._asked:
             self.vouched, self._asked = self._asked_after, None
 
     def check(self) -> None:
         """Raises PortLost where the answer is overdue. Call it after ``hear`` had all messages."""
         if self._asked is not None and self._clock() - self._asked_s > self._patience_s:
-            raise self._lost(f"the board has not answered for {self._patience_s:.1f} s")
+            raise self._lost(Message("the board has not answered for {seconds:.1f} s", seconds=self._patience_s))
 
     def forget(self) -> None:
         """Stops waiting for the answer to a question that may have been dropped."""
         self._asked = None
 
-    def _lost(self, reason: str) -> PortLost:
-        return PortLost(self._name, f"{reason}; check its supply and its cable, then initialise again")
+    def _lost(self, reason: Message) -> PortLost:
+        return PortLost(
+            self._name, Message("{reason}; check its supply and its cable, then initialise again", reason=reason)
+        )

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from drillctl.files.inputs import read_bytes, toml_of
+from drillctl.language import Message, message_of
 from drillctl.ports import SAFE_IMAGE, PortLayout, PortLost, PortRefused, bits_of
 
 MOST_LINES = 64  # of one request
@@ -75,8 +76,12 @@ class GpioLines:
             if level == put == self._levels[1]:
                 self._followed.add(line)
             elif level != put and line in self._followed:
-                reason = f"line {line} does not hold what was put out: its chip was reset, or it is shorted"
-                raise PortLost("gpio", f"{reason}; check supply and wiring, then initialise again")
+                reason = Message(
+                    "line {line} does not hold what was put out: its chip was reset, or it is shorted", line=line
+                )
+                raise PortLost(
+                    "gpio", Message("{reason}; check supply and wiring, then initialise again", reason=reason)
+                )
 
     def flush(self, image: int) -> None:
         """Sets all outputs in one call. Raises OSError."""
@@ -108,8 +113,8 @@ def open_gpio(address: str, layout: PortLayout) -> GpioLines:
     try:
         request = gpiod.request_lines(lines.chip, config, CONSUMER)
     except OSError as error:
-        reason = f"{lines.chip}: {error.strerror}; see that it is there, that no line is taken, and your rights"
-        raise PortRefused("gpio", reason) from error
+        why = Message("{why}; see that it is there, that no line is taken, and your rights", why=message_of(error))
+        raise PortRefused("gpio", why.at(lines.chip)) from error
     return GpioLines(request, lines, (Value.INACTIVE, Value.ACTIVE))
 
 
@@ -119,35 +124,43 @@ def read_line_map(file: str, layout: PortLayout) -> LineMap:
     chip = raw.pop("chip", None)
     tables = {key: raw.pop(key, {}) for key in ("outputs", "inputs")}
     if not isinstance(chip, str) or raw:
-        raise PortRefused("gpio", f"{file}: a line map has chip, outputs and inputs, and nothing else")
+        raise PortRefused("gpio", Message("a line map has chip, outputs and inputs, and nothing else").at(file))
     outputs, inputs = (
         _picked(file, key, tables[key], image)
         for key, image in (("outputs", layout.outputs), ("inputs", layout.inputs))
     )
     lines = [*outputs.values(), *inputs.values()]
     if len(set(lines)) < len(lines):
-        raise PortRefused("gpio", f"{file}: two bits have the same line")
+        raise PortRefused("gpio", Message("two bits have the same line").at(file))
     if len(lines) > MOST_LINES:
-        raise PortRefused("gpio", f"{file}: the machine uses {len(lines)} lines; {MOST_LINES} can be had at once")
+        raise PortRefused(
+            "gpio",
+            Message(
+                "the machine uses {count} lines; {most} can be had at once",
+                count=len(lines),
+                most=MOST_LINES,
+            ).at(file),
+        )
     return LineMap(chip, outputs, inputs)
 
 
-def missing() -> str:
-    """Returns why there are no GPIO lines here, or an empty string."""
+def missing() -> Message | None:
+    """Returns why there are no GPIO lines here; None where there may be some."""
     if find_spec("gpiod") is None:
-        return "the package gpiod is not installed: pip install gpiod"
-    return "" if list(Path("/dev").glob("gpiochip*")) else "no /dev/gpiochip: this computer has no GPIO lines"
+        return Message("the package gpiod is not installed: pip install gpiod")
+    found = list(Path("/dev").glob("gpiochip*"))
+    return None if found else Message("no /dev/gpiochip: this computer has no GPIO lines")
 
 
 def _read(file: str) -> dict[str, Any]:
     if not file:
-        raise PortRefused("gpio", "which bit is which line? Name a line map: gpio:FILE")
+        raise PortRefused("gpio", Message("which bit is which line? Name a line map: gpio:FILE"))
     try:
-        return toml_of(read_bytes(file, LARGEST_MAP_BYTES, "a line map").decode())
+        return toml_of(read_bytes(file, LARGEST_MAP_BYTES, Message("a line map")).decode())
     except OSError as error:
-        raise PortRefused("gpio", f"{file}: can't be read: {error.strerror}") from error
+        raise PortRefused("gpio", Message("can't be read: {why}", why=message_of(error)).at(file)) from error
     except ValueError as error:
-        raise PortRefused("gpio", f"{file}: no line map: {error}") from error
+        raise PortRefused("gpio", Message("no line map: {why}", why=message_of(error)).at(file)) from error
 
 
 def _picked(file: str, key: str, table: Any, image: int) -> dict[int, int]:
@@ -156,6 +169,8 @@ def _picked(file: str, key: str, table: Any, image: int) -> dict[int, int]:
     for bit in bits_of(image):
         line = table.get(str(bit)) if isinstance(table, dict) else None
         if type(line) is not int or line < 0:
-            raise PortRefused("gpio", f"{file}: {key} has no line for bit {bit}, which the machine uses")
+            raise PortRefused(
+                "gpio", Message("{key} has no line for bit {bit}, which the machine uses", key=key, bit=bit).at(file)
+            )
         picked[bit] = line
     return picked

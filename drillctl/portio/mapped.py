@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drillctl.files.inputs import read_start
+from drillctl.language import Message, message_of
 from drillctl.ports import CARD_BITS, SAFE_IMAGE, Driver, PortLayout, PortRefused, word
 
 MAGIC = int.from_bytes(b"DRIL", "little")
@@ -78,7 +79,7 @@ class MappedCard:
 def open_mapped(address: str, layout: PortLayout, card: Driver) -> MappedCard:
     """Makes a simulated card with its image in the file ``ADDRESS``. Raises PortRefused."""
     if not address:
-        raise PortRefused("mapped", "where should the card's image be? Name a file: mapped:FILE")
+        raise PortRefused("mapped", Message("where should the card's image be? Name a file: mapped:FILE"))
     return MappedCard(card, Path(address), layout.cards)
 
 
@@ -87,7 +88,7 @@ def read_map(file: Path) -> CardMap:
     data = read_start(file, LARGEST_FILE_BYTES + 1)
     words = memoryview(data[: len(data) // WORD_BYTES * WORD_BYTES]).cast("I")
     if not _is_map(words):
-        raise PortRefused("mapped", f"{file} is there, and no image of a mapped card")
+        raise PortRefused("mapped", Message("{file} is there, and no image of a mapped card", file=file))
     cards = words[2]
     outputs, inputs = (_image(words[start : start + cards]) for start in (_OUTPUTS, _OUTPUTS + cards))
     return CardMap(words[_FLUSHES], outputs, inputs)
@@ -124,7 +125,9 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
     except PortRefused:
         raise
     except OSError as error:
-        raise PortRefused("mapped", f"{file}: can't be the card's file: {error.strerror}") from error
+        raise PortRefused(
+            "mapped", Message("can't be the card's file: {why}", why=message_of(error)).at(file)
+        ) from error
 
 
 def _descriptor(file: Path) -> int:
@@ -143,4 +146,4 @@ def _lock(descriptor: int, file: Path) -> None:
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
-        raise PortRefused("mapped", f"{file}: another run is using this card") from error
+        raise PortRefused("mapped", Message("another run is using this card").at(file)) from error

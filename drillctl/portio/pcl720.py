@@ -12,6 +12,7 @@ import os
 from collections.abc import Sequence
 from contextlib import suppress
 
+from drillctl.language import Message, message_of
 from drillctl.ports import SAFE_IMAGE, PortLayout, PortLost, PortRefused, word
 
 DEVICE = "/dev/port"
@@ -32,9 +33,9 @@ class Pcl720:
         self._bases = tuple(bases)
         self.safe()
 
-    def facts(self) -> tuple[str, ...]:
+    def facts(self) -> tuple[Message, ...]:
         """Returns where its cards are (ports.Telling)."""
-        return tuple(f"card at 0x{base:X}: 32 outputs, 32 inputs" for base in self._bases)
+        return tuple(Message("card at 0x{base:X}: 32 outputs, 32 inputs", base=base) for base in self._bases)
 
     def latch(self) -> int:
         """Returns all inputs of all cards. Raises OSError."""
@@ -42,7 +43,10 @@ class Pcl720:
         for base in reversed(self._bases):
             data = os.pread(self._read_from, DATA_BYTES, base)
             if len(data) < DATA_BYTES:
-                raise PortLost("pcl720", f"no answer at 0x{base:x}; check the card's address, then initialise again")
+                raise PortLost(
+                    "pcl720",
+                    Message("no answer at 0x{base:x}; check the card's address, then initialise again", base=base),
+                )
             image = image << 8 * DATA_BYTES | int.from_bytes(data, "little")
         return image
 
@@ -51,7 +55,9 @@ class Pcl720:
         for card, base in enumerate(self._bases):
             data = word(image, card).to_bytes(DATA_BYTES, "little")
             if os.pwrite(self._write_to, data, base) < DATA_BYTES:
-                raise PortLost("pcl720", f"took no output at 0x{base:x}; check the card, then initialise again")
+                raise PortLost(
+                    "pcl720", Message("took no output at 0x{base:x}; check the card, then initialise again", base=base)
+                )
 
     def safe(self) -> None:
         """Sets all outputs of all cards low. Raises OSError."""
@@ -73,7 +79,11 @@ def open_pcl720(address: str, layout: PortLayout) -> Pcl720:
     try:
         descriptor = os.open(DEVICE, os.O_RDWR)
     except OSError as error:
-        reason = f"{DEVICE} can't be opened ({error.strerror}); be root, and the kernel not locked down"
+        reason = Message(
+            "{device} can't be opened ({why}); be root, and the kernel not locked down",
+            device=DEVICE,
+            why=message_of(error),
+        )
         raise PortRefused("pcl720", reason) from error
     lock(descriptor)
     return Pcl720(descriptor, descriptor, bases)
@@ -85,7 +95,7 @@ def lock(descriptor: int) -> None:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
         os.close(descriptor)
-        raise PortRefused("pcl720", "another run is using the cards; end it first") from error
+        raise PortRefused("pcl720", Message("another run is using the cards; end it first")) from error
 
 
 def card_bases(address: str, layout: PortLayout) -> list[int]:
@@ -95,14 +105,21 @@ def card_bases(address: str, layout: PortLayout) -> list[int]:
     try:
         bases = [int(base, 16) for base in address.split(",")]
     except ValueError as error:
-        raise PortRefused("pcl720", f"{address!r} is no address; such as 2A0 or 2A0,2A8, in hexadecimal") from error
+        raise PortRefused(
+            "pcl720", Message("{address!r} is no address; such as 2A0 or 2A0,2A8, in hexadecimal", address=address)
+        ) from error
     if len(bases) != layout.cards or not all(0 <= base <= HIGHEST_BASE for base in bases):
-        raise PortRefused("pcl720", f"the machine needs {layout.cards} addresses below 10000, not {address}")
+        raise PortRefused(
+            "pcl720",
+            Message(
+                "the machine needs {cards} addresses below 10000, not {address}", cards=layout.cards, address=address
+            ),
+        )
     return bases
 
 
-def missing() -> str:
-    """Returns why there is no PCL-720 here, or an empty string."""
+def missing() -> Message | None:
+    """Returns why there is no PCL-720 here; None where one can be."""
     if not os.path.exists(DEVICE):
-        return f"no {DEVICE}: this kernel was built without it, or this is no PC"
-    return "" if os.access(DEVICE, os.R_OK | os.W_OK) else f"{DEVICE} is for root alone"
+        return Message("no {device}: this kernel was built without it, or this is no PC", device=DEVICE)
+    return None if os.access(DEVICE, os.R_OK | os.W_OK) else Message("{device} is for root alone", device=DEVICE)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 
-from drillctl.language import known_words
+from drillctl.language import Message, known_words
 from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
 from drillctl.ports import Driver, PortLayout, PortRefused
@@ -16,16 +16,16 @@ Open = Callable[[str, PortLayout, Driver | None], Driver]
 Rate = Callable[[str, PortLayout, Iterable[int]], int | None]
 
 
-def _here() -> str:
-    return ""
+def _here() -> None:
+    return None
 
 
 def _any_rate(address: str, layout: PortLayout, moving_axes: Iterable[int]) -> int | None:
     return None
 
 
-def _no_serial_line() -> str:
-    return "" if firmata.usb_devices() else "no serial line at USB: plug the board in"
+def _no_serial_line() -> Message | None:
+    return None if firmata.usb_devices() else Message("no serial line at USB: plug the board in")
 
 
 @dataclass(frozen=True)
@@ -34,17 +34,17 @@ class Port:
 
     address      what may follow the colon; [in brackets] where it may be left out
     real         a real machine is connected: paced by the clock, lost steps unknown
-    missing      why it can't be used here, or nothing
+    missing      why it can't be used here, or None
     open         (address, layout, the simulated card of a port that is not real); raises PortError
     max_tick_hz  (address, layout, moving axes by index): the most it carries, None for more than any machine asks
     """
 
     name: str
-    summary: str
-    needs: str
+    summary: Message
+    needs: Message
     address: str
     real: bool
-    missing: Callable[[], str]
+    missing: Callable[[], Message | None]
     open: Open
     max_tick_hz: Rate = _any_rate
 
@@ -52,7 +52,7 @@ class Port:
 def _simulated(address: str, layout: PortLayout, card: Driver | None) -> Driver:
     assert card is not None
     if address:
-        raise PortRefused("simulated", f"it has no address, and so not {address!r}")
+        raise PortRefused("simulated", Message("it has no address, and so not {address!r}", address=address))
     return card
 
 
@@ -66,11 +66,14 @@ def _real(opened: Callable[[str, PortLayout], Driver]) -> Open:
     return lambda address, layout, card: opened(address, layout)
 
 
-def _firmata_row(name: str, board: Board, summary: str) -> Port:
+def _firmata_row(name: str, board: Board, summary: Message) -> Port:
     return Port(
         name,
         summary,
-        needs=f"an Arduino {board.name} with StandardFirmata 2.3 or newer, and the right to use its serial line",
+        needs=Message(
+            "an Arduino {board} with StandardFirmata 2.3 or newer, and the right to use its serial line",
+            board=board.name,
+        ),
         address="[DEVICE][@BAUD]",
         real=True,
         missing=_no_serial_line,
@@ -82,22 +85,30 @@ def _firmata_row(name: str, board: Board, summary: str) -> Port:
 PORTS = {
     port.name: port
     for port in (
-        Port("simulated", "a card whose wires end in a simulated machine", "nothing", "", False, _here, _simulated),
+        Port(
+            "simulated",
+            Message("a card whose wires end in a simulated machine"),
+            needs=Message("nothing"),
+            address="",
+            real=False,
+            missing=_here,
+            open=_simulated,
+        ),
         Port(
             "mapped",
-            "the simulated card with its image in a file that outlives a crash",
-            needs="a file that may be written",
+            Message("the simulated card with its image in a file that outlives a crash"),
+            needs=Message("a file that may be written"),
             address="FILE",
             real=False,
             missing=_here,
             open=_mapped,
         ),
-        _firmata_row("firmata", MEGA, "an Arduino Mega on a serial line: 32 outputs, 16 inputs"),
-        _firmata_row("firmata-uno", UNO, "an Arduino Uno on a serial line: 18 pins, for a CNC shield"),
+        _firmata_row("firmata", MEGA, Message("an Arduino Mega on a serial line: 32 outputs, 16 inputs")),
+        _firmata_row("firmata-uno", UNO, Message("an Arduino Uno on a serial line: 18 pins, for a CNC shield")),
         Port(
             "pcl720",
-            "Advantech PCL-720 cards: 32 outputs and 32 inputs each",
-            needs="an ISA bus, /dev/port, root",
+            Message("Advantech PCL-720 cards: 32 outputs and 32 inputs each"),
+            needs=Message("an ISA bus, /dev/port, root"),
             address="[BASE[,BASE..]], hexadecimal; default: the machine's card_address",
             real=True,
             missing=pcl720.missing,
@@ -105,8 +116,8 @@ PORTS = {
         ),
         Port(
             "gpio",
-            "GPIO lines of a Linux board such as a Raspberry Pi",
-            needs="the extra gpio (libgpiod 2), a line map, the right to use /dev/gpiochip",
+            Message("GPIO lines of a Linux board such as a Raspberry Pi"),
+            needs=Message("the extra gpio (libgpiod 2), a line map, the right to use /dev/gpiochip"),
             address="FILE, the line map",
             real=True,
             missing=gpiod_lines.missing,
@@ -140,7 +151,7 @@ def select(spec: str) -> tuple[Port, str]:
     """Returns the port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
     name, _, address = spec.partition(":")
     if name not in PORTS:
-        raise PortRefused(name, f"there is no such port; {known_words(name, PORTS)}")
+        raise PortRefused(name, Message("there is no such port; {words}", words=known_words(name, PORTS)))
     return PORTS[name], address
 
 
@@ -149,8 +160,10 @@ def check_rate(spec: str, layout: PortLayout) -> None:
     most_hz = rate_of(spec, layout)
     if most_hz is not None and layout.tick_hz > most_hz:
         axes = len(layout.axis_outputs)
-        reason = f"{layout.tick_hz} interrupts a second are too many for it with {axes} axes moving"
-        raise PortRefused(spec, f"{reason}; --tick-hz {most_hz} is the most")
+        reason = Message(
+            "{hz} interrupts a second are too many for it with {axes} axes moving", hz=layout.tick_hz, axes=axes
+        )
+        raise PortRefused(spec, Message("{reason}; --tick-hz {most} is the most", reason=reason, most=most_hz))
 
 
 def open_port(spec: str, layout: PortLayout, card: Driver | None = None) -> Driver:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from drillctl.files.outputs import OutputError
 from drillctl.generation.job import Job, names_of
 from drillctl.kmd import KmdError, parse_program, to_text
+from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.plant import PlantChoice
@@ -36,8 +37,10 @@ def machine_named(machine: Machine, file: Path) -> str:
     """How a trace in ``file`` names its machine: by name, or its file from there. Raises OutputError where it can't."""
     named = machine.reference_from(file.parent)
     if not is_plain(named):
-        reason = f"a trace can't name {machine.file}; give the machine's file and its folders plain names"
-        raise OutputError(f"{file}: {reason}")
+        reason = Message(
+            "a trace can't name {file}; give the machine's file and its folders plain names", file=machine.file
+        )
+        raise OutputError(reason.at(file))
     return named
 
 
@@ -45,7 +48,7 @@ def header_value(trace: Trace, key: str, file: Path) -> str:
     """The first value of a header key. Raises TraceError where there is none."""
     values = trace.header_values(key)
     if not values:
-        raise TraceError(str(file), None, f"the header has no {key!r} line")
+        raise TraceError(str(file), None, Message("the header has no {key!r} line", key=key))
     return values[0]
 
 
@@ -58,7 +61,7 @@ def machine_of(trace: Trace, file: Path, library: Library) -> Machine:
     found = library.machine(str(beside) if named.endswith(".toml") else named)
     rate = header_value(trace, "tick_hz", file)
     if not rate.isdecimal() or not SLOWEST_TICK_HZ <= int(rate) <= FASTEST_TICK_HZ:
-        raise TraceError(str(file), None, f"tick_hz {rate!r} is no tick rate")
+        raise TraceError(str(file), None, Message("tick_hz {rate!r} is no tick rate", rate=rate))
     return found.at_rate(int(rate))
 
 
@@ -76,7 +79,11 @@ def choice_of(trace: Trace) -> PlantChoice:
 def check_tick(recorded: Trace, file: Path, tick: int) -> None:
     """Raises TraceError where a run has no such tick to begin at; every run has tick 0, even an empty one."""
     if tick and tick >= recorded.end:
-        raise TraceError(str(file), None, f"no tick {tick}: it has {recorded.end} ticks, counted from 0 (--from-tick)")
+        raise TraceError(
+            str(file),
+            None,
+            Message("no tick {tick}: it has {end} ticks, counted from 0 (--from-tick)", tick=tick, end=recorded.end),
+        )
 
 
 def program_of(trace: Trace, machine: Machine, file: Path) -> NDArray[np.void]:
@@ -86,8 +93,10 @@ def program_of(trace: Trace, machine: Machine, file: Path) -> NDArray[np.void]:
     try:
         program = parse_program(text, names_of(machine), str(file))
     except KmdError as error:
-        raise TraceError(str(file), None, f"command {error.line}: {error.reason}") from error
+        raise TraceError(
+            str(file), None, Message("command {line}: {reason}", line=error.line, reason=error.reason)
+        ) from error
     counted = all(line.partition(" ")[0] == str(number) for number, line in enumerate(lines, 1))
     if len(program) != len(lines) or not counted:
-        raise TraceError(str(file), None, "the commands are not numbered from 1 to a KMD_KONIEC")
+        raise TraceError(str(file), None, Message("the commands are not numbered from 1 to a KMD_KONIEC"))
     return program

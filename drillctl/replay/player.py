@@ -9,6 +9,7 @@ from pathlib import Path
 from drillctl.generation.feeder import Feeder
 from drillctl.kmd import Request, RequestBit
 from drillctl.kmd.queue import bit_and_value
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 from drillctl.portio.playback import PlaybackCard
@@ -25,11 +26,19 @@ BY_HAND = (Request.OUTPUT, Request.PACE)  # have a value, in a signal of their o
 def playback(recorded: Trace, machine: Machine, file: Path) -> PlaybackCard:
     """A card whose inputs are the recorded ones. Raises TraceError for a trace that can't be run again."""
     if recorded.end > MOST_TICKS:
-        raise TraceError(str(file), None, f"{recorded.end} ticks; replay takes at most {MOST_TICKS}")
+        raise TraceError(
+            str(file),
+            None,
+            Message("{end} ticks; replay takes at most {most}", end=recorded.end, most=MOST_TICKS),
+        )
     if recorded.header_values("overrun"):
-        raise TraceError(str(file), None, "changes are missing (overrun): the recording fell behind; record it again")
+        raise TraceError(
+            str(file), None, Message("changes are missing (overrun): the recording fell behind; record it again")
+        )
     if (tick := _tables_edited(recorded)) is not None:
-        reason = f"tables were edited at tick {tick} (LOAD): what came after can't be told from one set of them"
+        reason = Message(
+            "tables were edited at tick {tick} (LOAD): what came after can't be told from one set of them", tick=tick
+        )
         raise TraceError(str(file), None, reason)
     return PlaybackCard(*_inputs(recorded, machine, file))
 
@@ -105,7 +114,9 @@ def _inputs(trace: Trace, machine: Machine, file: Path) -> tuple[list[int], list
     changes: dict[int, dict[int, int]] = {}
     for card in range(machine.cards):
         if not trace.has(f"in.{card}"):
-            raise TraceError(str(file), None, f"no signal in.{card}, which {machine.name} has")
+            raise TraceError(
+                str(file), None, Message("no signal in.{card}, which {machine} has", card=card, machine=machine.name)
+            )
         for tick, value in zip(*(column.tolist() for column in trace.changes_of(f"in.{card}")), strict=True):
             changes.setdefault(tick, {})[card] = value
     words = [0] * machine.cards
@@ -123,7 +134,9 @@ def _rates(trace: Trace, file: Path) -> tuple[list[int], list[int]]:
     ticks, rates = _changes(trace, "pace")
     for tick, tick_hz in zip(ticks, rates, strict=True):
         if tick_hz and not SLOWEST_TICK_HZ <= tick_hz <= FASTEST_TICK_HZ:
-            raise TraceError(str(file), None, f"pace {tick_hz} at tick {tick} is no tick rate")
+            raise TraceError(
+                str(file), None, Message("pace {hz} at tick {tick} is no tick rate", hz=tick_hz, tick=tick)
+            )
     return ticks, rates
 
 
@@ -134,7 +147,7 @@ def _worded(trace: Trace, name: str, words: Sequence[str], file: Path) -> tuple[
     for value in values:
         word = trace.signals[trace.index_of(name)].show(value)
         if word not in words:
-            raise TraceError(str(file), None, f"{name} {word!r} is not known")
+            raise TraceError(str(file), None, Message("{name} {word!r} is not known", name=name, word=word))
         places.append(words.index(word))
     return ticks, places
 

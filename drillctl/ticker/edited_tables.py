@@ -8,24 +8,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from drillctl.language import Message
 from drillctl.machine import Machine, TableError
 from drillctl.machine.bundle import unbundle
+from drillctl.ticker.message_text import LONGEST_BYTES, message_read, message_text
 from drillctl.ticker.ticker import Ticker
 
 MOST_BYTES = 1024 * 1024
-MOST_REPLY_BYTES = 4096
 SLOT = np.dtype(
     [
         ("offered", "<u4"),  # how many texts were put there; desk
         ("length", "<u4"),  # of the newest; desk
         ("answered", "<u4"),  # how many were answered; ticker
         ("reply_length", "<u4"),  # of the newest answer; ticker
-        ("reply", "u1", (MOST_REPLY_BYTES,)),  # empty: taken; ticker
+        ("reply", "u1", (LONGEST_BYTES,)),  # empty: taken; ticker
         ("text", "u1", (MOST_BYTES,)),  # desk
     ]
 )
-OTHER_MACHINE = "more than phase and ramp tables has changed"
-AT_WORK = "the machine is at work; tables are taken at rest"
+OTHER_MACHINE = Message("more than phase and ramp tables has changed")
+AT_WORK = Message("the machine is at work; tables are taken at rest")
 
 
 class TableSlot:
@@ -53,30 +54,31 @@ class TableSlot:
         """The text that was offered last."""
         return bytes(self._fields["text"][0, : int(self._fields["length"][0])]).decode()
 
-    def answer(self, reason: str) -> None:
-        """Answers the text: the reason why it was refused; empty where it was taken."""
-        data = reason.encode("utf-8", "backslashreplace")[:MOST_REPLY_BYTES]
+    def answer(self, reason: Message | None) -> None:
+        """Answers the text: the reason why it was refused; None where it was taken."""
+        data = message_text(reason).encode() if reason is not None else b""
         self._fields["reply"][0, : len(data)] = np.frombuffer(data, np.uint8)
         self._fields["reply_length"] = len(data)
         self._fields["answered"] = self._fields["offered"]
 
-    def reply(self) -> str:
-        """The answer to the last text: why it was refused; empty where it was taken."""
-        return bytes(self._fields["reply"][0, : int(self._fields["reply_length"][0])]).decode("utf-8", "replace")
+    def reply(self) -> Message | None:
+        """The answer to the last text: why it was refused; None where it was taken."""
+        data = bytes(self._fields["reply"][0, : int(self._fields["reply_length"][0])])
+        return message_read(data) if data else None
 
 
-def take_tables(ticker: Ticker, text: str) -> str:
-    """Loads the machine of a bundle in place of the one that runs; returns why not, or an empty text."""
+def take_tables(ticker: Ticker, text: str) -> Message | None:
+    """Loads the machine of a bundle in place of the one that runs; returns why not, or None."""
     try:
         machine = unbundle(text).at_rate(ticker.machine.tick_hz)
     except TableError as error:
-        return str(error)
+        return error.message
     if not differs_in_tables_alone(machine, ticker.machine):
         return OTHER_MACHINE
     if not ticker.resting:
         return AT_WORK
     ticker.load(machine)
-    return ""
+    return None
 
 
 def differs_in_tables_alone(machine: Machine, other: Machine) -> bool:

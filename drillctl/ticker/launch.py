@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drillctl.kmd import Queue
+from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice, PlantRefused
 from drillctl.portio.registry import check_rate as check_port_rate
@@ -53,8 +54,10 @@ def port_of_mode(machine: Machine) -> str:
         return SIMULATED
     port = port_of_card(machine.configuration.card)
     if not port:
-        reason = f"mode REAL, and no port drives the card {machine.configuration.card!r}"
-        raise PortRefused(machine.name, f"{reason}; name a port as card (drillctl ports), or say --port")
+        reason = Message("mode REAL, and no port drives the card {card!r}", card=machine.configuration.card)
+        raise PortRefused(
+            machine.name, Message("{reason}; name a port as card (drillctl ports), or say --port", reason=reason)
+        )
     return port
 
 
@@ -85,10 +88,12 @@ def pace_of(running: RunSettings) -> str:
     """
     port, _ = select(running.port)
     if port.real and running.pace == FREE:
-        raise PortRefused(running.port, "a real machine can't run free; leave --pace out, or say --pace real")
+        raise PortRefused(running.port, Message("a real machine can't run free; leave --pace out, or say --pace real"))
     pace = running.pace or (REAL if port.real else FREE)
     if pace == REAL and not sys.platform.startswith("linux"):
-        raise PortRefused(running.port, "real pace needs Linux; elsewhere machines are simulated, running free")
+        raise PortRefused(
+            running.port, Message("real pace needs Linux; elsewhere machines are simulated, running free")
+        )
     return pace
 
 
@@ -123,16 +128,21 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
     try:
         return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns)
     except OSError as error:
-        where = f"{error.filename}: " if error.filename else ""
-        raise PortRefused(running.port, f"no process of its own for the ticks: {where}{error.strerror}") from error
+        why = message_of(error).at(error.filename) if error.filename else message_of(error)
+        raise PortRefused(
+            running.port,
+            Message("no process of its own for the ticks: {why}", why=why),
+        ) from error
 
 
 def check_rate(machine: Machine, running: RunSettings) -> None:
     """Raises PortRefused for a machine at a tick rate that its port, or this computer, does not carry."""
     check_port_rate(running.port, port_layout(machine))
     if pace_of(running) == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
-        reason = f"{machine.tick_hz} ticks a second of {machine.name} are too many for this computer"
-        raise PortRefused(running.port, f"{reason}; --tick-hz {most_hz} is the most")
+        reason = Message(
+            "{hz} ticks a second of {machine} are too many for this computer", hz=machine.tick_hz, machine=machine.name
+        )
+        raise PortRefused(running.port, Message("{reason}; --tick-hz {most} is the most", reason=reason, most=most_hz))
 
 
 def _goes_fast(
@@ -142,8 +152,8 @@ def _goes_fast(
     predictable = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
     may = predictable and pace == FREE and not running.derived and keeper is None
     if running.engine == FAST and not may:
-        reason = "--engine fast foresees the ideal plant on a simulated card, running free and without --vcd"
-        raise PortRefused(running.port, f"{reason}; leave --engine out, or say --engine tick")
+        reason = Message("--engine fast foresees the ideal plant on a simulated card, running free and without --vcd")
+        raise PortRefused(running.port, Message("{reason}; leave --engine out, or say --engine tick", reason=reason))
     return may and running.engine != TICK
 
 
@@ -154,9 +164,9 @@ def plant_of(machine: Machine, running: RunSettings) -> Plant | None:
         try:
             return running.plant.build(machine)
         except PlantRefused as error:
-            raise PortRefused(running.port, str(error)) from error
+            raise PortRefused(running.port, error.message) from error
     if running.plant != IDEAL_PLANT:
-        raise PortRefused(running.port, "a real machine is no plant; leave --plant, --fault and --seed out")
+        raise PortRefused(running.port, Message("a real machine is no plant; leave --plant, --fault and --seed out"))
     return None
 
 

@@ -11,6 +11,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from drillctl.kmd import CommandQueue, Condition, Request, TickGate
+from drillctl.language import Message
 from drillctl.plant import Plant
 from drillctl.ticker.edited_tables import take_tables
 from drillctl.ticker.ticker import Ticker
@@ -62,8 +63,8 @@ class Link(Protocol):
         computer carry the rate (launch.check_rate); the status record has the one in force.
         """
 
-    def load(self, text: str) -> str:
-        """Loads edited tables, a bundle (machine/bundle.py), at rest; returns why they are refused, or an empty text.
+    def load(self, text: str) -> Message | None:
+        """Loads edited tables, a bundle (machine/bundle.py), at rest; returns why they are refused, or None.
         May take some seconds.
         """
 
@@ -82,7 +83,7 @@ class Link(Protocol):
     def trace(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
         """The trace of the run, under this header; None where none was kept. To be called once, at the end."""
 
-    def notices(self) -> list[str]:
+    def notices(self) -> list[Message]:
         """Sentences for the operator about how the run is paced."""
 
     def close(self) -> None:
@@ -137,10 +138,10 @@ class LocalLink:
         """Puts PACE into the ticker's mailbox."""
         return self.ticker.requests.set_rate(tick_hz)
 
-    def load(self, text: str) -> str:
+    def load(self, text: str) -> Message | None:
         """Loads edited tables between two ticks."""
         reason = take_tables(self.ticker, text)
-        if not reason:
+        if reason is None:
             self.ticker.requests.post(Request.LOAD)
         return reason
 
@@ -170,7 +171,7 @@ class LocalLink:
         """The trace that the ticker kept."""
         return self.ticker.record(header)
 
-    def notices(self) -> list[str]:
+    def notices(self) -> list[Message]:
         """Always empty: a free run is not paced."""
         return []
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from drillctl.kmd import Fault, Request
 from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.plant import Plant
 from drillctl.ports import Driver
@@ -21,6 +22,7 @@ from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.edited_tables import TableSlot
 from drillctl.ticker.guard_process import SILENCE_NS, run_guard
 from drillctl.ticker.link import Touch, header_of
+from drillctl.ticker.message_text import message_read
 from drillctl.ticker.sampler import signals
 from drillctl.ticker.ticker_process import DESK_IDLE_NS, TOUCH, TickerProcess
 from drillctl.trace import Trace
@@ -31,7 +33,7 @@ START_NS = 5_000_000_000  # granted to the ticker before its first beat
 TURN_S = 0.01
 LEAVE_S = 3.0
 LOAD_S = 2.0  # granted to the ticker for checking edited tables
-UNGUARDED = "the guard's process was lost; the job was stopped"
+UNGUARDED = Message("the guard's process was lost; the job was stopped")
 
 
 class PacedLink:
@@ -59,7 +61,8 @@ class PacedLink:
         self._changes: list[np.ndarray] = []
         self._port = port
         self._unguarded = False
-        self._noticed: list[str] = []
+        self._noticed: list[Message] = []
+        self._half_line = b""
         self._channel["tick_ns"] = 1_000_000_000 // machine.tick_hz
         now_ns = self._beat()
         self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
@@ -89,14 +92,14 @@ class PacedLink:
         """Makes the request PACE; False where too many wait."""
         return self._requests.set_rate(tick_hz)
 
-    def load(self, text: str) -> str:
+    def load(self, text: str) -> Message | None:
         """Hands edited tables to the ticker's process and waits for its answer, LOAD_S at most."""
         if not self._slot.offer(text):
-            return "the tables are too long"
+            return Message("the tables are too long")
         until_s = time.monotonic() + LOAD_S
         while self._slot.waiting:
             if self._ticker.gone or time.monotonic() > until_s:
-                return "the ticker does not answer"
+                return Message("the ticker does not answer")
             self.turn()
         return self._slot.reply()
 
@@ -146,10 +149,11 @@ class PacedLink:
         columns = (changes["tick"], changes["signal"], changes["value"])
         return Trace.of_changes([*header, *overrun], self._signals, *columns, int(status["tick"]), trailer)
 
-    def notices(self) -> list[str]:
+    def notices(self) -> list[Message]:
         """What the ticker has sent: measures for real time that were refused, why a port was lost; and a lost guard."""
         with suppress(BlockingIOError):
-            self._noticed += os.read(self._notices, 4096).decode().splitlines()
+            *lines, self._half_line = (self._half_line + os.read(self._notices, 4096)).split(b"\n")
+            self._noticed += map(message_read, lines)
         return [*self._noticed, *([UNGUARDED] if self._unguarded else ())]
 
     def close(self) -> None:

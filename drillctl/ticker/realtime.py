@@ -16,6 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 from drillctl.kmd import RECORD, Op
+from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.ticker.ticker import Ticker
 
@@ -25,7 +26,7 @@ PR_SET_TIMERSLACK = 29
 TIMER_SLACK_NS = 1
 
 
-def become_punctual() -> list[str]:
+def become_punctual() -> list[Message]:
     """Takes every measure that is allowed; returns a sentence for each that is not: empty means real-time.
 
     The garbage collector is off afterwards: for a process whose loop keeps nothing.
@@ -33,18 +34,23 @@ def become_punctual() -> list[str]:
     gc.collect()
     gc.freeze()
     gc.disable()
-    return [f"{what}: {reason} ({remedy})" for what, remedy, take in MEASURES if (reason := _refusal(take))]
+    refused = [(what, _refusal(take), remedy) for what, remedy, take in MEASURES]
+    return [
+        Message("{what}: {why} ({remedy})", what=what, why=why, remedy=remedy)
+        for what, why, remedy in refused
+        if why is not None
+    ]
 
 
-def _refusal(take: Callable[[], None]) -> str:
-    """Why a measure can't be taken here; empty where it was."""
+def _refusal(take: Callable[[], None]) -> Message | None:
+    """Why a measure can't be taken here; None where it was."""
     try:
         take()
     except OSError as error:
-        return error.strerror or str(error)
+        return message_of(error)
     except AttributeError:
-        return "not on this system"
-    return ""
+        return Message("not on this system")
+    return None
 
 
 def _schedule() -> None:
@@ -70,7 +76,7 @@ def _sharpen_timers() -> None:
 
 def _libc_call(name: str, *arguments: int) -> None:
     if not sys.platform.startswith("linux"):
-        raise OSError(0, "not on this system")
+        raise OSError(0, Message("not on this system"))
     libc = ctypes.CDLL(None, use_errno=True)
     if getattr(libc, name)(*map(ctypes.c_ulong, arguments)) != 0:
         code = ctypes.get_errno()
@@ -78,9 +84,13 @@ def _libc_call(name: str, *arguments: int) -> None:
 
 
 MEASURES = (
-    ("real-time scheduling", f"grant CAP_SYS_NICE, or an rtprio limit of {PRIORITY}", _schedule),
-    ("locked memory", "grant CAP_IPC_LOCK, or raise the memlock limit", _lock_memory),
-    ("exact timers", "they need Linux", _sharpen_timers),
+    (
+        Message("real-time scheduling"),
+        Message("grant CAP_SYS_NICE, or an rtprio limit of {priority}", priority=PRIORITY),
+        _schedule,
+    ),
+    (Message("locked memory"), Message("grant CAP_IPC_LOCK, or raise the memlock limit"), _lock_memory),
+    (Message("exact timers"), Message("they need Linux"), _sharpen_timers),
 )
 
 

@@ -17,11 +17,13 @@ from drillctl.execution.conditions import raise_fault
 from drillctl.kmd import Condition, Fault, Request
 from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.kmd.commands import MOST_AXES
+from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.plant import Plant
 from drillctl.ports import Driver, PortSlow
 from drillctl.ticker.confirmed_status import ConfirmedStatus
 from drillctl.ticker.edited_tables import TableSlot, take_tables
+from drillctl.ticker.message_text import message_text
 from drillctl.ticker.realtime import become_punctual
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace.ring import RingRecorder
@@ -31,7 +33,6 @@ DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
 LOOK_NS = 20_000_000  # at rest the sensors are read so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
-LONGEST_NOTICE = 1000  # characters; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
 
 
@@ -64,7 +65,7 @@ class TickerProcess:
             signal.signal(number, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda number, frame: self.requests.own.post(Request.STOP))
         try:
-            self._notice(*(f"not real-time: {reason}" for reason in become_punctual()))
+            self._notice(*(Message("not real-time: {why}", why=reason) for reason in become_punctual()))
             self._tick_on()
         finally:
             with suppress(OSError):  # then the guard tries too
@@ -91,14 +92,15 @@ class TickerProcess:
                 else:
                     self._stand(clock.begun_ns)
             except OSError as error:
-                self._notice(" ".join(str(error).split())[:LONGEST_NOTICE])
+                self._notice(message_of(error))
                 self._end_by(Fault.PORT_SLOW if isinstance(error, PortSlow) else Fault.PORT_LOST)
                 return
             self._publish()
 
-    def _notice(self, *sentences: str) -> None:
-        """Sends sentences for the operator."""
-        os.write(self.notice_end, "".join(f"{sentence}\n" for sentence in sentences).encode())
+    def _notice(self, *messages: Message) -> None:
+        """Sends messages for the operator, a line each."""
+        for message in messages:
+            os.write(self.notice_end, f"{message_text(message)}\n".encode())
 
     def _stand(self, now_ns: int) -> None:
         """A wake that is no tick: reads the inputs every LOOK_NS. While the clock of a real machine is stopped, its
@@ -129,7 +131,7 @@ class TickerProcess:
     def _load(self) -> None:
         """Takes edited tables and answers the desk; a request in the next tick marks them in the trace."""
         reason = take_tables(self.ticker, self.slot.text())
-        if not reason:
+        if reason is None:
             self.requests.own.post(Request.LOAD)
         self.slot.answer(reason)
 

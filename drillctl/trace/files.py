@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from drillctl.files.outputs import Output, OutputError
+from drillctl.language import Message, message_of
 from drillctl.trace import Segments, Trace, TraceError, is_segments, read_segments, read_text, segment_bytes, write_text
 from drillctl.trace.segments import MOST_CHANGES
 
@@ -35,9 +36,14 @@ def whole_trace(segments: Segments, file: Path) -> Trace:
     """Segments as a trace. Raises TraceError, before any work, where it would have more than MOST_CHANGES changes."""
     if segments.change_count > MOST_CHANGES:
         part = segments.end * MOST_CHANGES // segments.change_count // 2
-        reason = (
-            f"{segments.change_count} changes in {segments.end} ticks; there is room for {MOST_CHANGES}; "
-            f"look at a part: drillctl convert {file.name} --to part.trace --to-tick {part}"
+        reason = Message(
+            "{changes} changes in {ticks} ticks; there is room for {room}; look at a part: drillctl convert {file} "
+            "--to part.trace --to-tick {tick}",
+            changes=segments.change_count,
+            ticks=segments.end,
+            room=MOST_CHANGES,
+            file=file.name,
+            tick=part,
         )
         raise TraceError(str(file), None, reason)
     return segments.trace()
@@ -49,7 +55,11 @@ def takes_segments(file: Path, cards: int) -> bool:
     """
     wanted = file.suffix.lower() == SEGMENTS
     if wanted and cards > MOST_CARDS:
-        raise OutputError(f"{file}: segments hold the outputs of {MOST_CARDS} cards; keep a .trace of this machine")
+        raise OutputError(
+            Message("segments hold the outputs of {most} cards; keep a .trace of this machine", most=MOST_CARDS).at(
+                file
+            )
+        )
     return wanted
 
 
@@ -60,7 +70,7 @@ def write_record(record: Trace | Segments, output: Output) -> None:
         try:
             data = segment_bytes(segments)
         except ValueError as error:
-            raise OutputError(f"{output.path}: {error}") from error
+            raise OutputError(message_of(error).at(output.path)) from error
         output.write_bytes(data)
     else:
         trace = whole_trace(record, output.path) if isinstance(record, Segments) else record
@@ -71,4 +81,4 @@ def _read(file: Path, reader: Callable[[Path], Read]) -> Read:
     try:
         return reader(file)
     except OSError as error:
-        raise TraceError(str(file), None, f"can't be read: {error.strerror}") from error
+        raise TraceError(str(file), None, Message("can't be read: {why}", why=message_of(error))) from error

@@ -12,6 +12,7 @@ from typing import NoReturn, TextIO
 
 import numpy as np
 
+from drillctl.language import Message, Refusal, message_of
 from drillctl.trace.record import TICK_LIMIT, Signal, Trace
 from drillctl.trace.target import Target, opened
 from drillctl.trace.text import COMMAND, KEY, LINE_LIMIT, MAGIC, RESPONSE, STIMULUS, VERSION
@@ -25,16 +26,18 @@ REMARKS_LIMIT = 10_000  # lines behind the end
 CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
 
 
-class TraceError(Exception):
+class TraceError(Refusal):
     """A trace file that can't be read or run. `line` counts from 1, None where the whole file is meant."""
 
-    def __init__(self, file: str, line: int | None, reason: str) -> None:
-        super().__init__(file, line, reason)
+    kind = "trace"
+
+    def __init__(self, file: str, line: int | None, reason: Message) -> None:
+        super().__init__(reason.at(file, line))
         self.file, self.line, self.reason = file, line, reason
 
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
-        return f"{place}: {self.reason}"
+        return self.reason.at(place)
 
 
 def read_text(source: Target, name: str | None = None) -> Trace:
@@ -64,14 +67,14 @@ class _Lines:
                 self.refuse(_bad_ending(line))
             yield line[:-1]
 
-    def refuse(self, reason: str) -> NoReturn:
+    def refuse(self, reason: Message) -> NoReturn:
         raise TraceError(self._name, max(self.number, 1), reason)
 
 
-def _bad_ending(line: str) -> str:
+def _bad_ending(line: str) -> Message:
     if len(line) == LINE_LIMIT:
-        return f"the line is longer than {LINE_LIMIT} characters"
-    return "the line is not ended: the file was cut short; record it again"
+        return Message("the line is longer than {count} characters", count=LINE_LIMIT)
+    return Message("the line is not ended: the file was cut short; record it again")
 
 
 def _read_head(lines: _Lines) -> tuple[tuple[tuple[str, str], ...], dict[str, bool]]:
@@ -87,23 +90,39 @@ def _read_head(lines: _Lines) -> tuple[tuple[tuple[str, str], ...], dict[str, bo
         if key == "signal":
             _declare(lines, signals, value)
         elif signals or not _is_pair(line, key, value):
-            lines.refuse(f"{quoted(line)} is out of place: `key value` lines, signals, then a blank line")
+            lines.refuse(
+                Message("{line} is out of place: `key value` lines, signals, then a blank line", line=quoted(line))
+            )
         else:
             left[key == COMMAND] -= 1
             if left[key == COMMAND] < 0:
-                lines.refuse(f"more than {COMMANDS_LIMIT} commands, or {HEADER_LIMIT} other lines in the head")
+                lines.refuse(
+                    Message(
+                        "more than {commands} commands, or {lines} other lines in the head",
+                        commands=COMMANDS_LIMIT,
+                        lines=HEADER_LIMIT,
+                    )
+                )
             header.append((COMMAND if key == COMMAND else key, value))  # one string for all keys of commands
-    lines.refuse("the file stops within its head: it was cut short; record it again")
+    lines.refuse(Message("the file stops within its head: it was cut short; record it again"))
 
 
 def _check_magic(lines: _Lines, first: str) -> None:
     magic, _, version = first.partition(" ")
     if magic != MAGIC:
-        lines.refuse(f"not a trace: the first line must be '{MAGIC} {VERSION}'")
+        lines.refuse(Message("not a trace: the first line must be '{magic} {version}'", magic=MAGIC, version=VERSION))
     if version.endswith("\r"):
-        lines.refuse("lines end in CR LF, a trace has LF alone: keep git from changing it (.gitattributes: -text)")
+        lines.refuse(
+            Message("lines end in CR LF, a trace has LF alone: keep git from changing it (.gitattributes: -text)")
+        )
     if version != str(VERSION):
-        lines.refuse(f"trace version {quoted(version)}; this drillctl reads version {VERSION}")
+        lines.refuse(
+            Message(
+                "trace version {found}; this drillctl reads version {known}",
+                found=quoted(version),
+                known=VERSION,
+            )
+        )
 
 
 def _is_pair(line: str, key: str, value: str) -> bool:
@@ -113,11 +132,16 @@ def _is_pair(line: str, key: str, value: str) -> bool:
 def _declare(lines: _Lines, signals: dict[str, bool], declaration: str) -> None:
     name, _, mark = declaration.partition(" ")
     if mark not in (STIMULUS, RESPONSE) or not is_word(name):
-        lines.refuse(f"signal {quoted(declaration)}: expected a name, then < (stimulus) or > (response)")
+        lines.refuse(
+            Message(
+                "signal {declaration}: expected a name, then < (stimulus) or > (response)",
+                declaration=quoted(declaration),
+            )
+        )
     if name in signals:
-        lines.refuse(f"signal {quoted(name)} is declared twice")
+        lines.refuse(Message("signal {name} is declared twice", name=quoted(name)))
     if len(signals) == SIGNALS_LIMIT:
-        lines.refuse(f"more than {SIGNALS_LIMIT} signals")
+        lines.refuse(Message("more than {count} signals", count=SIGNALS_LIMIT))
     signals[name] = mark == STIMULUS
 
 
@@ -146,9 +170,15 @@ class _Changes:
             index, value = meaning(change)
             previous, place = place, tick * len(self._names) + index
             if place <= previous:
-                self._lines.refuse(f"tick {tick} {self._names[index]}: out of order (by tick, then as declared)")
+                self._lines.refuse(
+                    Message(
+                        "tick {tick} {names}: out of order (by tick, then as declared)",
+                        tick=tick,
+                        names=self._names[index],
+                    )
+                )
             self._keep(tick, index, value)
-        self._lines.refuse("the file stops without 'end': it was cut short; record it again")
+        self._lines.refuse(Message("the file stops without 'end': it was cut short; record it again"))
 
     def trace(self, header: tuple[tuple[str, str], ...], end: int, trailer: tuple[str, ...]) -> Trace:
         """Returns the trace that was read. The columns are canonical already."""
@@ -162,11 +192,13 @@ class _Changes:
 
     def _keep(self, tick: int, index: int, value: int) -> None:
         if self._last[index] == value:
-            self._lines.refuse(f"{self._names[index]} has this value already: only changes are listed")
+            self._lines.refuse(
+                Message("{names} has this value already: only changes are listed", names=self._names[index])
+            )
         if tick > 0 and self._tick == 0:
             self._check_tick_zero()
         if len(self._ticks) == CHANGES_LIMIT:
-            self._lines.refuse(f"more than {CHANGES_LIMIT} changes")
+            self._lines.refuse(Message("more than {count} changes", count=CHANGES_LIMIT))
         self._last[index], self._tick = value, tick
         self._ticks.append(tick)
         self._signal.append(index)
@@ -175,14 +207,16 @@ class _Changes:
     def _check_tick_zero(self) -> None:
         missing = [name for name, last in zip(self._names, self._last, strict=True) if last is None]
         if missing:
-            self._lines.refuse(f"signal {quoted(missing[0])} has no value at tick 0: tick 0 lists all signals")
+            self._lines.refuse(
+                Message("signal {name} has no value at tick 0: tick 0 lists all signals", name=quoted(missing[0]))
+            )
 
     def _end(self, word: str) -> int:
         end = self._number(word)
         if end > 0:
             self._check_tick_zero()
         if len(self._ticks) and self._tick >= end:
-            self._lines.refuse(f"end {end}, but there is a change at tick {self._tick}")
+            self._lines.refuse(Message("end {end}, but there is a change at tick {tick}", end=end, tick=self._tick))
         return end
 
     def _number(self, word: str) -> int:
@@ -191,7 +225,11 @@ class _Changes:
         """
         tick = int(word) if len(word) <= len(str(TICK_LIMIT)) and word.isdecimal() else -1
         if str(tick) != word or tick > TICK_LIMIT:
-            self._lines.refuse(f"{quoted(word)} is no tick: a whole number up to {TICK_LIMIT}")
+            self._lines.refuse(
+                Message(
+                    "{word} is no tick: a whole number up to {most}", word=quoted(word), most=TICK_LIMIT
+                )
+            )
         return tick
 
     def _meaning(self, change: str) -> tuple[int, int]:
@@ -199,17 +237,17 @@ class _Changes:
         name, _, word = change.partition(" ")
         index = self._index.get(name)
         if index is None:
-            self._lines.refuse(f"signal {quoted(name)} is not declared above")
+            self._lines.refuse(Message("signal {name} is not declared above", name=quoted(name)))
         try:
             return index, KINDS[self._kinds[index]].read(word, self._words[index])
-        except ValueError as reason:
-            self._lines.refuse(f"{name}: {reason}")
+        except ValueError as error:
+            self._lines.refuse(message_of(error).at(name))
 
 
 def _remark(lines: _Lines, line: str, count: int) -> str:
     if count == REMARKS_LIMIT:
-        lines.refuse(f"more than {REMARKS_LIMIT} lines follow the end")
+        lines.refuse(Message("more than {count} lines follow the end", count=REMARKS_LIMIT))
     remark = line.removeprefix("#").strip()
     if not line.startswith("#") or not remark.isprintable():
-        lines.refuse(f"{quoted(line)} after the end: only # lines may follow")
+        lines.refuse(Message("{line} after the end: only # lines may follow", line=quoted(line)))
     return remark

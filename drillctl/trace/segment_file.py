@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.files.inputs import read_bytes, read_start
+from drillctl.language import Message, message_of
 from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Trace
 from drillctl.trace.segments import MOST_TICKS, OUTPUT, Segments
@@ -53,19 +54,25 @@ def segment_bytes(segments: Segments) -> bytes:
     packed = b"".join(COUNT.pack(len(block)) + block for block in blocks)
     file = MAGIC + zlib.compress(packed, LEVEL)
     if len(packed) > room_bytes(len(file)) or segments.end > MOST_TICKS:
-        raise ValueError(f"{segments.end} ticks are more than segments hold; keep a part of the run, or a .trace")
+        raise ValueError(
+            Message("{end} ticks are more than segments hold; keep a part of the run, or a .trace", end=segments.end)
+        )
     return file
 
 
 def read_segments(path: str | os.PathLike[str]) -> Segments:
     """Returns the segments in a file. Raises TraceError for a file that is not whole, OSError as `open`."""
-    data = read_bytes(path, LARGEST_FILE_BYTES, "a trace")
+    data = read_bytes(path, LARGEST_FILE_BYTES, Message("a trace"))
     if not data.startswith(MAGIC):
-        raise TraceError(str(path), None, f"not segments: the first line must be {MAGIC.decode().strip()!r}")
+        raise TraceError(
+            str(path), None, Message("not segments: the first line must be {magic!r}", magic=MAGIC.decode().strip())
+        )
     try:
         return _unpacked(_Blocks(data))
     except (zlib.error, struct.error, ValueError, IndexError, TypeError, OverflowError, TraceError) as error:
-        raise TraceError(str(path), None, f"damaged ({error}); record it again") from error
+        raise TraceError(
+            str(path), None, Message("damaged ({why}); record it again", why=message_of(error))
+        ) from error
 
 
 class _Blocks:
@@ -79,7 +86,7 @@ class _Blocks:
         begin = self._at + COUNT.size
         self._at = begin + COUNT.unpack_from(self._data, self._at)[0]
         if self._at > len(self._data):
-            raise ValueError("cut short")
+            raise ValueError(Message("cut short"))
         return self._data[begin : self._at]
 
     def column(self) -> Values:
@@ -87,7 +94,7 @@ class _Blocks:
         block = next(self)
         self._rows_left -= COUNT.unpack_from(block)[0]
         if self._rows_left < 0:
-            raise ValueError("more rows than a file of its size has")
+            raise ValueError(Message("more rows than a file of its size has"))
         return _uncolumn(block)
 
 
@@ -96,7 +103,7 @@ def _inflated(data: bytes) -> bytes:
     unpacker = zlib.decompressobj()
     found = unpacker.decompress(data[len(MAGIC) :], room_bytes(len(data)))
     if not unpacker.eof:
-        raise ValueError("cut short, or more than a file of its size has")
+        raise ValueError(Message("cut short, or more than a file of its size has"))
     return found
 
 
@@ -108,9 +115,11 @@ def room_bytes(file_bytes: int) -> int:
 def _unpacked(blocks: _Blocks) -> Segments:
     end, checksum, bits, tape_count, bare = SUMS.unpack(next(blocks))
     if end > MOST_TICKS:
-        raise ValueError(f"{end} ticks; a trace in segments has at most {MOST_TICKS}")
+        raise ValueError(
+            Message("{end} ticks; a trace in segments has at most {most}", end=end, most=MOST_TICKS)
+        )
     if bits not in BITS or not tape_count:
-        raise ValueError("no images of 32 or 64 bits")
+        raise ValueError(Message("no images of 32 or 64 bits"))
     head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
     pool = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
     tapes = [Tape(blocks.column(), blocks.column()) for _ in range(tape_count)]
@@ -123,7 +132,7 @@ def _unpacked(blocks: _Blocks) -> Segments:
         _check(tape, end, len(pool))
     segments = Segments(rest, head.signals, pool, tuple(tapes))
     if segments.checksum != checksum:
-        raise ValueError("the checksum of its images is another")
+        raise ValueError(Message("the checksum of its images is another"))
     return segments
 
 
@@ -131,7 +140,7 @@ def _check(tape: Tape, end: int, words: int) -> None:
     inside = (tape.start >= 0) & (tape.start <= words) & (tape.ticks > 0) & (tape.ticks <= words - tape.start)
     same_length = len(tape.start) == len(tape.ticks)
     if not same_length or not inside.all() or int(tape.ticks.sum()) != end:
-        raise ValueError("a tape runs off its pool")
+        raise ValueError(Message("a tape runs off its pool"))
 
 
 def _bare(header: Pairs) -> Pairs | None:
@@ -184,11 +193,11 @@ def _uncolumn(block: bytes) -> Values:
     begin = 2 * COUNT.size
     different = _unplaned(block[begin : begin + 8 * kinds], np.dtype("<i8")).cumsum()
     if kinds > count:
-        raise ValueError("a column has more different values than rows")
+        raise ValueError(Message("a column has more different values than rows"))
     width = next(dtype for dtype in INDEXES if kinds <= 1 << 8 * dtype.itemsize)
     index = _unplaned(block[begin + 8 * kinds :], width)
     if len(index) != count:
-        raise ValueError("a column is cut short")
+        raise ValueError(Message("a column is cut short"))
     return different[index]
 
 

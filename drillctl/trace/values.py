@@ -19,6 +19,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.language import Message
+
 IDLE = "-"
 OPCODES = 64  # a command's value is sequence x OPCODES + opcode; opcode 0 is no command
 SEQUENCES = 10**9  # nine digits in text, and within a VCD `integer`
@@ -87,25 +89,38 @@ def _show_command(value: int, names: Sequence[str]) -> str:
 
 def _read_word(text: str, _: Vocabulary) -> int:
     if not re.fullmatch(r"0x[0-9a-f]{8}", text):
-        raise ValueError(f"{quoted(text)} is no port word: expected 0x and eight hex digits, 0-9 a-f")
+        raise ValueError(
+            Message("{text} is no port word: expected 0x and eight hex digits, 0-9 a-f", text=quoted(text))
+        )
     return int(text, 16)
 
 
 def _read_count(text: str, _: Vocabulary) -> int:
     if not re.fullmatch(r"0|-?[1-9][0-9]*", text):
-        raise ValueError(f"{quoted(text)} is no whole number")
+        raise ValueError(Message("{text} is no whole number", text=quoted(text)))
     highest = 1 << (WIDEST_BITS - 1)
     if len(text) > len(str(-highest)) or not -highest <= int(text) < highest:
-        raise ValueError(f"{quoted(text)} is too large: counts are {-highest}..{highest - 1}")
+        raise ValueError(
+            Message(
+                "{text} is too large: counts are {low}..{high}",
+                text=quoted(text),
+                low=-highest,
+                high=highest - 1,
+            )
+        )
     return int(text)
 
 
 def _read_name(text: str, vocabulary: Vocabulary, limit: int = NAMES_LIMIT) -> int:
     if not is_word(text):
-        raise ValueError(f"{quoted(text)} is no word")
+        raise ValueError(Message("{text} is no word", text=quoted(text)))
     index = vocabulary.setdefault(text, len(vocabulary))
     if index >= limit:
-        raise ValueError(f"{quoted(text)} is one name too many: at most {limit} different ones are read")
+        raise ValueError(
+            Message(
+                "{text} is one name too many: at most {limit} different ones are read", text=quoted(text), limit=limit
+            )
+        )
     return index
 
 
@@ -114,7 +129,9 @@ def _read_command(text: str, vocabulary: Vocabulary) -> int:
         return 0
     match = re.fullmatch(r"(0|[1-9][0-9]{0,8}):(.+)", text)
     if not match or match[2] == IDLE:
-        raise ValueError(f"{quoted(text)} is no command: expected SEQUENCE:NAME, or {IDLE} when idle")
+        raise ValueError(
+            Message("{text} is no command: expected SEQUENCE:NAME, or {idle} when idle", text=quoted(text), idle=IDLE)
+        )
     vocabulary.setdefault(IDLE, 0)  # opcode 0 is no command's
     return pack_command(int(match[1]), _read_name(match[2], vocabulary, OPCODES))
 

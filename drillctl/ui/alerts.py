@@ -6,8 +6,7 @@ nothing, so that an Enter meant for something else moves nothing.
 
 from collections.abc import Callable
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import _
+from drillctl.language.words import _, translated
 from drillctl.ui.layers import Layers
 from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.widgets import dialogs

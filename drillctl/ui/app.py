@@ -11,8 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import _
+from drillctl.language.words import _, translated
 from drillctl.ui.alerts import Alerts
 from drillctl.ui.explanations import EXPLAINED
 from drillctl.ui.frame import MainFrame, screen_keys

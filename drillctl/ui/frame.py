@@ -9,8 +9,7 @@ from typing import Any
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.widgets.borders import lines
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
 from drillctl.ui.widgets.menus import Item, hot_letter, label_markup, plain_label

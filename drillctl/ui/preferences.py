@@ -9,6 +9,7 @@ from pathlib import Path
 
 from drillctl.files.inputs import read_bytes, toml_of
 from drillctl.files.outputs import write_text
+from drillctl.language import Message
 from drillctl.ui.widgets.themes import DEFAULT_THEME, MONO, THEMES
 
 LARGEST_FILE_BYTES = 4096
@@ -26,7 +27,7 @@ def chosen_theme(environment: Mapping[str, str]) -> str:
     if environment.get("NO_COLOR"):
         return MONO
     try:
-        theme = toml_of(read_bytes(file(), LARGEST_FILE_BYTES, "the screen's settings").decode()).get("theme")
+        theme = toml_of(read_bytes(file(), LARGEST_FILE_BYTES, Message("the screen's settings")).decode()).get("theme")
     except (OSError, ValueError, RecursionError):  # ValueError: no TOML, or no UTF-8
         return DEFAULT_THEME
     return theme if isinstance(theme, str) and theme in THEMES else DEFAULT_THEME

@@ -11,10 +11,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.language import Message
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress
 
-Problems = tuple[str, ...]
+Problems = tuple[Message, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +64,7 @@ class MachineView:
     late: int
     late_worst_ms: float
     fault: FaultReport | None
-    notices: tuple[str, ...]
+    notices: tuple[Message, ...]
     tool_wanted: ToolWanted | None = None
     real_wanted: str = ""  # the port that the machine's file asks for (mode REAL) while a simulated one is in use
     at_work: bool = False  # a job, a jog or an initialisation is on its way
@@ -94,12 +95,12 @@ class BoardView:
     file_xy_mm: NDArray[np.float64]
     tool: NDArray[np.int64]
     tools: tuple[ToolView, ...]
-    format: str
+    format: Message
     dialect: str
     confidence: float
-    reason: str
-    runner_up: str
-    warnings: tuple[str, ...]
+    reason: Message
+    runner_up: Message | None
+    warnings: tuple[Message, ...]
     estimate: Estimate
 
 

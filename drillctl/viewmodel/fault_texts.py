@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from drillctl.kmd import Fault
+from drillctl.language import Message
 from drillctl.viewmodel.records import FaultReport
 
 
@@ -20,78 +21,98 @@ class FaultWords(NamedTuple):
 
 FAULT_WORDS: Mapping[Fault, FaultWords] = {
     Fault.LIMIT: FaultWords(
-        "a limit sensor answered while its axis was moving towards it, outside initialisation",
-        "look for lost steps or a board laid too far out, then initialise again",
+        Message("a limit sensor answered while its axis was moving towards it, outside initialisation"),
+        Message("look for lost steps or a board laid too far out, then initialise again"),
     ),
     Fault.RANGE: FaultWords(
-        "the tracked position left the configured work range",
-        "check the work range, the scale and the limit sensors in the machine's file, then initialise again",
+        Message("the tracked position left the configured work range"),
+        Message("check the work range, the scale and the limit sensors in the machine's file, then initialise again"),
     ),
     Fault.SOFT_LIMIT: FaultWords(
-        "a command's target lies where its axis can't be sent: outside its range, at a limit sensor, or farther "
-        "than its travel is long; the command moved nothing",
-        "correct the command or the working base; before initialisation all moves together must fit into the travel",
+        Message(
+            "a command's target lies where its axis can't be sent: outside its range, at a limit sensor, or farther "
+            "than its travel is long; the command moved nothing"
+        ),
+        Message(
+            "correct the command or the working base; before initialisation all moves together must fit into the travel"
+        ),
     ),
     Fault.HOMING_REQUIRED: FaultWords(
-        "a move to a place was asked for while the position was not known; that command moved nothing",
-        "initialise first (KMD_INICJALIZACJA)",
+        Message("a move to a place was asked for while the position was not known; that command moved nothing"),
+        Message("initialise first (KMD_INICJALIZACJA)"),
     ),
     Fault.HOMING_NOT_FOUND: FaultWords(
-        "initialisation, or the way home after a fault, did not find a limit sensor or did not come clear of it",
-        "check the sensor, its wiring and its polarity, and that the carriage moves freely",
+        Message(
+            "initialisation, or the way home after a fault, did not find a limit sensor or did not come clear of it"
+        ),
+        Message("check the sensor, its wiring and its polarity, and that the carriage moves freely"),
     ),
     Fault.DRILL_NOT_DOWN: FaultWords(
-        "the head came to rest without its lower sensor answering: at the end of its range (Zmax passed), or the "
-        "sensor had answered for a moment only",
-        "look for a blunt drill, a jammed head or a dirty lower sensor",
+        Message(
+            "the head came to rest without its lower sensor answering: at the end of its range (Zmax passed), or the "
+            "sensor had answered for a moment only"
+        ),
+        Message("look for a blunt drill, a jammed head or a dirty lower sensor"),
     ),
     Fault.HEAD_NOT_UP: FaultWords(
-        "the head came to rest without its upper sensor answering",
-        "free the head, check the upper sensor, then initialise again",
+        Message("the head came to rest without its upper sensor answering"),
+        Message("free the head, check the upper sensor, then initialise again"),
     ),
     Fault.DRILLING_TIME: FaultWords(
-        "lowering the head took longer than the configured drilling time",
-        "change a blunt drill, or raise longest_drilling_s in the machine's file",
+        Message("lowering the head took longer than the configured drilling time"),
+        Message("change a blunt drill, or raise longest_drilling_s in the machine's file"),
     ),
     Fault.SENSOR_CONTRADICTION: FaultWords(
-        "the sensors at both ends of one axis answered at once",
-        "check sensors and cable: one of them is stuck, dirty or shorted",
+        Message("the sensors at both ends of one axis answered at once"),
+        Message("check sensors and cable: one of them is stuck, dirty or shorted"),
     ),
     Fault.INPUT_TIMEOUT: FaultWords(
-        "an awaited input did not come in its time",
-        "check what should have switched it, or give KMD_CZEKAJ_WE more ticks",
+        Message("an awaited input did not come in its time"),
+        Message("check what should have switched it, or give KMD_CZEKAJ_WE more ticks"),
     ),
     Fault.LINE_MISMATCH: FaultWords(
-        "axes with different columns_per_step can't be linked in one line; the command moved nothing",
-        "move them one after the other, or give them the same columns_per_step",
+        Message("axes with different columns_per_step can't be linked in one line; the command moved nothing"),
+        Message("move them one after the other, or give them the same columns_per_step"),
     ),
     Fault.BAD_COMMAND: FaultWords(
-        "a command that this machine can't carry out came down the queue",
-        "check the queue against docs/KMD.md and the machine's outputs",
+        Message("a command that this machine can't carry out came down the queue"),
+        Message("check the queue against docs/KMD.md and the machine's outputs"),
     ),
     Fault.EMERGENCY_STOP: FaultWords(
-        "emergency stop; where the outputs were dropped, a raised head may sink",
-        "clear the danger, acknowledge, and initialise where the position was lost",
+        Message("emergency stop; where the outputs were dropped, a raised head may sink"),
+        Message("clear the danger, acknowledge, and initialise where the position was lost"),
     ),
     Fault.LATE_TICK: FaultWords(
-        "the ticks stood still for more than a quarter of a second: the computer was busy elsewhere, or suspended",
-        "grant real-time scheduling or free the computer (drillctl latency), acknowledge; initialise where lost",
+        Message(
+            "the ticks stood still for more than a quarter of a second: the computer was busy elsewhere, or suspended"
+        ),
+        Message(
+            "grant real-time scheduling or free the computer (drillctl latency), acknowledge; initialise where lost"
+        ),
     ),
     Fault.PORT_LOST: FaultWords(
-        "the port is gone, or its board was reset; what its outputs are now can't be known, nor made safe by software",
-        "cut the motors' supply, check cable, card and the card's own supply, then start anew and initialise",
+        Message(
+            "the port is gone, or its board was reset; what its outputs are now can't be known, nor made safe by "
+            "software"
+        ),
+        Message("cut the motors' supply, check cable, card and the card's own supply, then start anew and initialise"),
     ),
     Fault.HEARTBEAT_LOST: FaultWords(
-        "the program above the queue ended or fell silent; the outputs were switched off",
-        "see why it ended or hung, then initialise; a job with a journal can be resumed",
+        Message("the program above the queue ended or fell silent; the outputs were switched off"),
+        Message("see why it ended or hung, then initialise; a job with a journal can be resumed"),
     ),
     Fault.TICKER_LOST: FaultWords(
-        "the process that runs the ticks ended or stood still; the outputs were made safe where the port still answers",
-        "see why it ended, then initialise; a job with a journal can be resumed",
+        Message(
+            "the process that runs the ticks ended or stood still; the outputs were made safe where the port still "
+            "answers"
+        ),
+        Message("see why it ended, then initialise; a job with a journal can be resumed"),
     ),
     Fault.PORT_SLOW: FaultWords(
-        "the port takes outputs more slowly than the ticks make them; the motors may have missed some",
-        "lower tick_hz or use a faster line, and see that nothing else talks to the port; then initialise again",
+        Message("the port takes outputs more slowly than the ticks make them; the motors may have missed some"),
+        Message(
+            "lower tick_hz or use a faster line, and see that nothing else talks to the port; then initialise again"
+        ),
     ),
 }
 
@@ -103,6 +124,6 @@ def fault_report(code: int, kept: bool) -> FaultReport:
     return FaultReport(code, fault.name, words.cause, words.remedy, "kept" if kept else "lost")
 
 
-def local_tables(files: Sequence[str]) -> str:
+def local_tables(files: Sequence[str]) -> Message:
     """That these tables, which nobody named and which are not the shipped ones, are in use: for a verb and a screen."""
-    return f"local tables are in use, not the shipped ones: {', '.join(files)}"
+    return Message("local tables are in use, not the shipped ones: {files}", files=", ".join(files))

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drillctl.language import Message
+
 
 @dataclass(frozen=True, slots=True)
 class MeasuredHole:
@@ -66,8 +68,8 @@ class AlignmentReport:
     residual_mm: tuple[float, ...]
     turn_deg: float
     scale: tuple[float, float]
-    warnings: tuple[str, ...]
-    rejected: tuple[str, ...]
+    warnings: tuple[Message, ...]
+    rejected: tuple[Message, ...]
 
     def place_mm(self, file_xy_mm: ArrayLike) -> tuple[float, float]:
         """Where a hole is to be looked for, from machine zero."""
@@ -103,9 +105,17 @@ class Site:
         return self.plant == "none"
 
     def __str__(self) -> str:
-        plant = "" if self.real else f", plant {self.plant}"
-        seed = f", seed {self.seed}" if self.seed else ""
-        return f"port {self.port}, pace {self.pace}{plant}{seed}"
+        return self.message
+
+    @property
+    def message(self) -> Message:
+        """The site in words."""
+        known = {"port": self.port, "pace": self.pace, "plant": self.plant, "seed": self.seed}
+        if self.real:
+            return Message("port {port}, pace {pace}", **known)
+        if not self.seed:
+            return Message("port {port}, pace {pace}, plant {plant}", **known)
+        return Message("port {port}, pace {pace}, plant {plant}, seed {seed}", **known)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 
 Ints = NDArray[np.int64]
@@ -74,7 +75,7 @@ class Notice:
     """Something that a run lacks, and the number or reason that belongs to it."""
 
     lack: Lack
-    value: int | str = ""
+    value: int | Message = 0
 
 
 class ScopeSource(Protocol):

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from drillctl.language import Message
 from drillctl.ports import CARD_BITS
 from drillctl.viewmodel.console import Problems
 
@@ -70,9 +71,9 @@ class PortReport:
     """What a test found: facts, a line each; the sensors as they answer now; or why the port can't be used."""
 
     port: str
-    facts: tuple[str, ...] = ()
+    facts: tuple[Message, ...] = ()
     inputs: tuple[tuple[str, bool], ...] = ()
-    problem: str = ""
+    problem: Message | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 
 TableKind = Literal["phase", "ramp", "motor", "machines"]
@@ -32,12 +33,17 @@ class TextFinding:
     """Something about a text: its line from 1 (None: the whole), its column from 1 where one is known."""
 
     line: int | None
-    text: str
+    text: Message
     column: int | None = None
 
-    def __str__(self) -> str:
-        place = ":".join(str(number) for number in (self.line, self.column) if number is not None)
-        return f"{place}: {self.text}" if place else self.text
+    @property
+    def message(self) -> Message:
+        """The text with its place before it: ``LINE:COLUMN: ``, as much of it as is known."""
+        if self.line is None:
+            return self.text
+        if self.column is None:
+            return Message("{line}: {reason}", line=self.line, reason=self.text)
+        return Message("{line}:{column}: {reason}", line=self.line, column=self.column, reason=self.text)
 
 
 @dataclass(frozen=True, slots=True)

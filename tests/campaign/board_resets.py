@@ -22,7 +22,7 @@ from drillctl.plant import IdealPlant
 from drillctl.portio.firmata import FirmataCard
 from drillctl.portio.firmata_line import FirmataLine
 from drillctl.portio.firmata_pins import MEGA, Pins
-from drillctl.portio.firmata_protocol import Decoder, Firmware, Message
+from drillctl.portio.firmata_protocol import BoardMessage, Decoder, Firmware
 from drillctl.portio.firmata_watch import Watch
 from drillctl.ports import PortLost
 from drillctl.ticker.confirmed_status import ConfirmedStatus
@@ -104,13 +104,13 @@ class BoardLine:
 
     send_first = send
 
-    def received(self) -> list[Message]:
-        messages: list[Message] = []
+    def received(self) -> list[BoardMessage]:
+        messages: list[BoardMessage] = []
         while self._on_its_way and self._on_its_way[0][0] <= self.wakes:
             messages += self._decoder.feed(self._on_its_way.popleft()[1])
         return messages
 
-    def answer(self, question: bytes, kind: type[Message]) -> Message:
+    def answer(self, question: bytes, kind: type[BoardMessage]) -> BoardMessage:
         self.send(question)
         self.wakes += ANSWER_TICKS
         return next(message for message in self.received() if isinstance(message, kind))

@@ -15,6 +15,7 @@ from drillctl.cli import main
 from drillctl.jobs import session
 from drillctl.jobs.journal import read_journal
 from drillctl.jobs.site import site_of
+from drillctl.language import Message
 from drillctl.machine import shipped_tables
 from drillctl.ports import PortRefused
 from drillctl.ticker.launch import RunSettings
@@ -44,7 +45,7 @@ def started(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Started:
 
     def start(machine: object, running: RunSettings, status_file: Path) -> None:
         begun.append(site_of(running))
-        raise PortRefused(running.port, "not here")
+        raise PortRefused(running.port, Message("not here"))
 
     def resumed(site: Site, *options: str) -> tuple[int, list[Site]]:
         (folder / "j").write_bytes(forged([{**head, "site": asdict(site)}, *lines]))

@@ -27,7 +27,7 @@ def test_a_board_that_answers_is_told_of_and_given_back() -> None:
         port, bit = (5, 7)[reached.bit // 8], reached.bit % 8
         board.board.outside[port] &= ~(1 << bit)  # a switch closes to ground
         report = look_at_port(MACHINE, f"firmata:{board.device}")
-        assert report.problem == ""
+        assert report.problem is None
         facts = "\n".join(report.facts)
         assert "StandIn 2.5 answers" in facts and "outputs: D16 D17" in facts and "inputs with pull-up: D40" in facts
         assert f"the machine wants {MACHINE.tick_hz} Hz" in facts and "carries up to" in facts
@@ -35,7 +35,7 @@ def test_a_board_that_answers_is_told_of_and_given_back() -> None:
         assert told.keys() == {sensor.name for sensor in MACHINE.sensors}
         assert told[reached.name] == (reached.active_level == 0)
         assert not any(board.board.output(pin) for pin in range(16, 40)), "nothing was switched on"
-        assert look_at_port(MACHINE, f"firmata:{board.device}").problem == "", "the line was given back"
+        assert look_at_port(MACHINE, f"firmata:{board.device}").problem is None, "the line was given back"
     finally:
         board.vanish()
 

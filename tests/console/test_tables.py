@@ -82,7 +82,7 @@ def test_problems_say_the_line(bench: TableFiles) -> None:
     text = bench.with_state(bench.read("ramp", "seven-state"), 2, "brake", 1)
     (found,) = bench.check("ramp", text).problems
     assert found.line is not None and text.split("\n")[found.line - 1] == "brake = 1"
-    assert str(found).startswith(f"{found.line}: state 2")
+    assert found.message.startswith(f"{found.line}: state 2")
 
 
 def test_a_fault_in_a_table_that_a_machine_names_is_told_with_its_file(bench: TableFiles, user: Path) -> None:
@@ -288,7 +288,7 @@ def test_moves_longer_than_the_range_are_told_although_they_may_be_tried(
     queue: QueueFiles, line: str, found: tuple[str, ...]
 ) -> None:
     text = f"KMD_INICJALIZACJA\n\n{line}\n"
-    told = [str(finding) for finding in queue.too_far(text)]
+    told = [finding.message for finding in queue.too_far(text)]
     assert [words.split(" steps ")[0] for words in told] == [f"3: {place}" for place in found]
     assert queue.check_queue(text) == () and queue.too_far("") == ()
 

@@ -65,7 +65,7 @@ def test_a_slot_becomes_a_chain_in_its_place() -> None:
 def test_unreachable_holes_are_all_named_with_their_lines() -> None:
     with pytest.raises(JobError) as caught:
         build(drill_file("T1\nX0Y0\nX360Y0\nT2\nX10Y300\nX400Y400"), Wishes(), PCB)
-    lines = caught.value.problems
+    lines = caught.value.messages
     assert [line.partition(": ")[0] for line in lines] == ["board.drl:8", "board.drl:10", "board.drl:11"]
     assert "X360.0000 Y0.0000 mm is out of reach of pcb-drill: X 17008 steps is outside 0..16528" in lines[0]
     assert "X 18898" in lines[2] and "Y 18898" in lines[2]
@@ -75,7 +75,7 @@ def test_a_long_list_of_unreachable_holes_is_cut_in_print_only() -> None:
     body = "T1\n" + "\n".join(f"X{400 + n}Y0" for n in range(80)) + "\nX0Y0"
     with pytest.raises(JobError) as caught:
         build(drill_file(body), Wishes(), PCB)
-    assert len(caught.value.problems) == 80
+    assert len(caught.value.messages) == 80
     assert str(caught.value).splitlines()[-1] == "and 30 more"
 
 
@@ -152,7 +152,7 @@ def test_spots_come_before_the_drilling_of_a_tool() -> None:
 
 @pytest.mark.parametrize("depth_mm", [0.0, -1.0, 0.01, float("nan"), float("inf")])
 def test_a_peck_that_never_ends_is_refused(depth_mm: float) -> None:
-    with pytest.raises(JobError, match="--peck"):
+    with pytest.raises(JobError, match="peck depth"):
         Wishes(peck_mm=depth_mm)
 
 

@@ -6,10 +6,10 @@ from hypothesis import strategies as st
 
 from drillctl.portio.firmata_protocol import (
     LONGEST_SYSEX_BYTES,
+    BoardMessage,
     Decoder,
     DigitalReport,
     Firmware,
-    Message,
     PinMode,
     PinState,
     Version,
@@ -26,7 +26,7 @@ def text_bytes(text: str) -> bytes:
     return bytes(byte for letter in text for byte in (ord(letter) & 0x7F, ord(letter) >> 7))
 
 
-def as_sent(message: Message) -> bytes:
+def as_sent(message: BoardMessage) -> bytes:
     """What a board sends for a message; written from the protocol's description, not from the decoder."""
     match message:
         case DigitalReport(port, value):
@@ -64,9 +64,9 @@ def test_what_is_sent(sent: bytes, wanted: str) -> None:
 
 
 @given(st.lists(messages), st.lists(st.integers(1, 9), min_size=1))
-def test_messages_come_through_however_they_are_cut(sent: list[Message], lengths: list[int]) -> None:
+def test_messages_come_through_however_they_are_cut(sent: list[BoardMessage], lengths: list[int]) -> None:
     stream = b"".join(map(as_sent, sent))
-    decoder, received, start, turn = Decoder(), list[Message](), 0, 0
+    decoder, received, start, turn = Decoder(), list[BoardMessage](), 0, 0
     while start < len(stream):
         length = lengths[turn % len(lengths)]
         received += decoder.feed(stream[start : start + length])
@@ -78,16 +78,16 @@ def test_messages_come_through_however_they_are_cut(sent: list[Message], lengths
 def test_nothing_raises(pieces: list[bytes]) -> None:
     decoder = Decoder()
     for piece in pieces:
-        assert all(isinstance(message, Message) for message in decoder.feed(piece))
+        assert all(isinstance(message, BoardMessage) for message in decoder.feed(piece))
 
 
 @given(st.binary(max_size=80), messages)
-def test_after_noise_the_next_whole_message_is_understood(noise: bytes, message: Message) -> None:
+def test_after_noise_the_next_whole_message_is_understood(noise: bytes, message: BoardMessage) -> None:
     assert Decoder().feed(noise + as_sent(message))[-1] == message
 
 
 @given(messages, messages, st.data())
-def test_a_cut_message_is_lost_and_no_other(first: Message, second: Message, data: st.DataObject) -> None:
+def test_a_cut_message_is_lost_and_no_other(first: BoardMessage, second: BoardMessage, data: st.DataObject) -> None:
     whole = as_sent(first)
     cut = whole[: data.draw(st.integers(0, len(whole) - 1))]
     assert Decoder().feed(cut + as_sent(second)) == [second]

@@ -2,6 +2,7 @@
 
 import pytest
 
+from drillctl.language import Message
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import PortLost
 from tests.portio.conformance import StandInPlant
@@ -33,7 +34,7 @@ def test_when_it_is_full_the_port_goes_on_and_the_rest_is_counted() -> None:
 def test_what_was_not_put_out_is_not_kept() -> None:
     class Lost(SimulatedCard):
         def flush(self, image: int) -> None:
-            raise PortLost("lost", "gone")
+            raise PortLost("lost", Message("gone"))
 
     driver = RecordingDriver(Lost(StandInPlant()), 4)
     with pytest.raises(PortLost):

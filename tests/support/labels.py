@@ -8,7 +8,7 @@ from drillctl.language import words
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.menus import Item, hot_letter
 
-POLISH = words.catalogue((words.LOCALE / "pl" / "LC_MESSAGES" / "drillctl.po").read_text("utf-8"))
+POLISH = words.catalogue(words.catalogue_text("pl"))
 
 
 def word(message: str) -> str:

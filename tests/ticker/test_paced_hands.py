@@ -11,6 +11,7 @@ import pytest
 
 from drillctl.generation.job import names_of
 from drillctl.kmd import Condition, Fault, Request, parse_program, to_text
+from drillctl.language import Message
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.ports import PortSlow
 from drillctl.replay.compare import replay
@@ -49,7 +50,7 @@ class Wires:
 
     def flush(self, image: int) -> None:
         if self.words[SLOW]:
-            raise PortSlow("wires", "bytes wait")
+            raise PortSlow("wires", Message("bytes wait"))
         self.words[OUTPUTS] = image
 
     def safe(self) -> None:

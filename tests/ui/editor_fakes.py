@@ -7,6 +7,7 @@ from typing import Any
 
 import urwid
 
+from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.signals import SignalView
 from drillctl.viewmodel.tables import (
@@ -154,12 +155,14 @@ class Tables:
 
     def check(self, kind: TableKind, text: str) -> Checked:
         lines = list(enumerate(text.split("\n"), start=1))
-        problems = tuple(TextFinding(number, "it is bad") for number, line in lines if "bad" in line)
-        return Checked(problems, tuple(TextFinding(None, "all dark") for _number, line in lines if "...." in line))
+        problems = tuple(TextFinding(number, Message("it is bad")) for number, line in lines if "bad" in line)
+        return Checked(
+            problems, tuple(TextFinding(None, Message("all dark")) for _number, line in lines if "...." in line)
+        )
 
     def save(self, kind: TableKind, name: str, text: str) -> Problems:
         if problems := self.check(kind, text).problems:
-            return tuple(map(str, problems))
+            return tuple(problem.message for problem in problems)
         self.own[kind] = text
         return ()
 
@@ -245,10 +248,14 @@ class Queues:
 
     def check_queue(self, text: str) -> tuple[TextFinding, ...]:
         lines = enumerate(text.split("\n"), start=1)
-        return tuple(TextFinding(n, "unknown command", 1) for n, line in lines if line and not line.startswith("KMD_"))
+        return tuple(
+            TextFinding(n, Message("unknown command"), 1) for n, line in lines if line and not line.startswith("KMD_")
+        )
 
     def too_far(self, text: str) -> tuple[TextFinding, ...]:
-        return tuple(TextFinding(n, "too far") for n, line in enumerate(text.split("\n"), start=1) if "9999" in line)
+        return tuple(
+            TextFinding(n, Message("too far")) for n, line in enumerate(text.split("\n"), start=1) if "9999" in line
+        )
 
     def open_queue(self, file: str) -> tuple[str, Problems]:
         return (self.files[file], ()) if file in self.files else ("", (f"{file}: can't be read",))

@@ -15,6 +15,7 @@ from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
 from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob, Site, UnfinishedJob
+from tests.support.messages import screen_templates
 from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50)]
@@ -171,7 +172,7 @@ def test_an_interrupted_job_is_offered_with_all_that_it_means(language: str, siz
     program.press("f", "u")
     text = " ".join(" ".join(row.split("│")[row.count("│") // 2] for row in program.text().splitlines()).split())
     for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the tool in hand"):
-        source = next(message for message in words_of_screen() if message.startswith(told))
+        source = next(message for message in screen_templates() if message.startswith(told))
         assert words._(source).format(numbers="4") in text
     assert words._("{done} of {total} holes are drilled").format(done=3, total=26) in text
     program.press("enter")
@@ -182,12 +183,6 @@ def test_a_hole_that_may_have_been_begun_is_named() -> None:
     program = Program(FakeConsole(unfinished_jobs=[replace(CUT, again=(), doubtful=4)]))
     program.press("f", "u")
     assert "Hole 4 may have been begun; it will be drilled again." in program.text()
-
-
-def words_of_screen() -> set[str]:
-    from tests.ui.test_words import messages
-
-    return messages()
 
 
 def test_an_interrupted_job_goes_on_or_is_given_up() -> None:

@@ -1,34 +1,23 @@
 """Words: every message of the screen has its Polish, with the same fields, and no entry is left over."""
 
-import ast
 import re
-from pathlib import Path
 
 import pytest
 
-from drillctl import ui
 from drillctl.language import words
 from drillctl.viewmodel.fault_texts import FAULT_WORDS
-from tests.support.sentences import all_forms, form_of
+from tests.support.messages import POLISH, all_templates, screen_templates, templates_in
 
-ROOT = Path(ui.__file__).parent
-POLISH = words.catalogue((words.LOCALE / "pl" / "LC_MESSAGES" / "drillctl.po").read_text("utf-8"))
-FIELD = re.compile(r"\{(\w*)")
+FIELD = re.compile(r"\{(\w+)([^}]*)\}")
 
 
-def messages() -> set[str]:
-    """Every literal handed to _ or N_ in the screens."""
-    calls = [node for file in ROOT.rglob("*.py") for node in ast.walk(ast.parse(file.read_text("utf-8")))]
-    return {
-        call.args[0].value
-        for call in calls
-        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id in ("_", "N_")
-        and call.args and isinstance(call.args[0], ast.Constant)
-    }  # fmt: skip
+def test_every_message_that_a_screen_may_show_has_its_polish() -> None:
+    assert screen_templates() - set(POLISH) == set()
 
 
-def test_every_message_has_its_polish() -> None:
-    assert messages() - set(POLISH) == set()
+def test_a_planted_message_would_be_missed() -> None:
+    planted = "raise JobError(Message('no {what}', what=1) if a else Message('b'), N_('c'), _('d'))"
+    assert set(templates_in(planted)) == {"no {what}", "b", "c", "d"}
 
 
 @pytest.mark.parametrize("source", POLISH)
@@ -66,7 +55,4 @@ def test_entries_of_several_lines_and_escapes_are_read() -> None:
 
 
 def test_no_entry_is_left_over() -> None:
-    """Besides the screens' own messages there are the faults' words, and the sentences of the rooms below."""
-    told = all_forms() | {text for fault in FAULT_WORDS.values() for text in fault}
-    left = set(POLISH) - messages()
-    assert {source for source in left if form_of(source) not in told} == set()
+    assert set(POLISH) - all_templates() == set()

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from .errors import Refusal, shorten
+from .errors import Complaint, shorten
 from .lexer import split_comment
 from .machine import Machine
 
@@ -49,6 +49,6 @@ class Tail:
         last, (machine.line, command) = machine.line, self._first
         program = self._drilling_lines and (self._is_program or self._drilling_lines > STRAY_LINES)
         if program and self._choice == REFUSE:
-            raise Refusal("holes-after-end", f"{shorten(command)}; lines that drill: {self._drilling_lines}")
+            raise Complaint("holes-after-end", f"{shorten(command)}; lines that drill: {self._drilling_lines}")
         machine.remark("data-after-end", shorten(command))
         machine.line = last

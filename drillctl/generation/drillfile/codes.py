@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from .errors import Refusal
+from .errors import Complaint
 from .machine import Machine
 
 Axes = Mapping[str, str]
@@ -67,7 +67,7 @@ def _retract(machine: Machine, axes: Axes) -> None:
 def _router_only(machine: Machine, axes: Axes) -> None:
     """Coordinates behind a router's word are the router's way; in drill mode they would be of no known meaning."""
     if axes and not machine.routing:
-        raise Refusal("misplaced-word", f"coordinates in drill mode: {_written(axes)}")
+        raise Complaint("misplaced-word", f"coordinates in drill mode: {_written(axes)}")
     if axes:
         machine.remark("rout-move")
         machine.move(axes)
@@ -78,7 +78,7 @@ def _zero_set(machine: Machine, axes: Axes) -> None:
     zero = {axis: float(number) for axis, number in axes.items()}
     moved = zero != machine.zero and (any(zero.values()) or any(machine.zero.values()))
     if moved and len(machine.rows):
-        raise Refusal("zero-moved", _written(axes))
+        raise Complaint("zero-moved", _written(axes))
     if moved:
         machine.remark("zero-set-ignored", _written(axes))
     machine.zero = zero
@@ -176,17 +176,17 @@ FORMAT_ONE = {
 
 
 def name_of(letter: str, number: str, *, format_one: bool) -> str:
-    """'G05' for G5, in the names of format 2. Refusal 'unknown-command' for a letter alone."""
+    """'G05' for G5, in the names of format 2. Complaint 'unknown-command' for a letter alone."""
     if not number:
-        raise Refusal("unknown-command", letter)
+        raise Complaint("unknown-command", letter)
     name = f"{letter}{number:0>2}"
     return ALWAYS_FORMAT_ONE.get(name) or (FORMAT_ONE.get(name, name) if format_one else name)
 
 
 def look_up(name: str) -> Code:
-    """The table's entry. Refusal for a word that is known and not drilled, or not known."""
+    """The table's entry. Complaint for a word that is known and not drilled, or not known."""
     if name in UNSUPPORTED:
-        raise Refusal("unsupported-command", UNSUPPORTED[name])
+        raise Complaint("unsupported-command", UNSUPPORTED[name])
     if name not in CODES:
-        raise Refusal("unknown-command", name)
+        raise Complaint("unknown-command", name)
     return CODES[name]

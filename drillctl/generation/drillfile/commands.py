@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable
 
 from .codes import ROUTER_AXES, UNSUPPORTED, look_up, name_of
-from .errors import Refusal
+from .errors import Complaint
 from .keywords import KEYWORDS
 from .lexer import KEYWORD, Word, split_words, take_axes, take_end
 from .machine import Machine
@@ -24,7 +24,7 @@ ROUTER_WORDS = {"M14", "M15", "M16", "M17"}
 
 
 def execute(machine: Machine, command: str) -> None:
-    """Run one command line (capitals, no comment). Refusal says what is wrong with it."""
+    """Run one command line (capitals, no comment). Complaint says what is wrong with it."""
     if command.startswith("/") and len(command) > 1:
         if machine.delete_blocks:
             machine.remark("block-deleted", command)
@@ -35,9 +35,9 @@ def execute(machine: Machine, command: str) -> None:
     if name and name[0] in KEYWORDS:
         KEYWORDS[name[0]](machine, command)
     elif name and name[0] in UNSUPPORTED:
-        raise Refusal("unsupported-command", UNSUPPORTED[name[0]])
+        raise Complaint("unsupported-command", UNSUPPORTED[name[0]])
     elif unknown := NAME.match(command):
-        raise Refusal("unknown-command", unknown[0])
+        raise Complaint("unknown-command", unknown[0])
     elif not TOOL_LINKS.fullmatch(command):
         _run(machine, split_words(command))
 
@@ -49,14 +49,14 @@ def _run(machine: Machine, words: list[Word]) -> None:
 
 
 def _unknown(machine: Machine, words: list[Word]) -> None:
-    raise Refusal("unknown-command", str(words[0]))
+    raise Complaint("unknown-command", str(words[0]))
 
 
 def _passed_over(machine: Machine, words: list[Word]) -> None:
     """N (block number), and the F and S (feed, speed) of machines that set them between holes."""
     word = words.pop(0)
     if not word.number:
-        raise Refusal("unknown-command", word.letter)
+        raise Complaint("unknown-command", word.letter)
 
 
 def _code(machine: Machine, words: list[Word]) -> None:
@@ -65,7 +65,7 @@ def _code(machine: Machine, words: list[Word]) -> None:
     code = look_up(name)
     axes = take_end(words) if name == "G85" else take_axes(words, code.takes)
     if words and words[0].letter not in code.then:
-        raise Refusal("misplaced-word", f"{words[0]} behind {name}")
+        raise Complaint("misplaced-word", f"{words[0]} behind {name}")
     code.action(machine, axes)
 
 
@@ -78,7 +78,7 @@ def _coordinates(machine: Machine, words: list[Word]) -> None:
     end = take_end(words) if slot else {}
     name = _next_code(machine, words)
     if words and words[0].letter not in "FS" and not (machine.routing and name in ROUTER_WORDS):
-        raise Refusal("misplaced-word", f"{words[0]} behind coordinates")
+        raise Complaint("misplaced-word", f"{words[0]} behind coordinates")
     if slot:
         machine.slot(axes, end)
     else:
@@ -86,7 +86,7 @@ def _coordinates(machine: Machine, words: list[Word]) -> None:
 
 
 def _next_code(machine: Machine, words: list[Word]) -> str:
-    """The name of the G or M word that comes next, '' for none. Refusal for one that is not drilled or not known."""
+    """The name of the G or M word that comes next, '' for none. Complaint for one that is not drilled or not known."""
     if not words or words[0].letter not in "GM":
         return ""
     name = name_of(*words[0], format_one=machine.format_one)
@@ -98,21 +98,21 @@ def _repeat(machine: Machine, words: list[Word]) -> None:
     """R5X1.0 repeats the hole, R5M02X1.0 the pattern (M26 in format 1)."""
     digits = words.pop(0).number
     if not digits.isdigit() or int(digits) < 1:
-        raise Refusal("bad-repeat-count", f"R{digits}")
+        raise Complaint("bad-repeat-count", f"R{digits}")
     pattern = bool(words) and words[0] in (("M", "02"), ("M", "2"), ("M", "26"))
     if pattern:
         words.pop(0)
     axes = take_axes(words, "XY")
     if not axes:
-        raise Refusal("repeat-without-offset", f"R{digits}")
+        raise Complaint("repeat-without-offset", f"R{digits}")
     if words:
         _next_code(machine, words)
-        raise Refusal("misplaced-word", f"{words[0]} behind R")
+        raise Complaint("misplaced-word", f"{words[0]} behind R")
     (machine.repeat_pattern if pattern else machine.repeat)(int(digits), axes)
 
 
 def _stored_pattern(machine: Machine, words: list[Word]) -> None:
-    raise Refusal("unsupported-command", "P repeat of a stored pattern")
+    raise Complaint("unsupported-command", "P repeat of a stored pattern")
 
 
 LETTERS: dict[str, Letter] = {

@@ -8,7 +8,7 @@ The intake decodes with it, the writer encodes.
 
 from __future__ import annotations
 
-from .errors import Refusal
+from .errors import Complaint
 
 CODE = {
     "0": 0x20, "1": 0x01, "2": 0x02, "3": 0x13, "4": 0x04, "5": 0x15, "6": 0x16, "7": 0x07, "8": 0x08, "9": 0x19,
@@ -30,15 +30,15 @@ def is_eia(data: bytes) -> bool:
 
 
 def decode(data: bytes) -> bytes:
-    """The tape as ASCII, blank rows and rubouts left out. Refusal 'not-text' for a row that is none of the code's."""
+    """The tape as ASCII, blank rows and rubouts left out. Complaint 'not-text' for a row that is none of the code's."""
     if unknown := data.translate(None, _KNOWN):
-        raise Refusal("not-text", f"tape row {unknown[0]:#04x}")
+        raise Complaint("not-text", f"tape row {unknown[0]:#04x}")
     return data.translate(_DECODE, bytes([LEADER, RUBOUT]))
 
 
 def encode(text: str) -> bytes:
-    """The text as tape rows; Refusal 'not-text' for a character the code has no row for."""
+    """The text as tape rows; Complaint 'not-text' for a character the code has no row for."""
     upper = text.upper()
     if missing := set(upper) - set(CODE):
-        raise Refusal("not-text", "".join(sorted(missing)))
+        raise Complaint("not-text", "".join(sorted(missing)))
     return upper.translate(_ENCODE).encode("latin-1")

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from typing import BinaryIO, NamedTuple
 
 from . import eia, sniff
-from .errors import Refusal, Remark
+from .errors import Complaint, Remark
 from .lexer import TORN_NUMBER
 
 LINE_LIMIT = 4096
@@ -52,7 +52,7 @@ def condense(stream: BinaryIO) -> Condensed:
     for chunk in map(eia.decode, chunks) if tape_code else _narrowed(chunks, utf_16) if utf_16 else chunks:
         room = _append_cut(kept, chunk, room)
         if len(kept) > FILE_LIMIT:
-            raise Refusal("file-too-large")
+            raise Complaint("file-too-large")
     return Condensed(bytes(kept), tape_code, bool(utf_16))
 
 
@@ -62,7 +62,7 @@ def _chunks(head: bytes, stream: BinaryIO) -> Iterator[bytes]:
     while head:
         left -= len(head)
         if left < 0:
-            raise Refusal("file-too-large", f"more than {READ_LIMIT // 1_000_000} MB")
+            raise Complaint("file-too-large", f"more than {READ_LIMIT // 1_000_000} MB")
         yield head
         head = stream.read(CHUNK_BYTES)
 
@@ -108,7 +108,7 @@ def to_text(condensed: Condensed) -> tuple[str, list[Remark]]:
     text = _plain_text(condensed.data)
     text = text.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\n\r", "\n").replace("\r", "\n")
     if not text.strip():
-        raise Refusal("empty-file")
+        raise Complaint("empty-file")
     sniff.check_language(text[: sniff.HEAD_BYTES])
     if "/*" in text:
         text = BLOCK_COMMENT.sub(lambda block: ";" + block[0].replace("\n", "\n;"), text)

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable
 from functools import partial
 
-from .errors import Refusal
+from .errors import Complaint
 from .facts import Fact, Voice
 from .machine import Machine
 
@@ -33,7 +33,7 @@ def _units(units: str, machine: Machine, command: str) -> None:
             places = (len(mask[1]), len(mask[2])) if mask[1] else (int(mask[3]), int(mask[4]))
             machine.facts.declare_digits(Fact(places, Voice.HEADER, machine.line, command), units)
         else:
-            raise Refusal("bad-setting", command)
+            raise Complaint("bad-setting", command)
 
 
 def _arguments(command: str) -> list[str]:
@@ -41,10 +41,10 @@ def _arguments(command: str) -> list[str]:
 
 
 def _switch(command: str) -> bool:
-    """The state behind the comma. Refusal 'bad-setting' for anything but ON and OFF."""
+    """The state behind the comma. Complaint 'bad-setting' for anything but ON and OFF."""
     arguments = _arguments(command)
     if len(arguments) != 1 or arguments[0] not in SWITCHES:
-        raise Refusal("bad-setting", command)
+        raise Complaint("bad-setting", command)
     return SWITCHES[arguments[0]]
 
 
@@ -58,7 +58,7 @@ def _block_delete(machine: Machine, command: str) -> None:
 
 def _format(machine: Machine, command: str) -> None:
     if _arguments(command) not in (["1"], ["2"]):
-        raise Refusal("bad-setting", command)
+        raise Complaint("bad-setting", command)
     machine.format_one = _arguments(command) == ["1"]
 
 

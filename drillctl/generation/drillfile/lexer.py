@@ -9,7 +9,7 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from .errors import Refusal
+from .errors import Complaint
 from .numbers import NUMBER
 
 PLACE = f"(?:X{NUMBER}(?:Y{NUMBER})?+|Y{NUMBER})"
@@ -69,14 +69,14 @@ def split_comment(line: str) -> tuple[str, str]:
 def split_words(command: str) -> list[Word]:
     """The words of a command line; spaces mean nothing, but two numbers with a space between are never one."""
     if TORN_NUMBER.search(command):
-        raise Refusal("torn-number", command)
+        raise Complaint("torn-number", command)
     packed = SPACE.sub("", command)
     words: list[Word] = []
     at = 0
     while at < len(packed):
         match = WORD.match(packed, at)
         if not match:
-            raise Refusal(_blame(words, packed, at), command)
+            raise Complaint(_blame(words, packed, at), command)
         words.append(Word(match[1] or match[3], match[2] or match[4] or ""))
         at = match.end()
     return words
@@ -95,12 +95,12 @@ def take_axes(words: list[Word], letters: str) -> dict[str, str]:
     while words and words[0].letter in letters:
         word = words.pop(0)
         if not word.number:
-            raise Refusal("bad-number", f"{word.letter} without a number")
+            raise Complaint("bad-number", f"{word.letter} without a number")
         if word.letter in axes:
-            raise Refusal("duplicate-axis", str(word))
+            raise Complaint("duplicate-axis", str(word))
         axes[word.letter] = word.number
     if axes and words and words[0].letter not in "GMTRFSN":
-        raise Refusal("bad-number", "".join(map(str, words)))
+        raise Complaint("bad-number", "".join(map(str, words)))
     return axes
 
 
@@ -108,5 +108,5 @@ def take_end(words: list[Word]) -> dict[str, str]:
     """The second point of a slot, which must have an axis."""
     axes = take_axes(words, "XY")
     if not axes:
-        raise Refusal("bad-number", "G85 without an end")
+        raise Complaint("bad-number", "G85 without an end")
     return axes

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .errors import Refusal, Remark
+from .errors import Complaint, Remark
 from .facts import Fact, Facts, Voice
 from .model import MM_PER_UNIT, Floats
 from .numbers import Evidence, read_numbers
@@ -77,7 +77,7 @@ class Machine:
         mm = MM_PER_UNIT[units]
         if self.mm and mm != self.mm:
             if self.in_header and self.headers < 2:
-                raise Refusal("contradictory-units", source)
+                raise Complaint("contradictory-units", source)
             self.remark("units-change-in-body", source)
             self.at *= self.facts.carried(_units_of(self.mm), units)
             if not len(self.rows):
@@ -94,9 +94,9 @@ class Machine:
     # -- motion -----------------------------------------------------------------------------------
 
     def move_or_drill(self, axes: Mapping[str, str]) -> None:
-        """A line of coordinates alone: a hole, or in rout mode a way. Refusal where a tool change leaves it open."""
+        """A line of coordinates alone: a hole, or in rout mode a way. Complaint where a tool change leaves it open."""
         if self.tool_in_rout:
-            raise Refusal("rout-or-hole", "".join(axis + number for axis, number in axes.items()))
+            raise Complaint("rout-or-hole", "".join(axis + number for axis, number in axes.items()))
         if self.routing and not self.cutting:
             self.remark("rout-move")
         self.move(axes)
@@ -137,16 +137,16 @@ class Machine:
     def repeat(self, count: int, axes: Mapping[str, str]) -> None:
         """R: the last hole again, count times, each the same distance further.
 
-        Refusal where the table, the mode or the tool is no longer that of the last hole.
+        Complaint where the table, the mode or the tool is no longer that of the last hole.
         """
         if self.routing or self.displaced or self.rows.last_tool() != self.tools.current:
-            raise Refusal("repeat-without-hole")
+            raise Complaint("repeat-without-hole")
         self.at = self.rows.repeat(count, self._offset(axes), self.line)
 
     def repeat_pattern(self, count: int, axes: Mapping[str, str]) -> None:
-        """M02: the pattern again, count times. Refusal in incremental mode, whose zero moves with the pattern."""
+        """M02: the pattern again, count times. Complaint in incremental mode, whose zero moves with the pattern."""
         if self.incremental:
-            raise Refusal("unsupported-command", "M02 in incremental mode")
+            raise Complaint("unsupported-command", "M02 in incremental mode")
         self.displaced = True
         self.rows.repeat_pattern(count, self._offset(axes), self.line)
 

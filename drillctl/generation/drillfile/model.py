@@ -10,8 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.language import Message
+
 from .errors import Remark
 
+SUPPRESSED = {
+    "none": Message("no zeros"),
+    "leading": Message("leading zeros"),
+    "trailing": Message("trailing zeros"),
+}
 MM_PER_UNIT = {"inch": 25.4, "mm": 1.0}
 # The format's rule for numbers without a point where only the unit is declared: 00.0000 and 000.000 (CNC-7 manual).
 DEFAULT_DIGITS = {"inch": (2, 4), "mm": (3, 3)}
@@ -66,10 +73,15 @@ class FormatChoice:
         return np.array([10.0**-decimal, 0.0, 1.0])
 
     def __str__(self) -> str:
+        return self.message
+
+    @property
+    def message(self) -> Message:
+        """The format in words: ``inch 2:4, trailing zeros suppressed``."""
         if self.digits is None:
-            return f"{self.units} decimal"
-        kept = "no zeros" if self.zeros == "none" else f"{self.zeros} zeros"
-        return f"{self.units} {self.format}, {kept} suppressed"
+            return Message("{units} decimal", units=self.units)
+        kept = SUPPRESSED[self.zeros or "none"]
+        return Message("{units} {digits}, {zeros} suppressed", units=self.units, digits=self.format, zeros=kept)
 
 
 @dataclass(frozen=True)
@@ -102,7 +114,7 @@ class DrillFile:
     format: FormatChoice
     confidence: float
     runner_up: FormatChoice | None
-    reason: str
+    reason: Message
     warnings: tuple[Remark, ...]
 
     @property

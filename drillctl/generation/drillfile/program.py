@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 
-from drillctl.generation.waits import Advance, ignored
+from drillctl.language import Message
 
 from . import afterend, comments
 from .commands import execute
-from .errors import PROBLEM_LIMIT, Refusal, Remark, shorten
+from .errors import PROBLEM_LIMIT, Complaint, Remark, shorten
 from .facts import Facts
 from .intake import LINE_LIMIT
 from .lexer import split_comment, split_run
@@ -22,13 +22,10 @@ LONG_MESSAGE = re.compile(r"\s*M45(?!\d)", re.I)  # for the operator; it goes on
 COMMAND_LIMIT = 40_000  # lines that are no plain holes; a drill file has dozens, a milled panel thousands
 
 
-def run(
-    text: str, facts: Facts, after_end: str = afterend.REFUSE, advance: Advance = ignored
-) -> tuple[Machine, list[Remark]]:
+def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Machine, list[Remark]]:
     """The machine after the whole text, and the problems found on the way (at most PROBLEM_LIMIT).
 
-    after_end: what becomes of holes behind M30, one of afterend.CHOICES; advance: is called with how much of
-    the text is read.
+    after_end: what becomes of holes behind M30, one of afterend.CHOICES.
     """
     machine = Machine(facts)
     tail = afterend.Tail(after_end)
@@ -46,27 +43,26 @@ def run(
             elif not (machine.ended and tail.takes(machine, text[at:end])):
                 commands += end - at > 1
                 _line(machine, text[at:end], commands)
-        except Refusal as refusal:
+        except Complaint as refusal:
             problems.append(_problem(machine, refusal, text[at:end]))
             if refusal.fatal:
                 break
         machine.line += text.count("\n", at, end)
         at = end
-        advance(at, len(text))
     _finish(machine, tail, text[text.rfind("\n", 0, -1) + 1 :] if torn else "", problems)
     return machine, problems
 
 
 def _line(machine: Machine, line: str, commands: int) -> None:
     if commands > COMMAND_LIMIT:
-        raise Refusal("file-too-large", f"more than {COMMAND_LIMIT} commands", fatal=True)
+        raise Complaint("file-too-large", Message("more than {count} commands", count=COMMAND_LIMIT), fatal=True)
     if machine.in_message or LONG_MESSAGE.match(line):
         machine.in_message = line.rstrip().endswith("\\")
         return
     command, comment = split_comment(line)
     if len(line) > LINE_LIMIT:
         if command:
-            raise Refusal("line-too-long", command[:LINE_LIMIT])
+            raise Complaint("line-too-long", command[:LINE_LIMIT])
         machine.remark("line-too-long")
     if comment:
         comments.hear(comment, machine.line, machine.facts)
@@ -74,7 +70,7 @@ def _line(machine: Machine, line: str, commands: int) -> None:
         execute(machine, command)
 
 
-def _problem(machine: Machine, refusal: Refusal, sentence: str) -> Remark:
+def _problem(machine: Machine, refusal: Complaint, sentence: str) -> Remark:
     """The refusal with its line. Before anything was understood, it is the file that is wrong."""
     text = refusal.text or shorten(sentence)
     if refusal.code == "unknown-command" and not machine.recognised:
@@ -92,8 +88,8 @@ def _finish(machine: Machine, tail: afterend.Tail, torn: str, problems: list[Rem
         tail.finish(machine)
         machine.finish()
         if not (machine.recognised or problems):
-            raise Refusal("empty-file")
+            raise Complaint("empty-file")
         if torn and split_comment(torn)[0] and not (machine.ended or machine.stopped):
-            raise Refusal("cut-short", torn)
-    except Refusal as refusal:
+            raise Complaint("cut-short", torn)
+    except Complaint as refusal:
         problems.append(Remark(refusal.code, machine.line, refusal.text))

@@ -14,7 +14,9 @@ from itertools import product
 
 import numpy as np
 
-from .errors import Refusal, Remark
+from drillctl.language import Message
+
+from .errors import Complaint, Remark
 from .facts import Facts
 from .layout import LARGEST_MM, Layout
 from .machine import Machine
@@ -49,7 +51,7 @@ class Recognition:
     choice: FormatChoice
     confidence: float
     runner_up: FormatChoice | None
-    reason: str
+    reason: Message
     remarks: tuple[Remark, ...] = ()
     by_hand: bool = False
 
@@ -67,10 +69,10 @@ class Question:
 
 
 def parse_option(text: str) -> FormatChoice:
-    """The format a person gives: 'inch,2:4,leading' or 'mm,decimal'. Refusal 'bad-format'."""
+    """The format a person gives: 'inch,2:4,leading' or 'mm,decimal'. Complaint 'bad-format'."""
     found = FORMAT_OPTION.fullmatch(text.strip().lower())
     if not found:
-        raise Refusal("bad-format", text)
+        raise Complaint("bad-format", text)
     units, integer, decimal, zeros = found.groups()
     return FormatChoice(units, (int(integer), int(decimal)) if integer else None, zeros)
 
@@ -78,7 +80,7 @@ def parse_option(text: str) -> FormatChoice:
 def recognise(machine: Machine, option: FormatChoice | None) -> Recognition:
     """The format of a program that has run; option is the one a person settled on."""
     if option:
-        return Recognition(option, 1.0, None, f"set by hand: {option}", by_hand=True)
+        return Recognition(option, 1.0, None, Message("set by hand: {format}", format=option.message), by_hand=True)
     sample = Sample.of(machine)
     question = _question(machine.facts, sample)
     scored = _scored(question)
@@ -107,7 +109,11 @@ def _doubted(declared: Recognition, question: Question) -> Recognition:
     own = next((choice.score for choice in scored if _same(choice, declared.choice)), -np.inf)
     if scored[0].score < own + ALTERNATIVE_MARGIN or _same(scored[0], declared.choice):
         return declared
-    reason = f"{declared.reason}; but its holes overlap, and {scored[0]} is more plausible"
+    reason = Message(
+        "{reason}; but its holes overlap, and {format} is more plausible",
+        reason=declared.reason,
+        format=scored[0].message,
+    )
     return replace(declared, confidence=0.5, runner_up=scored[0], reason=reason)
 
 
@@ -235,13 +241,32 @@ def _carried(facts: Facts, units: str) -> Remark:
     return Remark("digits-of-other-unit", fact.line, f"{fact.source}; {units} is read as {default.format}")
 
 
-def _reason(question: Question, best: FormatChoice, runner_up: FormatChoice | None, layout: Layout) -> str:
+def _reason(question: Question, best: FormatChoice, runner_up: FormatChoice | None, layout: Layout) -> Message:
     """One sentence a person understands."""
-    said = f"declared by {question.facts.sources()}" if question.facts.sources() else "nothing declared"
+    said = (
+        Message("declared by {sources}", sources=question.facts.sources())
+        if question.facts.sources()
+        else Message("nothing declared")
+    )
     if question.by_rule:
-        said = f"{said}; {best.units} without digits is {best.format}"
+        said = Message("{said}; {units} without digits is {digits}", said=said, units=best.units, digits=best.format)
     if not runner_up:
-        return said if best.digits else f"{said}; the numbers carry decimal points"
-    overlap = f"{layout.overlap:.0%} of holes overlapping" if layout.overlap else "no overlapping holes"
-    seen = f"{overlap}, an extent of {layout.extent_mm:.1f} mm and {layout.grid:.0%} on a drawing grid"
-    return f"{said}; {best} gives {seen}; runner-up {runner_up}"
+        return said if best.digits else Message("{said}; the numbers carry decimal points", said=said)
+    overlap = (
+        Message("{share:.0%} of holes overlapping", share=layout.overlap)
+        if layout.overlap
+        else Message("no overlapping holes")
+    )
+    seen = Message(
+        "{overlap}, an extent of {extent:.1f} mm and {grid:.0%} on a drawing grid",
+        overlap=overlap,
+        extent=layout.extent_mm,
+        grid=layout.grid,
+    )
+    return Message(
+        "{said}; {format} gives {seen}; runner-up {second}",
+        said=said,
+        format=best.message,
+        seen=seen,
+        second=runner_up.message,
+    )

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import Refusal
+from .errors import Complaint
 from .model import Floats
 
 HOLE_LIMIT = 200_000
@@ -45,18 +45,18 @@ class Rows:
         self._count += len(block)
 
     def check_room(self, wanted: int, code: str = "too-many-holes") -> None:
-        """Fatal Refusal before memory is spent on more rows than HOLE_LIMIT."""
+        """Fatal Complaint before memory is spent on more rows than HOLE_LIMIT."""
         if self._count + wanted > HOLE_LIMIT:
-            raise Refusal(code, f"more than {HOLE_LIMIT} holes", fatal=True)
+            raise Complaint(code, f"more than {HOLE_LIMIT} holes", fatal=True)
 
     def repeat(self, count: int, offset: Floats, line: int) -> Floats:
         """R: the last row, which there must be, again count times, each one offset (2, 3) further; where it ended."""
         return self._copy(self._blocks[-1][-1:], count, offset, line)
 
     def last_tool(self) -> int:
-        """The tool of the last row. Refusal 'repeat-without-hole' for none."""
+        """The tool of the last row. Complaint 'repeat-without-hole' for none."""
         if not self._count:
-            raise Refusal("repeat-without-hole")
+            raise Complaint("repeat-without-hole")
         return int(self._blocks[-1][-1]["tool"])
 
     @property
@@ -67,7 +67,7 @@ class Rows:
     def begin_pattern(self, *, must_end: bool = True) -> None:
         """M25: what follows is a pattern. A % in the body may begin one, or be nothing: must_end says which."""
         if self.in_pattern and self._pattern is None:
-            raise Refusal("bad-pattern", "M25 inside M25")
+            raise Complaint("bad-pattern", "M25 inside M25")
         self._pattern_start, self._pattern, self._must_end = self._count, None, must_end
 
     def end_pattern(self) -> None:
@@ -83,9 +83,9 @@ class Rows:
     def repeat_pattern(self, count: int, offset: Floats, line: int) -> None:
         """M02: the pattern again, offset (2, 3) further than it was last drilled; count times."""
         if self._pattern_start is None:
-            raise Refusal("pattern-without-start")
+            raise Complaint("pattern-without-start")
         if self._pattern is None or self._ended_copies:
-            raise Refusal("bad-pattern", "M02 before M01")
+            raise Complaint("bad-pattern", "M02 before M01")
         if len(self._pattern):
             self._copy(self._pattern, count, offset, line)
             self._pattern["at"] += count * offset
@@ -103,5 +103,5 @@ class Rows:
     def close_pattern(self) -> None:
         """M08 or the end of the program."""
         if self.in_pattern and self._pattern is None:
-            raise Refusal("bad-pattern", "M25 without M01")
+            raise Complaint("bad-pattern", "M25 without M01")
         self._pattern_start = self._pattern = None

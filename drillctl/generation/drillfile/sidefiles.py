@@ -11,6 +11,7 @@ import errno
 from pathlib import Path
 
 from drillctl.files.inputs import read_bytes
+from drillctl.language import Message
 
 from .comments import declare, find, patterns
 from .errors import Remark
@@ -52,7 +53,7 @@ def beside(path: Path) -> dict[str, bytes]:
     for near in sorted(path.parent.iterdir()):
         if _belongs(near, path) and near.is_file():
             try:
-                found[near.name] = read_bytes(near, BYTE_LIMIT, "a report")
+                found[near.name] = read_bytes(near, BYTE_LIMIT, Message("a report"))
             except OSError as error:
                 if error.errno != errno.EFBIG:
                     raise

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from .errors import Refusal
+from .errors import Complaint
 
 HEAD_BYTES = 65_536
 
@@ -60,19 +60,19 @@ def check_bytes(head: bytes) -> None:
     """Refuse archives, pictures and other binary files by their first bytes."""
     for code, magic in MAGIC:
         if head.startswith(magic):
-            raise Refusal(code)
+            raise Complaint(code)
     if head[TAR_MAGIC_AT : TAR_MAGIC_AT + 5] == b"ustar":
-        raise Refusal("archive")
+        raise Complaint("archive")
 
 
 def check_controls(data: bytes) -> None:
     """Refuse text with control bytes in it."""
     if len(data.translate(None, CONTROLS)) != len(data):
-        raise Refusal("not-text", "control bytes")
+        raise Complaint("not-text", "control bytes")
 
 
 def check_language(head: str) -> None:
     """Refuse the programs and reports of other machines by what their lines look like."""
     for code, pattern in LANGUAGES:
         if found := pattern.search(head):
-            raise Refusal(code, found[0])
+            raise Complaint(code, found[0])

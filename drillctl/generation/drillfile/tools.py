@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .errors import Refusal
+from .errors import Complaint
 from .facts import Facts, Voice
 from .model import Tool
 
@@ -59,13 +59,13 @@ class Toolbox:
         self._announced = 0  # how many of the sizes announced without T numbers were taken
 
     def number(self, digits: str, *, defines: bool) -> int:
-        """Which tool the digits behind T mean. Refusal for none, and for four that could mean two tools.
+        """Which tool the digits behind T mean. Complaint for none, and for four that could mean two tools.
 
         T0302 is tool 3 with compensation index 2 (CNC-7 manual); T1000 is tool 1000 where tools beyond 99 are
         defined, or where a definition is spelled so.
         """
         if not digits.isdigit() or int(digits) > NUMBER_LIMIT:
-            raise Refusal("bad-tool-number", f"T{digits}")
+            raise Complaint("bad-tool-number", f"T{digits}")
         if digits in self._spelled:
             return self._spelled[digits]
         whole, first = int(digits), int(digits[:2])
@@ -74,7 +74,7 @@ class Toolbox:
         if defines or not self.known(whole):
             return first
         if self.known(first):
-            raise Refusal("ambiguous-tool", f"T{digits}: T{first} or T{whole}")
+            raise Complaint("ambiguous-tool", f"T{digits}: T{first} or T{whole}")
         return whole
 
     def _beyond_99(self) -> bool:
@@ -98,7 +98,7 @@ class Toolbox:
         if entry.diameter is None or known.same_size(entry):
             return False
         if not replace and not (known.in_body and entry.in_body):
-            raise Refusal("tool-redefined", f"T{entry.number}")
+            raise Complaint("tool-redefined", f"T{entry.number}")
         self._add(entry)
         return not replace
 
@@ -115,7 +115,7 @@ class Toolbox:
         if number not in self._latest:
             self.current = NO_TOOL
             if self._declared_any and number not in self._facts.sizes:
-                raise Refusal("undefined-tool", f"T{number}")
+                raise Complaint("undefined-tool", f"T{number}")
             self._add(Entry(number, None, 0.0, line))
         self.current = self._latest[number]
 

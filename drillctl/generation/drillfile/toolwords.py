@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from .errors import Refusal
+from .errors import Complaint
 from .lexer import UNITS_BEHIND, Word
 from .machine import Machine
 from .tools import Entry
@@ -20,7 +20,7 @@ def tool(machine: Machine, words: list[Word]) -> None:
     digits = words.pop(0).number
     parameters = _parameters(words)
     if words and words[0].letter == "T":
-        raise Refusal("misplaced-word", f"{words[0]} behind T{digits}")
+        raise Complaint("misplaced-word", f"{words[0]} behind T{digits}")
     defines = "C" in parameters
     number = machine.tools.number(digits, defines=machine.in_header or defines)
     announced = machine.in_header and not machine.tools.known(number)
@@ -31,12 +31,12 @@ def tool(machine: Machine, words: list[Word]) -> None:
 
 
 def _parameters(words: list[Word]) -> dict[str, str]:
-    """The words about the tool that come next. Refusal for a second diameter."""
+    """The words about the tool that come next. Complaint for a second diameter."""
     parameters: dict[str, str] = {}
     while words and words[0].letter in PARAMETERS:
         word = words.pop(0)
         if word.letter == "C" in parameters:
-            raise Refusal("bad-diameter", f"C{parameters['C']} and {word}")
+            raise Complaint("bad-diameter", f"C{parameters['C']} and {word}")
         parameters[word.letter] = word.number
     return parameters
 
@@ -50,13 +50,13 @@ def _define(machine: Machine, number: int, digits: str, parameters: dict[str, st
 
 
 def _set_diameter(entry: Entry, written: str) -> None:
-    """Refusal for no number, a negative one, and digits without a point whose zeros would have to be guessed."""
+    """Complaint for no number, a negative one, and digits without a point whose zeros would have to be guessed."""
     found = re.fullmatch(r"(\+?[\d.]+)(\D*)", written)
     if not found:
-        raise Refusal("bad-diameter", f"C{written}")
+        raise Complaint("bad-diameter", f"C{written}")
     number, unit = found.groups()
     if "." not in number and number.startswith("0") and number.strip("0"):
-        raise Refusal("diameter-without-point", f"C{written}")
+        raise Complaint("diameter-without-point", f"C{written}")
     entry.diameter, entry.places = float(number), len(number.partition(".")[2])
     if unit:
         entry.mm = UNITS_BEHIND[unit]

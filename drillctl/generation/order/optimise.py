@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from drillctl.generation.order.improve import Improver
 from drillctl.generation.order.neighbours import find_neighbours
 from drillctl.generation.order.travel import Steps, TravelCost
-from drillctl.generation.waits import Advance, ignored
 
 NEIGHBOURS = 8
 # Chosen with benchmarks/order_quality.py: at 1,000 holes twice the rounds gain about 0.2 %.
@@ -30,27 +29,19 @@ SEED = 1996
 Draw = Callable[[], float]  # a number from 0 up to, not including, 1
 
 
-def optimised_order(
-    points: Steps, travel: TravelCost, order: NDArray[np.int64], advance: Advance = ignored
-) -> NDArray[np.int64]:
-    """Shorten `order`, a path through all of `points` (n, 2) in steps; row 0, the start, stays first.
-
-    `advance` is called with how many of the rounds are done.
-    """
+def optimised_order(points: Steps, travel: TravelCost, order: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Shorten `order`, a path through all of `points` (n, 2) in steps; row 0, the start, stays first."""
     improver = Improver(points, travel, find_neighbours(points, travel, NEIGHBOURS), order.tolist())
     improver.settle(range(len(points)))
     holes = len(points) - 1
     if holes > 1:  # a single hole has nothing to change places with
         draw = random.Random(SEED).random  # the one method whose numbers no later Python may change
-        rounds = rounds_of(holes)
-        for done in range(rounds):
+        for _ in range(_rounds(holes)):
             _round(improver, holes, draw)
-            advance(done + 1, rounds)
     return np.array(improver.path.order[:-1])
 
 
-def rounds_of(holes: int) -> int:
-    """How many disturbances are tried on a group of so many holes."""
+def _rounds(holes: int) -> int:
     return min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS, MOST_ROUNDS_TIMES_HOLES // holes)
 
 

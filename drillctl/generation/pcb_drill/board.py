@@ -10,27 +10,24 @@ from typing import TYPE_CHECKING
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.pcb_drill.program import board_program
-from drillctl.generation.waits import ORDERING, Waits, reading
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import WorkList, build
+from drillctl.language import Message
 from drillctl.machine import Machine
 
 if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile, DrillFileError
 
 
-def load_board(
-    path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str, waits: Waits
-) -> Job:
+def load_board(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str) -> Job:
     """A drill file as a job; ``fmt`` and ``after_end`` as drillfile.read has them. Raises JobError."""
     from drillctl.generation.drillfile import DrillFileError, read
 
     try:
-        advance = waits(reading(path.name))
-        drill_file = replace(read(path, fmt=fmt, after_end=after_end, advance=advance), name=str(path))
+        drill_file = replace(read(path, fmt=fmt, after_end=after_end), name=str(path))
     except DrillFileError as error:
         raise refusal(path, error) from error
-    work = build(drill_file, wishes, machine, waits(ORDERING))
+    work = build(drill_file, wishes, machine)
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
     return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
 
@@ -44,23 +41,29 @@ def without_holes(job: Job, done: set[int], wishes: Wishes) -> Job:
 
 def refusal(path: Path, error: "DrillFileError") -> JobError:
     """What is wrong with a drill file, a line a problem, by the path that was given."""
-    places = (f"{path}:{problem.line}" if problem.line else f"{path}" for problem in error.problems)
-    return JobError([f"{place}: {problem.reason}" for place, problem in zip(places, error.problems, strict=True)])
+    return JobError(*(problem.reason.at(path, problem.line) for problem in error.problems))
 
 
-def file_warnings(path: Path, drill_file: "DrillFile") -> list[str]:
+def file_warnings(path: Path, drill_file: "DrillFile") -> list[Message]:
     """A line for each thing that was read with a doubt, and for what is not drilled."""
-    warnings = [f"{path}{f':{w.line}' if w.line else ''}: {w.reason}" for w in drill_file.warnings]
+    warnings = [warning.reason.at(path, warning.line) for warning in drill_file.warnings]
     routs = drill_file.routs
-    return [*warnings, f"{path}: {routs} milled cuts are not drilled"] if routs else warnings
+    return [*warnings, Message("{count} milled cuts are not drilled", count=routs).at(path)] if routs else warnings
 
 
-def _life_warnings(path: Path, work: WorkList) -> list[str]:
+def _life_warnings(path: Path, work: WorkList) -> list[Message]:
     """A line for each drill that will be blunt before its holes are made."""
     warnings = []
     for group in work.groups:
         left = group.drill.hits_left if group.drill else None
         if left is not None and group.stop - group.start > left:
             holes = group.stop - group.start
-            warnings.append(f"{path}: tool T{group.number} makes {holes} holes; its drill is good for {left} more")
+            warnings.append(
+                Message(
+                    "tool T{number} makes {holes} holes; its drill is good for {left} more",
+                    number=group.number,
+                    holes=holes,
+                    left=left,
+                ).at(path)
+            )
     return warnings

@@ -12,6 +12,7 @@ from drillctl.generation.errors import JobError
 from drillctl.generation.sequences import Records, record
 from drillctl.kmd import Op
 from drillctl.kmd.commands import Flag
+from drillctl.language import Message
 from drillctl.machine import Machine
 
 MOST_PECKS = 100
@@ -26,7 +27,14 @@ def drill_stroke(machine: Machine, peck_mm: float | None) -> Records:
     deepest_mm = min(_depth_mm(machine, axis) for axis in machine.drill_axes)
     pecks = math.ceil(deepest_mm / peck_mm) - 1
     if pecks > MOST_PECKS:
-        raise JobError([f"--peck: {peck_mm} mm makes {pecks} pecks a hole; at most {MOST_PECKS}"])
+        raise JobError(
+            Message(
+                "peck depth: {depth} mm makes {pecks} pecks a hole; at most {most}",
+                depth=peck_mm,
+                pecks=pecks,
+                most=MOST_PECKS,
+            )
+        )
     drawn = head_move(machine, -CHIP_CLEARANCE_MM)
     pecked = [part for n in range(1, pecks + 1) for part in (head_move(machine, n * peck_mm), drawn)]
     return np.concatenate([*pecked, down, up])
@@ -45,7 +53,14 @@ def head_move(machine: Machine, depth_mm: float) -> Records:
         steps = _surface(machine, axis) + round(depth_mm * table.steps_per_mm)
         lowest, deepest = 0, _bottom(machine, axis)
         if steps > deepest:
-            raise JobError([f"--spot: {depth_mm} mm is deeper than {table.name} goes on {machine.name}"])
+            raise JobError(
+                Message(
+                    "spot depth: {depth} mm is deeper than {axis} goes on {machine}",
+                    depth=depth_mm,
+                    axis=table.name,
+                    machine=machine.name,
+                )
+            )
         args[axis] = max(steps, lowest)
     mask = sum(1 << axis for axis in machine.drill_axes)
     return record(Op.RUCH, args, mask, Flag.ABSOLUTE)
@@ -66,5 +81,7 @@ def _surface(machine: Machine, axis: int) -> int:
     surface = machine.board_surface[axis]
     if surface is None:
         name = machine.axes[axis].name
-        raise JobError([f"{machine.file}: plant.board_surface says nothing of {name}; pecks and spots need it"])
+        raise JobError(
+            Message("plant.board_surface says nothing of {axis}; pecks and spots need it", axis=name).at(machine.file)
+        )
     return surface

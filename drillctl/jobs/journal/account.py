@@ -12,13 +12,14 @@ import msgspec
 
 from drillctl.generation.recipe import BAD_VALUES, FilePath
 from drillctl.jobs.journal.chain import NO_SEAL
+from drillctl.language import Message, Refusal, message_of
 from drillctl.viewmodel.jobs import Site
 
 GREATEST_SEED = 2**31 - 1
 DONE = "done"
 
 
-class OutOfPlace(ValueError):
+class OutOfPlace(Refusal):
     """Raised for a line that can't come at this place. ``str()`` is the reason."""
 
 
@@ -112,29 +113,35 @@ class Account:
         """The account after a further line. Raises OutOfPlace."""
         names = tuple(line)
         if names not in PLACES:
-            raise OutOfPlace(f"{', '.join(names)[:60]!r} is nothing that a journal holds")
+            raise OutOfPlace(Message("{names!r} is nothing that a journal holds", names=", ".join(names)[:60]))
         return PLACES[names](self, *line.values())
 
     def _with_begun(self, hole: object) -> "Account":
         if self.ended is not None or self.under_way or not self._is_next(hole):
-            raise OutOfPlace(f"begun {hole!r} is out of its place: {self._state()}")
+            raise OutOfPlace(Message("begun {hole!r} is out of its place: {state}", hole=hole, state=self._state()))
         return replace(self, holes_begun=self.next, under_way=True)
 
     def _with_done(self, hole: object) -> "Account":
         if self.ended is not None or not self.under_way or not self._is_next(hole):
-            raise OutOfPlace(f"done {hole!r} is out of its place: {self._state()}")
+            raise OutOfPlace(Message("done {hole!r} is out of its place: {state}", hole=hole, state=self._state()))
         return replace(self, holes_done=self.next, under_way=False)
 
     def _with_end(self, how: object) -> "Account":
         early = how == DONE and not self.complete
         if self.ended is not None or not isinstance(how, str) or early:
-            raise OutOfPlace(f"ended {how!r} is out of its place: {self._state()}")
+            raise OutOfPlace(Message("ended {how!r} is out of its place: {state}", how=how, state=self._state()))
         return replace(self, ended=how, under_way=False)
 
     def _with_resumption(self, site: object, again: object) -> "Account":
         named = self._is_next(again) or (again is None and not self.open)
         if self.complete or not named:
-            raise OutOfPlace(f"a resumption that drills hole {again!r} again is out of its place: {self._state()}")
+            raise OutOfPlace(
+                Message(
+                    "a resumption that drills hole {again!r} again is out of its place: {state}",
+                    again=again,
+                    state=self._state(),
+                )
+            )
         begun = self.holes_begun if again is None else self.next
         return replace(self, site=site_of_line(site), holes_begun=begun, ended=None, under_way=False)
 
@@ -160,14 +167,14 @@ def site_of_line(line: object) -> Site:
     try:
         return Site(**msgspec.structs.asdict(msgspec.convert(line, SiteLine)))
     except BAD_VALUES as error:
-        raise OutOfPlace(f"no port, pace and plant: {error}") from error
+        raise OutOfPlace(Message("no port, pace and plant: {why}", why=message_of(error))) from error
 
 
 def head_of_line(line: Mapping[str, Any]) -> Head:
     """The head in the first line of a journal, whose version and site were taken out. Raises OutOfPlace."""
     if set(line) != {field.name for field in fields(Head)}:
-        raise OutOfPlace("its first line is not whole")
+        raise OutOfPlace(Message("its first line is not whole"))
     try:
         return msgspec.convert(line, Head)
     except BAD_VALUES as error:
-        raise OutOfPlace(f"its first line is not whole: {error}") from error
+        raise OutOfPlace(Message("its first line is not whole: {why}", why=message_of(error))) from error

@@ -12,17 +12,20 @@ from collections.abc import Mapping
 from typing import Any
 
 from drillctl.files.inputs import json_of
+from drillctl.language import Refusal
 
 SEAL_DIGITS = 16
 NO_SEAL = ""  # before the first line
 SEALED = re.compile(rb'(\{.+), "chain": "([0-9a-f]{%d})"\}' % SEAL_DIGITS, re.DOTALL)
 
 
-class JournalError(Exception):
+class JournalError(Refusal):
     """A journal that can't be read, written or believed. ``str()`` is ``FILE:LINE: reason`` or ``FILE: reason``."""
 
+    kind = "journal"
 
-class Damaged(ValueError):
+
+class Damaged(Refusal):
     """Raised for bytes that are no line of this chain."""
 
 

@@ -13,6 +13,7 @@ from drillctl.files.inputs import opened
 from drillctl.jobs.journal.account import Account
 from drillctl.jobs.journal.chain import JournalError
 from drillctl.jobs.journal.reader import LAST_LINE_BYTES, ended_well, read_journal
+from drillctl.language import Message, message_of
 
 MOST_LOOKED_AT = 20
 
@@ -44,7 +45,9 @@ def newest_unfinished(folder: Path) -> tuple[Path, Account] | None:
         except JournalInUse:
             continue
         except JournalError as error:
-            raise JournalError(f"{error}; to go on with another journal, name it") from error
+            raise JournalError(
+                Message("{error}; to go on with another journal, name it", error=message_of(error))
+            ) from error
     return None
 
 
@@ -54,7 +57,7 @@ def give_up(file: Path) -> None:
         with _alone(file):
             file.unlink()
     except OSError as error:
-        raise JournalError(f"{file}: can't be taken away: {error.strerror}") from error
+        raise JournalError(Message("can't be taken away: {why}", why=message_of(error)).at(file)) from error
 
 
 def _newest(folder: Path) -> list[Path]:
@@ -76,7 +79,7 @@ def _unfinished(file: Path) -> Account | None:
         with _alone(file):
             account = read_journal(file)
     except OSError as error:
-        raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+        raise JournalError(Message("can't be read: {why}", why=message_of(error)).at(file)) from error
     return account if account.unfinished else None
 
 
@@ -94,5 +97,5 @@ def _alone(file: Path) -> Iterator[None]:
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise JournalInUse(f"{file}: is being written by a run that is still going on") from error
+            raise JournalInUse(Message("is being written by a run that is still going on").at(file)) from error
         yield

@@ -15,6 +15,7 @@ from drillctl.files.inputs import opened, read_bytes, real_path
 from drillctl.generation.job import Job
 from drillctl.jobs.journal.account import Account, Head, OutOfPlace, head_of_line, site_of_line
 from drillctl.jobs.journal.chain import NO_SEAL, Damaged, JournalError, unsealed
+from drillctl.language import Message, message_of
 
 FORMAT = 2
 NAME = "drillctl-journal"
@@ -42,9 +43,11 @@ def account_of(data: bytes, file: Path) -> Account:
             content, seal = unsealed(line[:-1], account.seal)
             account = replace(account.with_line(content), seal=seal)
         except Damaged as error:
-            raise JournalError(f"{file}:{number}: damaged: not what was written behind the line above") from error
+            raise JournalError(
+                Message("damaged: not what was written behind the line above").at(file, number)
+            ) from error
         except OutOfPlace as error:
-            raise JournalError(f"{file}:{number}: {error}") from error
+            raise JournalError(error.message.at(file, number)) from error
     return account
 
 
@@ -62,9 +65,9 @@ def ended_well(data: bytes) -> bool:
 def bytes_of(file: Path) -> bytes:
     """The bytes of a journal file. Raises JournalError where it can't be read."""
     try:
-        return read_bytes(file, LARGEST_JOURNAL_BYTES, "a journal")
+        return read_bytes(file, LARGEST_JOURNAL_BYTES, Message("a journal"))
     except OSError as error:
-        raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+        raise JournalError(Message("can't be read: {why}", why=message_of(error)).at(file)) from error
 
 
 def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
@@ -73,7 +76,7 @@ def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
         with opened(file) as stream:
             file_digest = hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError as error:
-        raise JournalError(f"{file}: can't be read: {error.strerror}") from error
+        raise JournalError(Message("can't be read: {why}", why=message_of(error)).at(file)) from error
     program_digest = hashlib.sha256(job.program.tobytes()).hexdigest()
     machine = job.machine
     where = str(real_path(file))
@@ -83,31 +86,35 @@ def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
 def check_same(journal: Path, then: Head, now: Head) -> None:
     """Raises JournalError unless the job made now is the one that the journal began with."""
     compared = (
-        ("file_digest", f"{then.job} has changed since the job was begun"),
-        ("machine_digest", f"machine {then.machine} is not the one that the job was begun on"),
-        ("program_digest", "the placing, the order or a table beside the job has changed since it was begun"),
-        ("holes", "the placing, the order or a table beside the job has changed since it was begun"),
+        ("file_digest", Message("{file} has changed since the job was begun", file=then.job)),
+        ("machine_digest", Message("machine {name} is not the one that the job was begun on", name=then.machine)),
+        ("program_digest", Message("the placing, the order or a table beside the job has changed since it was begun")),
+        ("holes", Message("the placing, the order or a table beside the job has changed since it was begun")),
     )
     for name, reason in compared:
         if getattr(then, name) != getattr(now, name):
-            raise JournalError(f"{journal}: {reason}; what is left of it can't be told")
+            raise JournalError(Message("{why}; what is left of it can't be told", why=reason).at(journal))
 
 
 def _begun(line: bytes, file: Path) -> Account:
     """The account of a journal that has only this first line. Raises JournalError."""
     version = VERSION.match(line)
     if version is None:
-        raise JournalError(f"{file}: not a journal of this program")
+        raise JournalError(Message("not a journal of this program").at(file))
     if int(version[1]) != FORMAT:
         raise JournalError(
-            f"{file}: a journal of version {int(version[1])}, and this program goes on with those of version {FORMAT}; "
-            "go on with the drillctl that wrote it, or delete the file to begin the board anew"
+            Message(
+                "a journal of version {version}, and this program goes on with those of version {format}; go on with "
+                "the drillctl that wrote it, or delete the file to begin the board anew",
+                version=int(version[1]),
+                format=FORMAT,
+            ).at(file)
         )
     try:
         content, seal = unsealed(line, NO_SEAL)
         del content[NAME]
         return Account(site=site_of_line(content.pop("site", None)), head=head_of_line(content), seal=seal)
     except Damaged as error:
-        raise JournalError(f"{file}:1: damaged: its first line is not the one that was written") from error
+        raise JournalError(Message("damaged: its first line is not the one that was written").at(file, 1)) from error
     except OutOfPlace as error:
-        raise JournalError(f"{file}:1: damaged: {error}") from error
+        raise JournalError(Message("damaged: {why}", why=message_of(error)).at(file, 1)) from error

@@ -22,6 +22,7 @@ from drillctl.jobs.journal.reader import (
     read_journal,
     whole_bytes,
 )
+from drillctl.language import Message, message_of
 from drillctl.viewmodel.jobs import Site
 
 
@@ -43,7 +44,7 @@ class Journal:
             flags = os.O_RDWR | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT if isinstance(start_from, Head) else 0)
             self._handle = os.open(file, flags, 0o644)
         except OSError as error:
-            raise JournalError(f"{file}: can't be written: {error.strerror}") from error
+            raise JournalError(Message("can't be written: {why}", why=message_of(error)).at(file)) from error
         try:
             self._lock()
             if isinstance(start_from, Account):
@@ -81,7 +82,7 @@ class Journal:
     def _go_on(self, account: Account, site: Site) -> Account:
         """Goes on with a journal. Raises JournalError where another run has written to it since it was read."""
         if read_journal(self.file) != account:
-            raise JournalError(f"{self.file}: another run has gone on with it meanwhile; resume again")
+            raise JournalError(Message("another run has gone on with it meanwhile; resume again").at(self.file))
         self._resumption = {"resumed": asdict(site), "again": account.again}
         return replace(account, torn=False)
 
@@ -90,7 +91,7 @@ class Journal:
         try:
             fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
-            raise JournalError(f"{self.file}: is being written by a run that is still going on") from error
+            raise JournalError(Message("is being written by a run that is still going on").at(self.file)) from error
 
     def _write(self, line: Mapping[str, Any]) -> None:
         """Writes a line; before the first of a resumed run the line of its resumption, in place of a torn one."""
@@ -104,7 +105,7 @@ class Journal:
         try:
             account = self._account.with_line(line)
         except OutOfPlace as error:
-            raise JournalError(f"{self.file}: not written: {error}") from error
+            raise JournalError(Message("not written: {why}", why=message_of(error)).at(self.file)) from error
         self._account = replace(account, seal=self._append(line, self._account.seal))
 
     def _append(self, line: Mapping[str, Any], before: str) -> str:
@@ -112,20 +113,20 @@ class Journal:
         fails too, nothing more is written.
         """
         if self._broken:
-            raise JournalError(f"{self.file}: can't be written: its last line is torn")
+            raise JournalError(Message("can't be written: its last line is torn").at(self.file))
         data, seal = sealed(line, before)
         size_bytes = os.fstat(self._handle).st_size
-        reason = "the disk is full"
+        reason = Message("the disk is full")
         try:
             whole = os.write(self._handle, data) == len(data)
             os.fsync(self._handle)
         except OSError as error:
-            whole, reason = False, str(error.strerror)
+            whole, reason = False, message_of(error)
         if not whole:
             self._broken = True
             self._cut(size_bytes)
             self._broken = False
-            raise JournalError(f"{self.file}: can't be written: {reason}")
+            raise JournalError(Message("can't be written: {why}", why=reason).at(self.file))
         return seal
 
     def _cut(self, size_bytes: int) -> None:
@@ -133,7 +134,7 @@ class Journal:
             os.ftruncate(self._handle, size_bytes)
             os.fsync(self._handle)
         except OSError as error:
-            raise JournalError(f"{self.file}: can't be written: {error.strerror}") from error
+            raise JournalError(Message("can't be written: {why}", why=message_of(error)).at(self.file)) from error
 
 
 def _check_finished(file: Path) -> None:
@@ -144,8 +145,14 @@ def _check_finished(file: Path) -> None:
     account = account_of(data, file)
     if account.unfinished:
         raise JournalError(
-            f"{file}: holds a job that is not finished: {account.holes_done} of {account.head.holes} holes of "
-            f"{account.head.job} are drilled; go on with `drillctl resume {file}`, or delete the file to begin anew"
+            Message(
+                "holds a job that is not finished: {done} of {total} holes of {file} are drilled; go on with "
+                "`drillctl resume {journal}`, or delete the file to begin anew",
+                done=account.holes_done,
+                total=account.head.holes,
+                file=account.head.job,
+                journal=file,
+            ).at(file)
         )
 
 

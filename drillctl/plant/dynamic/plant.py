@@ -6,6 +6,7 @@ tables, its faults and the seed, to the bit.
 
 from collections.abc import Sequence
 
+from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
 from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
@@ -88,7 +89,13 @@ def _check_dynamics(machine: Machine) -> None:
     lacking = [axis.name for axis in machine.axes if axis.dynamics is None]
     if lacking:
         names = ", ".join(lacking)
-        raise PlantRefused(f"{machine.name} has no dynamics for {names}; docs/PLANT.md says how to name some")
+        raise PlantRefused(
+            Message(
+                "{name} has no dynamics for {names}; docs/PLANT.md says how to name some",
+                name=machine.name,
+                names=names,
+            )
+        )
 
 
 def _belt(machine: Machine, index: int, known_faults: Faults, seed: int) -> LooseCarriage:

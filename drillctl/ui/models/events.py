@@ -7,8 +7,7 @@ from collections import deque
 from collections.abc import Iterator
 
 from drillctl.language.figures import clock
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.viewmodel.console import MachineView
 
 MOST_EVENTS = 200

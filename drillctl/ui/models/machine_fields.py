@@ -6,6 +6,7 @@ Rule: the new text is sound in every field or it is not offered for saving.
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from drillctl.language import Message, joined
 from drillctl.language.words import N_
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.tables import Checked, FieldPath, FieldView, TableEditing
@@ -35,9 +36,10 @@ class ConfigurationDraft:
         else:
             self.typed[field.place] = typed
 
-    def problem(self, field: FieldView) -> str:
-        """Why a field's content can't be taken; empty where it can."""
-        return " ".join(self.refusal(field, self.typed[field.place])) if field.place in self.typed else ""
+    def problem(self, field: FieldView) -> Message | None:
+        """Why a field's content can't be taken; None where it can."""
+        refused = self.refusal(field, self.typed[field.place]) if field.place in self.typed else ()
+        return joined(" ", refused) if refused else None
 
     def refusal(self, field: FieldView, typed: str) -> Problems:
         """The reasons why a field would not take this text; none where it would."""
@@ -46,7 +48,7 @@ class ConfigurationDraft:
     def candidate(self) -> tuple[str, Problems]:
         """The text with all that was typed, and the reasons why some of it is not in it."""
         text = self._text
-        refused: list[str] = []
+        refused: list[Message] = []
         for place, typed in self.typed.items():
             text, problems = self._tables.with_field(text, place, typed)
             refused += problems

@@ -10,8 +10,7 @@ from textwrap import wrap
 import urwid
 
 from drillctl.language.figures import pair_mm
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.measuring import LEAST_HOLES, Measuring, PlaceMm
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.shell import Shell

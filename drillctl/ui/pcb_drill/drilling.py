@@ -9,6 +9,7 @@ from typing import Any
 
 import urwid
 
+from drillctl.language import Message
 from drillctl.language.figures import clock, pair_mm
 from drillctl.language.words import N_, _
 from drillctl.ui.pcb_drill.board_view import BoardPicture
@@ -68,7 +69,6 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._picture = BoardPicture(plain, FIRST_WORDS)
         self._window, self._motors = SideWindow(side_pages), SideWindow(motor_pages)
         self._events = EventList()
-        self._laid_out: tuple[Layout, bool] | None = None
         self._was_at_work = False
         self._footer = Text("")
         self._parts = {
@@ -95,11 +95,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Lays the windows out for this size."""
         assert len(size) == 2
-        room = layout(*size)
-        wanted = (room, size[0] >= room.side + LEAST_BOARD)
-        if wanted != self._laid_out:  # what is laid out anew is drawn anew
-            self._laid_out = wanted
-            self._lay_out(*wanted)
+        self._lay_out(layout(*size), beside=size[0] >= layout(*size).side + LEAST_BOARD)
         return super().render(size, focus)
 
     def _lay_out(self, room: Layout, beside: bool) -> None:
@@ -149,7 +145,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """Whether no motion can be begun just now; then the bottom line says why, and nothing is asked."""
         refuses = next_step(self._console, self._console.view()).refuses
         if refuses:
-            self._answer((_(refuses),))
+            self._answer((Message(refuses),))
         return bool(refuses)
 
     def _drill(self) -> None:

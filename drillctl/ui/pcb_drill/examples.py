@@ -8,6 +8,7 @@ from pathlib import Path
 
 from drillctl.files.inputs import read_bytes
 from drillctl.files.shipped import shipped
+from drillctl.language import Message
 from drillctl.language.words import _
 from drillctl.ui.screens.reader import Reader
 from drillctl.ui.screens.shell import Shell
@@ -46,7 +47,7 @@ def offer_examples(shell: Shell, load: Callable[[Path], object]) -> None:
 def open_sheet(file: Path, shell: Shell) -> None:
     """Opens a lab sheet to be read; says why where that fails."""
     try:
-        text = read_bytes(file, LARGEST_SHEET_BYTES, "a lab sheet").decode()
+        text = read_bytes(file, LARGEST_SHEET_BYTES, Message("a lab sheet")).decode()
     except (OSError, UnicodeDecodeError) as error:
         shell.message(_("Refused"), [str(error)])
         return

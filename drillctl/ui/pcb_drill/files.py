@@ -14,8 +14,7 @@ import urwid
 
 from drillctl.files.inputs import real_path
 from drillctl.language.figures import pair_mm
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.board_facts import CHOICES, board_lines, format_name, is_warning, option_lines, recent_line
 from drillctl.ui.pcb_drill.board_view import BoardPicture

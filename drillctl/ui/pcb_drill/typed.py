@@ -11,7 +11,8 @@ import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
-from drillctl.language.words import N_, _
+from drillctl.language import Message, message_of
+from drillctl.language.words import N_
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.jobs import PanelOf
 
@@ -50,7 +51,7 @@ def accepted(
         try:
             made = read(texts)
         except ValueError as error:
-            return (str(error),)
+            return (message_of(error),)
         return then(made)
 
     return accept
@@ -72,7 +73,7 @@ def length_mm(text: str) -> float | None:
     except ValueError:
         value_mm = math.nan
     if not math.isfinite(value_mm):
-        raise ValueError(_("{text!r} is not a length in mm, such as 0.5").format(text=text))
+        raise ValueError(Message("{text!r} is not a length in mm, such as 0.5", text=text))
     return value_mm
 
 
@@ -81,11 +82,11 @@ def tool_numbers(text: str) -> tuple[int, ...]:
     words = text.replace(",", " ").upper().split()
     numbers = [word.removeprefix("T") for word in words]
     if not all(number.isdecimal() for number in numbers):
-        raise ValueError(_("{text!r} is not a list of tools, such as 2 3").format(text=text))
+        raise ValueError(Message("{text!r} is not a list of tools, such as 2 3", text=text))
     return tuple(sorted({int(number) for number in numbers}))
 
 
 def _count(text: str) -> int:
     if not text.strip().isdecimal():
-        raise ValueError(_("{text!r} is not a number of boards, such as 2").format(text=text))
+        raise ValueError(Message("{text!r} is not a number of boards, such as 2", text=text))
     return int(text)

@@ -7,8 +7,7 @@ nothing is taken away but by a button of its own.
 from collections.abc import Callable
 from pathlib import Path
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import _
+from drillctl.language.words import _, translated
 from drillctl.ui.screens.shell import Shell
 from drillctl.viewmodel.console import Console
 from drillctl.viewmodel.jobs import Site, UnfinishedJob

@@ -8,8 +8,7 @@ from typing import Any
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
 from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shell import Shell, asked_to_leave
@@ -163,10 +162,10 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
     def _lines(self) -> list[Line]:
         field = self._field
         if field is None:
-            return [[("danger", _("problem: ") + translated(str(found)))] for found in self._draft.check().problems]
+            return [[("danger", _("problem: ") + translated(found.message))] for found in self._draft.check().problems]
         refused = [(other, self._draft.problem(other)) for other in self._draft.fields]
         wrong = [f"{label_of(other)}: {translated(problem)}" for other, problem in refused if problem]
-        wrong = wrong or [translated(str(found)) for found in self._draft.check().problems]
+        wrong = wrong or [translated(found.message) for found in self._draft.check().problems]
         problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
         return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
 

@@ -6,8 +6,7 @@ Rule: a request that is refused says why in that line.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import AxisView, Console, MachineView, Problems

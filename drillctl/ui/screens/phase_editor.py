@@ -8,8 +8,7 @@ from the list of tables.
 
 from collections.abc import Callable
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid, WireBits
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor

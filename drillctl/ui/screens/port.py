@@ -7,8 +7,7 @@ import textwrap
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Line, Size, boxed

@@ -7,8 +7,7 @@ from collections.abc import Callable
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History, completed, usage
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
@@ -176,7 +175,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
             if self._answer(run(text)):
                 then()
 
-        if self._answer(tuple(map(str, self._queues.check_queue(text)))):
+        if self._answer(tuple(found.message for found in self._queues.check_queue(text))):
             asked_if_real(self._control, self._shell, _("Run the queue on it?"), begin)
 
     def _answer(self, problems: Problems) -> bool:
@@ -234,7 +233,7 @@ def _axis(axis: AxisView) -> str:
 
 
 def _findings(found: tuple[TextFinding, ...], attribute: str) -> list[Line]:
-    lines: list[Line] = [[(attribute, translated(str(finding)))] for finding in found[:MOST_FINDINGS]]
+    lines: list[Line] = [[(attribute, translated(finding.message))] for finding in found[:MOST_FINDINGS]]
     more = len(found) - MOST_FINDINGS
     rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
     return [*lines, *rest]

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drillctl.language.words import N_, _
+from drillctl.language import Message
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.machine_lines import phase_line, phase_table
 from drillctl.ui.screens.scope_wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
@@ -89,7 +90,7 @@ def _heading(source: ScopeSource, look: ScopeLook) -> list[Line]:
     ticks = ticks.format(hz=source.tick_hz, first=source.first_tick, last=source.last_tick)
     follows: Line = [("good", _(" following"))] if look.following else []
     notices: list[Line] = [
-        [("warning", _(LACKS[notice.lack]).format(value=notice.value))] for notice in source.notices()
+        [("warning", translated(Message(LACKS[notice.lack], value=notice.value)))] for notice in source.notices()
     ]
     return [[("title", source.name), f" {ticks}, {_zoom(look.view, source.tick_hz)}", *follows], *notices]
 

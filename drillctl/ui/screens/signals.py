@@ -6,8 +6,7 @@ real machine moves, so both are asked about first.
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, moved
 from drillctl.ui.screens.shell import Shell, asked_if_real
 from drillctl.ui.widgets.keys import Key, called

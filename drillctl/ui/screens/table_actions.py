@@ -6,8 +6,7 @@ Rule: a refusal is told and nothing follows; ``then`` is called only after succe
 import difflib
 from collections.abc import Callable
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import _
+from drillctl.language.words import _, translated
 from drillctl.ui.models.machine_fields import words_of
 from drillctl.ui.screens.shell import Shell
 from drillctl.viewmodel.console import Console, Problems

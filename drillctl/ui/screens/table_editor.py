@@ -6,8 +6,7 @@ never saved. PhaseEditor and RampEditor are made of this.
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions
@@ -128,7 +127,7 @@ class TableEditor(urwid.Widget):
             *(("danger", _("problem: "), problem) for problem in self._checked.problems),
             *(("warning", _("warning: "), warning) for warning in self._checked.warnings),
         ]
-        lines: list[Line] = [[(look, label + translated(str(finding)))] for look, label, finding in found]
+        lines: list[Line] = [[(look, label + translated(finding.message))] for look, label, finding in found]
         more = len(lines) - MOST_FINDINGS
         rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
         return [*lines[:MOST_FINDINGS], *rest] if lines else [[("good", _("sound"))]]

@@ -8,7 +8,7 @@ import io
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from drillctl.language import visible
+from drillctl.language import Message, Refusal, visible
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 
 if TYPE_CHECKING:
@@ -25,17 +25,23 @@ STYLES: dict[Style, dict[str, Any]] = {
 }
 
 
-class PictureRefused(Exception):
+class PictureRefused(Refusal):
     """A picture that can't be drawn here; ``str()`` says what to do."""
+
+    kind = "picture"
 
 
 def check_format(suffix: str) -> str:
     """``png`` or ``svg`` of a file's suffix. Raises PictureRefused, too where matplotlib is missing."""
     kind = suffix.removeprefix(".").lower()
     if kind not in FORMATS:
-        raise PictureRefused(f"a picture is a .png or a .svg, not {suffix or 'a file without suffix'!r}")
+        raise PictureRefused(
+            Message("a picture is a .png or a .svg, not {suffix!r}", suffix=suffix or "a file without suffix")
+        )
     if find_spec("matplotlib") is None:
-        reason = f"{kind.upper()} needs matplotlib: pip install 'matplotlib>=3.9'; without --out it is drawn here"
+        reason = Message(
+            "{kind} needs matplotlib: pip install 'matplotlib>=3.9'; without --out it is drawn here", kind=kind.upper()
+        )
         raise PictureRefused(reason)
     return kind
 

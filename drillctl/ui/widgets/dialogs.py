@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import urwid
 
-from drillctl.language.sentences import translated
-from drillctl.language.words import _
+from drillctl.language import Message
+from drillctl.language.words import _, translated
 from drillctl.ui.widgets.texts import Box, Button, Edit, Pick, Size, Text
 
 WIDEST = 72
@@ -163,7 +163,9 @@ class Field(NamedTuple):
 class FieldsDialog(Dialog):
     """``accept`` gets what was typed, in the order of the fields, and answers with what is wrong with it."""
 
-    def __init__(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Sequence[str]], closing: Act):
+    def __init__(
+        self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Sequence[Message]], closing: Act
+    ):
         widest = max(len(field.label) for field in fields)
         self._edits = [Edit(("body", f"{field.label:{widest}} "), field.text) for field in fields]
         self._accept = accept

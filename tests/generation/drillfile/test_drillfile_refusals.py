@@ -10,7 +10,7 @@ import tracemalloc
 import pytest
 
 from drillctl.generation.drillfile import DrillFileError, decode, read
-from drillctl.generation.drillfile.errors import REFUSALS, TEXT_LIMIT, WARNINGS, Refusal, shorten
+from drillctl.generation.drillfile.errors import REFUSALS, TEXT_LIMIT, WARNINGS, Complaint, shorten
 from drillctl.generation.drillfile.intake import READ_LIMIT, condense
 from drillctl.generation.drillfile.program import COMMAND_LIMIT
 from drillctl.generation.drillfile.rows import HOLE_LIMIT
@@ -167,7 +167,7 @@ class Endless(io.RawIOBase):
 @pytest.mark.parametrize("head", [f"{HEADER}X1".encode(), f"{HEADER};".encode(), b"\xff\xfe"], ids=["X", ";", "16"])
 def test_a_line_without_end_is_read_up_to_a_limit(head: bytes) -> None:
     stream = io.BufferedReader(Endless(head, b" \0" * 500_000 if head == b"\xff\xfe" else b" " * 1_000_000))
-    with pytest.raises(Refusal) as caught:
+    with pytest.raises(Complaint) as caught:
         condense(stream)
     assert caught.value.code == "file-too-large"
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from drillctl.generation.drillfile import DrillFile, FormatChoice, Tool, decode
 from drillctl.generation.drillfile.eia import CODE, encode
-from drillctl.generation.drillfile.errors import Refusal
+from drillctl.generation.drillfile.errors import Complaint
 from drillctl.generation.drillfile.model import MM_PER_UNIT
 from drillctl.generation.drillfile.recognise import parse_option
 from drillctl.generation.drillfile.write import number, write
@@ -98,5 +98,5 @@ def test_every_tape_row_has_odd_parity_and_its_own_code() -> None:
 
 
 def test_tape_code_has_no_row_for_a_semicolon() -> None:
-    with pytest.raises(Refusal):
+    with pytest.raises(Complaint):
         encode("; comment")

@@ -1,0 +1,122 @@
+"""Messages for the operator: a template with named fields, and the one exception that carries them.
+
+Rule: a message is formatted once, in English, where it is made. It keeps its template and its fields, so that a screen
+can look the template up in the operator's catalogue (words.translated). A field that is a Message itself is translated
+too; any other field is data (a name, a number, a line of a file) and is never translated.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, ClassVar
+
+from drillctl.language.visible import one_line
+
+MOST_SHOWN = 50  # messages of one refusal that are written out
+_PLACES = ("{file}: {reason}", "{file}:{line}: {reason}", "{file}:{line}:{column}: {reason}")
+
+
+class Message(str):
+    """The English text of a template and its fields: ``Message("tool T{number} has no diameter", number=3)``.
+
+    It is a ``str``, equal to any other of the same text. Raises KeyError for a template with a field that isn't given.
+    """
+
+    template: str
+    fields: Mapping[str, Any]
+
+    def __new__(cls, template: str, /, **fields: Any) -> "Message":
+        """Formats the template, as ``str.format`` does."""
+        message = super().__new__(cls, template.format(**fields))
+        message.template, message.fields = template, fields
+        return message
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Keeps template and fields in a pickle or a copy."""
+        return _formatted, (self.template, dict(self.fields))
+
+    def at(self, file: object, line: int | None = None, column: int | None = None) -> "Message":
+        """Returns the message with its place before it: ``FILE:LINE:COLUMN: ``, as much of it as is given."""
+        place = [part for part in (line, column) if part is not None]
+        fields: dict[str, Any] = dict(zip(("line", "column"), place, strict=False))
+        fields["file"] = file if isinstance(file, Message) else str(file)
+        return Message(_PLACES[len(place)], **fields, reason=self)
+
+    @property
+    def line(self) -> int | None:
+        """The line of the message's place, or of that of a message in it; None where there is none."""
+        if self.template in _PLACES and "line" in self.fields:
+            return int(self.fields["line"])
+        inner = (field.line for field in self.fields.values() if isinstance(field, Message))
+        return next((line for line in inner if line is not None), None)
+
+
+def _formatted(template: str, fields: Mapping[str, Any]) -> Message:
+    return Message(template, **fields)
+
+
+def verbatim(text: str) -> Message:
+    """Returns a text that is data as a message; a Message is returned as it is."""
+    return text if isinstance(text, Message) else Message("{text}", text=text)
+
+
+def joined(separator: str, messages: Iterable[str]) -> Message:
+    """Returns messages and texts, one behind the other, as one message."""
+    fields = {f"part{number}": message for number, message in enumerate(messages)}
+    return Message(separator.join(f"{{{name}}}" for name in fields), **fields)
+
+
+def packed(message: Message) -> list[Any]:
+    """Returns a message as plain lists, texts and numbers, for JSON; ``message_from`` reads them."""
+    fields = {
+        name: {"message": packed(field)} if isinstance(field, Message) else {"data": field}
+        for name, field in message.fields.items()
+    }
+    return [message.template, fields]
+
+
+def message_from(plain: Sequence[Any]) -> Message:
+    """Returns the message of which ``packed`` gave this."""
+    template, fields = plain
+    return Message(
+        template,
+        **{name: message_from(kept["message"]) if "message" in kept else kept["data"] for name, kept in fields.items()},
+    )
+
+
+class Refusal(Exception):
+    """The root of everything that is refused: the operator's input, and what can't be done with it.
+
+    ``messages`` has one for each problem. ``str()`` is a line for each of the first MOST_SHOWN; line ends within one of
+    them are escaped. ``kind``: what is refused, as ``--json`` names it; a subclass for each.
+    """
+
+    kind: ClassVar[str] = "refused"
+
+    def __init__(self, *messages: Message):
+        self.messages = messages
+        super().__init__(*messages)
+
+    def __str__(self) -> str:
+        return "\n".join(map(one_line, shown_of(self.messages)))
+
+    @property
+    def message(self) -> Message:
+        """The problems as one message, a line for each."""
+        return self.messages[0] if len(self.messages) == 1 else joined("\n", shown_of(self.messages))
+
+
+def shown_of(messages: Sequence[Message]) -> list[Message]:
+    """Returns the first MOST_SHOWN messages, and how many more there are."""
+    more = len(messages) - MOST_SHOWN
+    return [*messages[:MOST_SHOWN], *([Message("and {count} more", count=more)] if more > 0 else [])]
+
+
+def message_of(error: Exception) -> Message:
+    """Returns what an exception says: its Message where it has one, the text of any other as data.
+
+    Of an OSError with a file it is the reason alone (``strerror``).
+    """
+    if isinstance(error, Refusal):
+        return error.message
+    if isinstance(error, OSError) and error.strerror is not None:
+        return verbatim(error.strerror)
+    return verbatim(error.args[0] if error.args and isinstance(error.args[0], Message) else str(error))

@@ -1,0 +1,55 @@
+"""The messages of the package, found in its source: every template that a person may be shown."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import drillctl
+from drillctl.language import words
+
+PACKAGE = Path(drillctl.__file__).parent
+MARKS = ("Message", "_", "N_")
+POLISH = words.catalogue(words.catalogue_text("pl"))
+# Their messages go to a terminal or a test's report, in English; no screen of the program shows them.
+IN_ENGLISH = ("cli", "lab", "pytest_plugin", "ui.terminal")
+
+
+def templates_in(source: str) -> Iterator[str]:
+    """Every literal handed to Message, _ or N_ in a source text; both of one behind an ``if``."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in MARKS and node.args:
+            yield from _literals(node.args[0])
+
+
+def _literals(node: ast.expr) -> Iterator[str]:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.IfExp):
+        yield from (*_literals(node.body), *_literals(node.orelse))
+
+
+def modules() -> Iterator[tuple[str, str]]:
+    """Every module's name, without ``drillctl.``, and its source."""
+    for file in sorted(PACKAGE.rglob("*.py")):
+        yield ".".join(file.relative_to(PACKAGE).with_suffix("").parts), file.read_text("utf-8")
+
+
+def all_templates() -> set[str]:
+    """The templates of the whole package."""
+    return {template for _name, source in modules() for template in templates_in(source)}
+
+
+def screen_templates() -> set[str]:
+    """The templates that a screen may show: those of every room but IN_ENGLISH, as far as they have words."""
+    found = {template for name, source in modules() if not _in_english(name) for template in templates_in(source)}
+    return {template for template in found if any(letter.isalpha() for letter in without_fields(template))}
+
+
+def _in_english(name: str) -> bool:
+    return any(name == room or name.startswith(f"{room}.") for room in IN_ENGLISH)
+
+
+def without_fields(template: str) -> str:
+    """What is left of a template without its ``{fields}``."""
+    kept, _, rest = template.partition("{")
+    return kept + without_fields(rest.partition("}")[2]) if rest else kept
