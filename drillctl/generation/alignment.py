@@ -97,8 +97,8 @@ def fit(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike, *, mirrored: bool = Fal
     along_mm, across_mm = _spread_mm(file_mm)
     span_mm = _span_mm(file_mm)
     measured_mm = _span_mm(machine_mm)
-    _refuse_same_place("file", span_mm)
-    _refuse_same_place("machine", measured_mm)
+    _refuse_same_place(Message("file"), span_mm)
+    _refuse_same_place(Message("machine"), measured_mm)
     on_a_line = across_mm < LINE_RATIO * along_mm
     affine = _fit_rigid(file_mm, machine_mm, mirrored) if on_a_line else _fit_affine(file_mm, machine_mm)
     alignment = Alignment(
@@ -140,7 +140,7 @@ def _pairs(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike) -> tuple[Millimetres
     return file_mm, machine_mm
 
 
-def _refuse_same_place(whose: str, span_mm: float) -> None:
+def _refuse_same_place(whose: Message, span_mm: float) -> None:
     if span_mm < COINCIDENT_MM:
         raise AlignmentError(
             Message(

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from drillctl.generation.choices import ORIGINS
 from drillctl.language import Message, Refusal
+from drillctl.language.messages import listed
 
 MIRRORS = {
     None: ((1.0, 0.0), (0.0, 1.0)),
@@ -108,8 +109,8 @@ class Panel:
     order: str = "serpentine"
 
     def __post_init__(self) -> None:
-        _one_of("panel order", self.order, PANEL_ORDERS)
-        _finite("the panel's pitch", self.pitch_x_mm, self.pitch_y_mm)
+        _one_of(Message("panel order"), self.order, PANEL_ORDERS)
+        _finite(Message("the panel's pitch"), self.pitch_x_mm, self.pitch_y_mm)
         if self.columns < 1 or self.rows < 1:
             raise PlacingError(
                 Message(
@@ -165,24 +166,24 @@ class Placing:
     alignment: Affine | None = None
 
     def __post_init__(self) -> None:
-        _one_of("origin", self.origin, (None, *ORIGINS))
-        _one_of("mirror", self.mirror, tuple(MIRRORS))
-        _finite("rotation and offset", self.rotate_deg, *self.offset_mm)
+        _one_of(Message("origin"), self.origin, (None, *ORIGINS))
+        _one_of(Message("mirror"), self.mirror, tuple(MIRRORS))
+        _finite(Message("rotation and offset"), self.rotate_deg, *self.offset_mm)
         if self.alignment is not None and self._asked_beside_alignment():
             raise PlacingError(
                 Message(
                     "{what} given together with an alignment: the measured holes already say where the board lies; "
                     "leave one of the two out",
-                    what=" and ".join(self._asked_beside_alignment()),
+                    what=listed(self._asked_beside_alignment()),
                 )
             )
 
-    def _asked_beside_alignment(self) -> list[str]:
+    def _asked_beside_alignment(self) -> list[Message]:
         asked = {
-            "origin": self.origin is not None,
-            "mirror": self.mirror is not None,
-            "rotate": self.rotate_deg != 0,
-            "offset": tuple(self.offset_mm) != (0.0, 0.0),
+            Message("origin"): self.origin is not None,
+            Message("mirror"): self.mirror is not None,
+            Message("rotate"): self.rotate_deg != 0,
+            Message("offset"): tuple(self.offset_mm) != (0.0, 0.0),
         }
         return [name for name, given in asked.items() if given]
 
@@ -227,12 +228,12 @@ def _corner_shift_mm(placing: Placing, turned: Affine, xy_mm: ArrayLike) -> NDAr
     return -corners_mm.min(axis=0)
 
 
-def _one_of(what: str, value: object, allowed: tuple[object, ...]) -> None:
+def _one_of(what: Message, value: object, allowed: tuple[object, ...]) -> None:
     if value not in allowed:
         names = " or ".join(repr(name) for name in allowed if name is not None)
         raise PlacingError(Message("{what} {value!r} is not known; give {names}", what=what, value=value, names=names))
 
 
-def _finite(what: str, *values: float) -> None:
+def _finite(what: Message, *values: float) -> None:
     if not all(math.isfinite(value) for value in values):
         raise PlacingError(Message("{what} must be plain numbers, not {values}", what=what, values=values))

@@ -20,7 +20,7 @@ from drillctl.generation.measured import MAX_MM
 from drillctl.generation.placing import Affine, Panel, Placing
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import positioning_axes
-from drillctl.language import Message
+from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.machine.shape import Steps, TickHz
 
@@ -63,7 +63,7 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             return cls.checked(told)
         except BAD_VALUES as error:
             reason = Message(
-                "its options were written by another version of this program, or altered: {why}", why=error
+                "its options were written by another version of this program, or altered: {why}", why=message_of(error)
             )
             raise JobError(reason.at(journal, 1)) from error
 

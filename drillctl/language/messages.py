@@ -64,6 +64,12 @@ def joined(separator: str, messages: Iterable[str]) -> Message:
     return Message(separator.join(f"{{{name}}}" for name in fields), **fields)
 
 
+def listed(messages: Sequence[Message]) -> Message:
+    """Returns one or more messages with ``and`` between them: ``origin and mirror``."""
+    first, *others = messages
+    return Message("{first} and {second}", first=first, second=listed(others)) if others else first
+
+
 def packed(message: Message) -> list[Any]:
     """Returns a message as plain lists, texts and numbers, for JSON; ``message_from`` reads them."""
     fields = {

@@ -24,17 +24,17 @@ class FaultKind:
     part: str
     least: float
     most: float
-    meaning: str
+    meaning: Message
 
 
 FAULT_KINDS = {
-    "stuck": FaultKind("sensor", 0, 1, "answers never (0) or always (1)"),
-    "dirty": FaultKind("sensor", -20, 20, "answers N mm too late"),
-    "bouncing": FaultKind("sensor", 1, 1000, "flutters for N ticks after each change"),
-    "loose": FaultKind("axis", 0, 20, "mm of play in the belt"),
-    "jammed": FaultKind("axis", 1, 1000, "friction of the guide, N times the table's"),
-    "blunt": FaultKind("", 0, 1000, "metres of board that the drill has cut already"),
-    "broken": FaultKind("", 1, 1, "the drill is off and meets no board"),
+    "stuck": FaultKind("sensor", 0, 1, Message("answers never (0) or always (1)")),
+    "dirty": FaultKind("sensor", -20, 20, Message("answers N mm too late")),
+    "bouncing": FaultKind("sensor", 1, 1000, Message("flutters for N ticks after each change")),
+    "loose": FaultKind("axis", 0, 20, Message("mm of play in the belt")),
+    "jammed": FaultKind("axis", 1, 1000, Message("friction of the guide, N times the table's")),
+    "blunt": FaultKind("", 0, 1000, Message("metres of board that the drill has cut already")),
+    "broken": FaultKind("", 1, 1, Message("the drill is off and meets no board")),
 }
 _FORM = re.compile(r"([a-z]+)(?:\.([A-Za-z0-9_-]+))?=(-?\d+(?:\.\d+)?)")
 

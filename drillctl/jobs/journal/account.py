@@ -148,10 +148,12 @@ class Account:
     def _is_next(self, hole: object) -> bool:
         return type(hole) is int and hole == self.next and not self.complete
 
-    def _state(self) -> str:
-        state = "the run goes on" if self.ended is None else "the run has ended"
-        under_way = f", hole {self.next} is begun" if self.under_way else ""
-        return f"{self.holes_done} of {self.head.holes} holes are done{under_way}, {state}"
+    def _state(self) -> Message:
+        run = Message("the run goes on") if self.ended is None else Message("the run has ended")
+        counted = {"done": self.holes_done, "total": self.head.holes, "run": run}
+        if self.under_way:
+            return Message("{done} of {total} holes are done, hole {next} is begun, {run}", next=self.next, **counted)
+        return Message("{done} of {total} holes are done, {run}", **counted)
 
 
 PLACES: dict[tuple[str, ...], Callable[..., Account]] = {
