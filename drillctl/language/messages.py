@@ -101,6 +101,10 @@ class Refusal(Exception):
         self.messages = messages
         super().__init__(*messages)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Keeps the messages and a subclass's own attributes in a pickle, whatever its constructor takes."""
+        return _restored, (type(self), self.messages), vars(self)
+
     def __str__(self) -> str:
         return "\n".join(map(one_line, shown_of(self.messages)))
 
@@ -108,6 +112,10 @@ class Refusal(Exception):
     def message(self) -> Message:
         """The problems as one message, a line for each."""
         return self.messages[0] if len(self.messages) == 1 else joined("\n", shown_of(self.messages))
+
+
+def _restored(kind: type[Refusal], messages: Sequence[Message]) -> Refusal:
+    return kind.__new__(kind, *messages)
 
 
 def shown_of(messages: Sequence[Message]) -> list[Message]:

@@ -17,6 +17,7 @@ from drillctl.language.words import translated
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.errors import TableError
 from drillctl.machine.source import Source
+from drillctl.ports import PortRefused
 from drillctl.ticker.message_text import LONGEST_BYTES, message_read, message_text
 from tests.support.messages import POLISH
 
@@ -86,6 +87,16 @@ def test_a_refusal_is_a_line_for_each_message() -> None:
     assert (lines[0], lines[-1], len(lines)) == ("hole 0", "and 2 more", MOST_SHOWN + 1)
     assert len(refusal.messages) == MOST_SHOWN + 2
     assert str(Refusal(Message("no {name}", name="a\nb"))) == "no a\\nb"
+
+
+@pytest.mark.parametrize(
+    "refusal",
+    [TableError("a.toml", Message("no {name}", name="x"), 3), KmdError("a.kmd", 3, 1, Message("cut short")),
+     PortRefused("gpio", Message("cut short")), Refusal(Message("a"), Message("b"))],
+)  # fmt: skip
+def test_a_refusal_comes_whole_through_a_pickle(refusal: Refusal) -> None:
+    copy = pickle.loads(pickle.dumps(refusal))
+    assert type(copy) is type(refusal) and str(copy) == str(refusal) and vars(copy) == vars(refusal)
 
 
 @pytest.mark.parametrize(

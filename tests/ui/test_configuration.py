@@ -206,10 +206,10 @@ def test_only_a_table_of_ones_own_is_deleted_and_only_after_a_yes(console: Conso
     shell, desk = Shell(), Tables(phase="1a 5 x.")
     desk.own["phase"] = "1a 5 .x"
     tables = TableList(console, shell, desk, "phase")
-    press(tables, "x")
+    press(tables, "delete")
     assert desk.own and "for good" in shell.asked[0]
     shell.says_yes = True
-    press(tables, "x", "x")
+    press(tables, "delete", "delete")
     assert not desk.own and shell.told == [("Nothing changed", ["it stays"])]
     desk.own["phase"] = "1a 5 .x"
     press(tables, "r")
