@@ -71,12 +71,16 @@ def listed(messages: Sequence[Message]) -> Message:
 
 
 def packed(message: Message) -> list[Any]:
-    """Returns a message as plain lists, texts and numbers, for JSON; ``message_from`` reads them."""
-    fields = {
-        name: {"message": packed(field)} if isinstance(field, Message) else {"data": field}
-        for name, field in message.fields.items()
-    }
-    return [message.template, fields]
+    """Returns a message as plain lists, texts and numbers, for JSON; ``message_from`` reads them. A field that is
+    neither text nor number (a path) becomes its text.
+    """
+    return [message.template, {name: _packed_field(field) for name, field in message.fields.items()}]
+
+
+def _packed_field(field: Any) -> dict[str, Any]:
+    if isinstance(field, Message):
+        return {"message": packed(field)}
+    return {"data": field if isinstance(field, str | int | float) else str(field)}
 
 
 def message_from(plain: Sequence[Any]) -> Message:

@@ -48,11 +48,6 @@ def use(language: str, plain: bool = False) -> None:
     _spoken.words = words
 
 
-def spoken_words() -> Mapping[str, str]:
-    """Returns the catalogue in use, translations by English source; empty for English."""
-    return _spoken.words
-
-
 def translated(message: str) -> str:
     """Returns a message in the operator's language: its template's translation with its fields, Messages among them
     translated too. A text that is no Message is data and returned as it is.

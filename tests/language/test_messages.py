@@ -74,6 +74,11 @@ def test_a_message_comes_whole_through_json_and_pickle(message: Message) -> None
         assert (copy, copy.template, copy.fields) == (message, message.template, message.fields)
 
 
+def test_a_field_that_json_has_no_form_for_comes_as_its_text() -> None:
+    message = Message("{file} is there", file=Path("a.drl"))
+    assert message_read(message_text(message)) == message
+
+
 @pytest.mark.parametrize("letter", ["x", "\n", "\u0119", "\U0001f527", '"'])
 def test_a_message_that_is_too_long_for_the_link_is_cut(letter: str) -> None:
     line = message_text(Message("lost: {why}", why=letter * 5000))
