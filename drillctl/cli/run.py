@@ -38,15 +38,18 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.machine import machine_hazards
     from drillctl.replay.header import machine_named
     from drillctl.ticker.launch import pace_of
-    from drillctl.trace.files import takes_segments
+    from drillctl.trace.files import MOST_CARDS, takes_segments
 
     machine = options.machine(arguments)
     port = options.port(arguments, machine)
     running = options.running(arguments, port, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
     if arguments.trace is not None:
         machine_named(machine, arguments.trace)  # raises where it could not be written afterwards
-    taped = arguments.trace is not None and takes_segments(arguments.trace, machine.cards)
-    running = replace(running, engine=arguments.engine, taped=taped and not arguments.vcd)
+    if arguments.trace is not None:
+        taped = takes_segments(arguments.trace, machine.cards)
+    else:
+        taped = machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
+    running = replace(running, engine=arguments.engine, taped=taped)
     paced = pace_of(running) == "real"
     recipe = jobs.recipe(arguments)
     job = jobs.load(arguments.job, recipe, machine)
@@ -88,11 +91,8 @@ def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:
 
 
 def _write_vcd(job: "Job", done: "JobResult", vcd: "Output | None") -> None:
-    from drillctl.ticker.sampler import vcd_layout
-    from drillctl.trace import Segments, write_vcd
+    from drillctl.replay.recorded_vcd import write_recorded_vcd
 
     record = done.trace
     if vcd is not None and record is not None:
-        assert not isinstance(record, Segments), "derived signals are kept as changes"
-        layout = [var for var in vcd_layout(job.machine) if record.has(var.source)]
-        vcd.write(lambda file: write_vcd(record, file, layout))
+        vcd.write(lambda file: write_recorded_vcd(record, job.machine, file))

@@ -7,11 +7,16 @@ table that a rotor could not follow nothing is forecast. execution/fastforward k
 from itertools import product
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drillctl.machine import AxisTable, Machine
 from drillctl.plant.ideal import IdealPlant
 from drillctl.plant.rotor import FULL_TURN, HALF_TURN, PulseRotor, Rotor, WindingRotor
 
 Memory = tuple[Any, ...]
+Degrees = NDArray[np.float64]
+Counts = NDArray[np.int64]
 
 
 class PlantForecast:
@@ -51,6 +56,23 @@ class PlantForecast:
         self._plant.rotors[axis].degrees = memory[0]
         self._plant.recall(axis, memory[1:])
 
+    def lanes(self, axis: int, travel: int, turns: Counts, column: Counts) -> list[Counts]:
+        """Returns the plant's lanes (``IdealPlant.lanes``) of an axis after each of n turns, (n,) each.
+
+        travel  columns before the first turn; the rotor is where they put it
+        turns   columns put out in each row, (n,): 1, 0 or -1, as the wires have it
+        column  the column that stands then, from 0, (n,)
+        """
+        rotor, carriage = self._plant.rotors[axis], self._plant.carriages[axis]
+        travels = travel + np.cumsum(turns)
+        degrees = self._follows[axis].degrees_through(travels, turns, column)
+        columns = (degrees - rotor.zero) * rotor.columns_per_cycle / FULL_TURN
+        behind = travels * FULL_TURN / rotor.columns_per_cycle + rotor.zero - degrees
+        lost = np.where(abs(behind) > rotor.half_rest, behind * rotor.columns_per_cycle / FULL_TURN, 0.0)
+        scale = carriage.steps_per_column
+        lanes = carriage.start + columns * scale, lost * scale / abs(scale)
+        return [np.rint(lane).astype(np.int64) for lane in lanes]
+
     def settle(self, image: int, touches: int) -> None:
         """Sets the output image at the end; meanwhile the bit has met the board so many times more."""
         self._plant.image = image
@@ -80,6 +102,13 @@ class _Winding:
         """Returns the equilibrium of the column that is reached (the first one forward is column 0)."""
         return _nearest(self._angles[(travel - 1) % self._length], self._commanded(travel))
 
+    def degrees_through(self, travels: Counts, turns: Counts, column: Counts) -> Degrees:
+        """Returns where the rotor is after each turn, (n,): where it was until the first one."""
+        commanded = travels * self._degrees + self._rotor.zero
+        angles = np.array(self._angles)[(travels - 1) % self._length]
+        found: Degrees = angles + FULL_TURN * np.rint((commanded - angles) / FULL_TURN)
+        return np.where(np.cumsum(turns != 0) == 0, self._rotor.degrees, found)
+
     def _commanded(self, travel: int) -> float:
         return travel * self._degrees + self._rotor.zero
 
@@ -102,6 +131,10 @@ class _Pulsed:
     def degrees_at(self, travel: int) -> int:
         """Returns the count after so many columns: one turn for each step."""
         return self._rotor.zero + travel // self._rotor.columns_per_cycle * FULL_TURN
+
+    def degrees_through(self, travels: Counts, turns: Counts, column: Counts) -> Degrees:
+        """Returns the count after each turn, (n,): the pulse rises in the table's first column."""
+        return self._rotor.degrees + FULL_TURN * np.cumsum(turns * (column == 0)).astype(np.float64)
 
 
 def _rotor_forecast(rotor: Rotor, table: AxisTable) -> _Winding | _Pulsed:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Machine
@@ -21,19 +20,7 @@ from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.sampler import signals
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Recorder, Trace
-from drillctl.trace.values import Values
-
-
-class Stretch(NamedTuple):
-    """The changes (n,) of a part of a run, up to tick ``end``: ticks rise within each signal, and a value may repeat.
-
-    signal  index into ``sampler.signals`` of the machine, derived ones and the lanes of the watched plant included
-    """
-
-    end: int
-    ticks: Values
-    signal: NDArray[np.int32]
-    values: Values
+from drillctl.trace.stretches import Stretch
 
 
 class AxisState(NamedTuple):
@@ -45,8 +32,9 @@ class AxisState(NamedTuple):
 
 
 def rerun(recorded: Trace, machine: Machine, file: Path, watched: Plant | None = None) -> Iterator[Stretch]:
-    """Runs a trace again and yields it stretch by stretch, derived signals included. ``watched``: a new plant of the
-    kind that the run was made on, whose lanes are wanted too. Raises TraceError before the first stretch.
+    """Runs a trace again and yields it stretch by stretch: ``sampler.signals``, with derived ones and the lanes of the
+    plant. ``watched``: a new plant of the kind that the run was made on, whose lanes are wanted too. Raises TraceError
+    before the first stretch.
     """
     card = playback(recorded, machine, file)
     recorder = Recorder(signals(machine, watched.lanes if watched else (), derived=True))

@@ -32,21 +32,24 @@ Records = NDArray[np.void]
 
 @dataclass
 class FastTicker(Ticker):
-    """As Ticker, with a simulated card and the ideal plant behind it. Of derived signals its trace has no rotors.
+    """As Ticker, with a simulated card and the ideal plant behind it.
 
+    rotors      the derived signals have the plant's lanes too
     in_batches  False: every command is run tick by tick
     taped       the record is kept in the segment form, in place of a trace
     """
 
+    rotors: bool = False
     in_batches: bool = True
     taped: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
         assert isinstance(self.plant, IdealPlant) and isinstance(self.queue, Queue)
-        self.engine = Engine(self.controller, PlantForecast(self.machine, self.plant))
+        self.forecast = PlantForecast(self.machine, self.plant)
+        self.engine = Engine(self.controller, self.forecast)
         if self.derived:
-            self.sampler = Sampler(self.controller, None, True, self.keeper)
+            self.sampler = Sampler(self.controller, self.plant if self.rotors else None, True, self.keeper)
         if self.taped:
             kept = signals(self.machine, (), derived=False)
             recorder = TapeRecorder(kept, self.engine.pool, len(self.machine.axes) + 1)
@@ -64,19 +67,20 @@ class FastTicker(Ticker):
 
     def _new_engine(self) -> None:
         assert isinstance(self.plant, IdealPlant)
-        self.engine = Engine(self.controller, PlantForecast(self.machine, self.plant), self.engine.pool)
+        self.forecast = PlantForecast(self.machine, self.plant)
+        self.engine = Engine(self.controller, self.forecast, self.engine.pool)
 
     @classmethod
     def ideal(cls, machine: Machine, traced: bool = False, capacity: int = FAR_SIGHT, in_batches: bool = True,
-              taped: bool = False, keeper: Recorder | None = None) -> "FastTicker":  # fmt: skip
+              taped: bool = False, keeper: Recorder | None = None, rotors: bool = False) -> "FastTicker":  # fmt: skip
         """The machine on the simulated card, with the ideal plant behind it, and a queue of this capacity.
 
-        keeper  takes every signal, derived ones too; whoever made it empties it
+        keeper  takes every signal, derived ones too, with ``rotors`` also the plant's lanes; whoever made it empties it
         """
         plant = IdealPlant(machine)
         return cls(
             machine, SimulatedCard(plant), plant, traced, keeper is not None, Queue(capacity), keeper=keeper,
-            in_batches=in_batches, taped=taped,
+            rotors=rotors, in_batches=in_batches, taped=taped,
         )  # fmt: skip
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
@@ -117,7 +121,8 @@ class FastTicker(Ticker):
         """Takes a batch over as if it had been ticked: into the record, the holes and the state of the machine."""
         first, tapes = self.controller.tick, batch.tapes(self.engine.pool) if self.sampler is not None else []
         if self.sampler is not None:
-            self.sampler.sample_batch(batch, None if self.taped else self._images(batch, tapes), first)
+            images = None if self.taped else self._images(batch, tapes)
+            self.sampler.sample_batch(batch, images, first, self.forecast)
         touches = batch.touches()
         for touch in touches:
             self.touch(*touch)

@@ -32,7 +32,8 @@ class RunSettings:
 
     port    ``NAME[:ADDRESS]``
     pace    ``free`` or ``real``; None: as the port wants
-    traced  a trace is recorded, with ``derived`` signals too; ``taped``: in the segment form, where it runs fast
+    traced  a trace is recorded; ``derived``: with derived signals, where it is ticked (a rerun finds those of the fast
+            engine as quickly); ``taped``: in the segment form, where it runs fast
     plant   what stands behind a simulated card
     engine  ``tick`` or ``fast``; None: fast where possible
     kept    by a screen, from job to job: its desk may be silent for longer between jobs
@@ -99,8 +100,7 @@ def pace_of(running: RunSettings) -> str:
 
 def is_soon_over(running: RunSettings) -> bool:
     """Whether a run takes no longer than its forecast would, so that the time left isn't worth working out."""
-    plain = running.plant == IDEAL_PLANT and not running.derived
-    return plain and running.engine != TICK and pace_of(running) == FREE
+    return running.plant == IDEAL_PLANT and running.engine != TICK and pace_of(running) == FREE
 
 
 def start(machine: Machine, running: RunSettings, status_file: Path, keeper: RingRecorder | None = None) -> Link:
@@ -150,9 +150,9 @@ def _goes_fast(
 ) -> bool:
     """Whether the fast engine may run it. Raises PortRefused where it was asked for and may not."""
     predictable = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
-    may = predictable and pace == FREE and not running.derived and keeper is None
+    may = predictable and pace == FREE and keeper is None
     if running.engine == FAST and not may:
-        reason = Message("--engine fast foresees the ideal plant on a simulated card, running free and without --vcd")
+        reason = Message("--engine fast foresees the ideal plant on a simulated card, running free")
         raise PortRefused(running.port, Message("{reason}; leave --engine out, or say --engine tick", reason=reason))
     return may and running.engine != TICK
 

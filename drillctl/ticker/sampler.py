@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution import Controller
+from drillctl.execution.axis import Axis
 from drillctl.execution.fastforward import Batch
 from drillctl.kmd import Fault, Op, Request, RequestBit
 from drillctl.kmd.commands import BY_OP
@@ -18,6 +19,7 @@ from drillctl.machine import Machine
 from drillctl.machine.shape import MOST_CARDS
 from drillctl.plant import Plant
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES
+from drillctl.plant.forecast import PlantForecast
 from drillctl.ports import CARD_BITS, CARD_MASK, word
 from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
@@ -73,11 +75,12 @@ class Sampler:
         if self._derived:
             self._sample_axes(index + 1 + QUIET, tick)
 
-    def sample_batch(self, batch: Batch, images: NDArray[np.unsignedinteger] | None, first: int) -> None:
-        """After a batch that began at tick ``first``; into a Recorder, no rotors. Without its ``images``
-        (ticks,) the outputs are kept elsewhere.
+    def sample_batch(self, batch: Batch, images: NDArray[np.unsignedinteger] | None, first: int,
+                     forecast: PlantForecast) -> None:  # fmt: skip
+        """Before a batch that begins at tick ``first`` is taken over; into a Recorder. Without its ``images`` (ticks,)
+        the outputs are kept elsewhere. ``forecast`` knows the plant as it is now.
         """
-        assert isinstance(self.recorder, Recorder) and not (self._derived and self._plant)
+        assert isinstance(self.recorder, Recorder)
         index = 0
         input_ticks, inputs = batch.inputs()
         for card in self._cards:
@@ -93,12 +96,16 @@ class Sampler:
         for quiet in range(index, index + QUIET):
             self.recorder.set(quiet, first, 0)
         if self._derived:
-            self._extend_axes(self.recorder, index + QUIET, batch, first)
+            self._extend_axes(self.recorder, index + QUIET, batch, first, forecast)
 
-    def _extend_axes(self, recorder: Recorder, index: int, batch: Batch, first: int) -> None:
-        for axis in range(len(batch.axis_batches)):
-            ticks, column, position, state = batch.motion(axis)
-            for values in (column + 1, position, state):
+    def _extend_axes(self, recorder: Recorder, index: int, batch: Batch, first: int, forecast: PlantForecast) -> None:
+        for number, axis in enumerate(self._m.axes):
+            ticks, column, position, state = batch.motion(number)
+            lanes: list[NDArray[np.int64]] = []
+            if self._plant is not None:
+                turns = _turns(axis, column, position)
+                lanes = forecast.lanes(number, axis.travelled * axis.direction_sign, turns, column)
+            for values in (column + 1, position, state, *lanes):
                 recorder.extend(index, first + ticks, values)
                 index += 1
 
@@ -113,6 +120,19 @@ class Sampler:
                 for value in self._plant.lane_values(number, axis.travelled):
                     put(index, tick, value)
                     index += 1
+
+
+def _turns(axis: Axis, column: NDArray[np.int64], position: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Returns the columns that an axis puts out in each row of its motion, as the wires have it: 1, 0 or -1, (n,). A
+    motion goes on to a whole step, so the next step made tells the direction.
+    """
+    steps = np.diff(position, prepend=axis.position)
+    made = np.flatnonzero(steps)
+    if not len(made):
+        return np.zeros(len(column), np.int64)
+    put_out = np.diff(column, prepend=axis.column) != 0 if axis.length > 1 else steps != 0
+    following = np.minimum(np.searchsorted(made, np.arange(len(column))), len(made) - 1)
+    return put_out * np.sign(steps[made[following]]) * axis.direction_sign
 
 
 def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list[Signal]:

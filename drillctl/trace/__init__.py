@@ -10,7 +10,8 @@ host is ever written.
     diff       the first tick at which two traces differ, and the command it happened in
     tapes      pool of port images, and the output of an axis as slices of it
     segments   a trace in the segment form; segment_file: as a file
-    vcd        Trace -> VCD for GTKWave, PulseView and others
+    stretches  a run piece by piece, for those who don't keep it
+    vcd        Trace -> VCD for GTKWave, PulseView and others; vcd_pages: its changes as text
     shape      a signal as a dense array, one value a tick
     ring       a recorder in memory that two processes share
     lanes      the changes of a run that goes on, one lane for each signal or bit: what the scope draws

@@ -2,7 +2,7 @@
 
 Rule: the same trace and layout give the same bytes, without date or path; a value at a tick is that after its
 flush. This room knows no machine, so the caller hands in the layout: which variable, in which scope, shows
-what of which signal. pyvcd does the writing.
+what of which signal. pyvcd writes the head and forms the values; the changes are put together a page at a time.
 
 A value of the signal `pace` is the tick rate that holds from the tick after (docs/SPEC.md, 1.20).
 
@@ -10,21 +10,27 @@ PulseView with libsigrok 0.5.2 (Debian 12) stops reading at the first integer ch
 wires alone in full. GTKWave shows all.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.trace.record import Signal, Trace
+from drillctl.trace.stretches import Changes, by_signal, stretches
 from drillctl.trace.target import Target, opened
 from drillctl.trace.values import IDLE, OPCODES, WIDEST_BITS, Values, is_word
+from drillctl.trace.vcd_pages import Column, PageWriter
+
+if TYPE_CHECKING:
+    from vcd.writer import Variable
 
 # Units in us, coarsest first: sigrok expands a file to one sample a unit, so a fine one costs it dearly.
 TIMESCALES = ((1000, "1 ms"), (100, "100 us"), (10, "10 us"), (1, "1 us"))
 US_PER_SECOND = 10**6
+NOTHING = np.empty(0, np.int64)
 SIZES_BITS = {"wire": 1, "integer": 32, "string": 1}
 
 
@@ -67,17 +73,68 @@ def write_vcd(trace: Trace, target: Target, layout: VcdLayout) -> None:
     for a tick rate that is no whole number in 1..10^6, a part of a signal that is no command, or a value without a
     label; OSError as `open`. A refused trace leaves the target alone.
     """
+    for var in layout:
+        if var.labels is not None:
+            _string(trace.changes_of(var.source)[1], trace.signals[trace.index_of(var.source)], var)
+    write_vcd_run(trace, trace.signals, map(by_signal, stretches(trace)), target, layout)
+
+
+def write_vcd_run(
+    frame: Trace, signals: Sequence[Signal], run: Iterable[Changes], target: Target, layout: VcdLayout
+) -> None:
+    """Writes a run that comes in stretches, as changes of these signals, without keeping it; otherwise as `write_vcd`.
+
+    `frame` has the run's header, its end and its changes of rate. A value without a label is found on the way.
+    """
     from vcd import VCDWriter
 
-    comment, clock = _comment(trace), _Clock(_rates(trace))
-    ticks, variable, values = _merged([_changes(trace, var) for var in layout])
-    times = clock.times(np.append(ticks, trace.end)).tolist()
+    comment, clock = _comment(frame), _Clock(_rates(frame))
+    numbers = {signal.name: number for number, signal in enumerate(signals)}
+    variables = [_Variable(var, numbers[var.source], signals[numbers[var.source]]) for var in layout]
     with opened(target, "w") as file:
         writer = VCDWriter(file, timescale=clock.timescale, date="", comment=comment)
-        variables = [writer.register_var(var.scope, var.name, var.kind, SIZES_BITS[var.kind]) for var in layout]
-        for time, index, value in zip(times, variable.tolist(), values.tolist(), strict=False):
-            writer.change(variables[index], time, value)
-        writer.close(times[-1])
+        dumped = [writer.register_var(var.scope, var.name, var.kind, SIZES_BITS[var.kind]) for var in layout]
+        pages = PageWriter(file, clock.times, [_line_of(each) for each in dumped])
+        for number, changes in enumerate(run):
+            columns = [variable.news(changes) for variable in variables]
+            if number == 0:
+                for registered, (_, shown) in zip(dumped, columns, strict=True):
+                    writer.change(registered, 0, shown[:1].tolist()[0])
+                writer.flush()
+                columns = [(ticks[1:], shown[1:]) for ticks, shown in columns]
+            pages.write(columns)
+        writer.flush()
+        end_time = int(clock.times(np.array([frame.end]))[0])
+        if end_time != pages.time:
+            file.write(f"#{end_time}\n")
+
+
+class _Variable:
+    """A variable of the file, which remembers its last value from stretch to stretch."""
+
+    def __init__(self, var: VcdVar, number: int, signal: Signal) -> None:
+        if var.part and signal.kind != "command":
+            raise ValueError(f"{var.scope}.{var.name}: signal {var.source} is a {signal.kind}, it has no {var.part}")
+        self._var, self._number, self._signal = var, number, signal
+        self._last: NDArray[Any] | None = None
+
+    def news(self, changes: Changes) -> Column:
+        """Returns where it changes in a stretch, and its new values; in the first one also tick 0, where a signal that
+        has no value there is 0.
+        """
+        ticks, values = changes.get(self._number, (NOTHING, NOTHING))
+        if self._last is None and not (len(ticks) and ticks[0] == 0):
+            ticks, values = np.append(0, ticks), np.append(0, values)
+        shown = _CONVERSIONS[self._var.kind, self._var.part](values, self._signal, self._var)
+        begin = shown[:1] if self._last is None else self._last
+        news = np.append(begin, shown)[:-1] != shown
+        news[:1] |= self._last is None
+        self._last = shown[-1:] if len(shown) else self._last
+        return ticks[news], shown[news]
+
+
+def _line_of(registered: "Variable[Any]") -> Callable[[Any], str]:
+    return lambda value: registered.format_value(value) + "\n"
 
 
 Rate = tuple[int, int]  # the first tick that follows at it, and ticks a second
@@ -139,30 +196,6 @@ def _comment(trace: Trace) -> str:
     pairs = [f"{key}={trace.header_value(key)}" for key in ("machine", "tick_hz", "digest")]
     pairs += [f"tick_hz={hz}@{tick}" for tick, hz in _rates(trace)[1:]]
     return " ".join(["drillctl", *(pair.translate({ord(" "): "_", ord("$"): "_"}) for pair in pairs)])
-
-
-Column = tuple[Values, NDArray[Any]]  # ticks, and what the writer takes at each
-
-
-def _changes(trace: Trace, var: VcdVar) -> Column:
-    """Returns where the variable changes, and its new values."""
-    ticks, values = trace.changes_of(var.source)
-    signal = trace.signals[trace.index_of(var.source)]
-    if var.part and signal.kind != "command":
-        raise ValueError(f"{var.scope}.{var.name}: signal {var.source} is a {signal.kind}, it has no {var.part}")
-    shown = _CONVERSIONS[var.kind, var.part](values, signal, var)
-    changes = np.append(True, shown[1:] != shown[:-1])[: len(shown)]
-    return ticks[changes], shown[changes]
-
-
-def _merged(columns: Sequence[Column]) -> tuple[Values, Values, NDArray[Any]]:
-    """Returns all changes by tick, then in the layout's order: ticks, indexes into the layout, values."""
-    none = np.empty(0, dtype=np.int64)
-    ticks = np.concatenate([none, *(column[0] for column in columns)])
-    variable = np.repeat(np.arange(len(columns)), [len(column[0]) for column in columns])
-    values = np.concatenate([none.astype(object), *(column[1].astype(object) for column in columns)])
-    order = np.lexsort((variable, ticks))
-    return ticks[order], variable[order], values[order]
 
 
 def _wire(values: Values, _: Signal, var: VcdVar) -> NDArray[Any]:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from drillctl.execution.axis import Axis
 from drillctl.kmd import Request
 from drillctl.machine import Machine
+from drillctl.plant import IdealPlant
 from drillctl.ticker.fast_ticker import FastTicker
-from drillctl.ticker.sampler import Sampler, signals
+from drillctl.ticker.sampler import signals
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Recorder, Trace
 
@@ -47,10 +48,10 @@ def disturb(ticker: Ticker, what: int) -> None:
 
 def twins(machine: Machine, program: NDArray[np.void], disturbances: Disturbances, ticks: int
           ) -> tuple[Ticker, FastTicker]:  # fmt: skip
-    """The law and the fast one, after the same; both keep columns, positions and states, and no rotors."""
-    kept = signals(machine, (), derived=True)
-    slow, fast = Ticker.simulated(machine), FastTicker.ideal(machine, traced=True, keeper=Recorder(kept))
-    slow.sampler = Sampler(slow.controller, None, True)
+    """The law and the fast one, after the same; both keep columns, positions, states and the plant's lanes."""
+    kept = signals(machine, IdealPlant.lanes, derived=True)
+    fast = FastTicker.ideal(machine, traced=True, keeper=Recorder(kept), rotors=True)
+    slow = Ticker.simulated(machine, traced=True, derived=True)
     return ran(slow, program, disturbances, ticks), ran(fast, program, disturbances, ticks)
 
 

@@ -100,7 +100,8 @@ def test_a_machine_of_three_cards_is_told_before_it_moves(tmp_path: Path, capsys
 
 
 def test_the_fast_engine_says_where_it_may_not(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", SQUARE, "--engine", "fast", "--vcd", str(tmp_path / "a.vcd")]) == 2
+    dynamic = ["--plant", "dynamic", "--trace", str(tmp_path / "a.trace")]
+    assert main(["run", SQUARE, "--engine", "fast", *dynamic]) == 2
     assert "--engine fast foresees the ideal plant" in capsys.readouterr().err
 
 

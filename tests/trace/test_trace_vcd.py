@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from vcd import VCDWriter
 
-from drillctl.trace import Recorder, Signal, Trace, VcdVar, dense, write_vcd
+from drillctl.trace import Recorder, Signal, Trace, VcdVar, dense, stretches, vcd_pages, write_vcd
 
 LAYOUT = (
     VcdVar("x", "1a", "wire", "out.0", bit=0),
@@ -34,6 +35,46 @@ def vcd_of(trace: Trace, layout: tuple[VcdVar, ...] = LAYOUT) -> str:
     file = io.StringIO()
     write_vcd(trace, file, layout)
     return file.getvalue()
+
+
+def written_change_by_change(trace: Trace, layout: tuple[VcdVar, ...]) -> str:
+    """The same file as pyvcd alone writes it, one change after the other."""
+    file = io.StringIO()
+    head = vcd_of(trace, layout).partition("$comment ")[2].partition(" $end")[0]
+    writer = VCDWriter(file, timescale="1 ms", date="", comment=head)
+    sizes = {"wire": 1, "integer": 32, "string": 1}
+    variables = [writer.register_var(var.scope, var.name, var.kind, sizes[var.kind]) for var in layout]
+    for tick in range(trace.end):
+        for variable, var in zip(variables, layout, strict=True):
+            value = trace.value_at(var.source, tick)
+            writer.change(variable, tick, (value >> var.bit & 1) ^ var.invert if var.bit is not None else value)
+    writer.close(trace.end)
+    return file.getvalue()
+
+
+WIDE = (
+    VcdVar("x", "1a", "wire", "out.0", bit=0), VcdVar("y", "1a", "wire", "out.0", bit=1),
+    VcdVar("x", "position", "integer", "x.position"), VcdVar("sensors", "x_min", "wire", "out.0", bit=1, invert=True),
+)  # fmt: skip
+of_wide = st.lists(st.tuples(st.sampled_from([0, 1]), st.integers(1, 5000), st.integers(-3, 70_000)), max_size=40)
+
+
+@pytest.mark.parametrize("page_ticks", [1, 7, 1 << 16])
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(of_wide)
+def test_a_page_at_a_time_is_the_same_file_as_a_change_at_a_time(
+    page_ticks: int, monkeypatch: pytest.MonkeyPatch, rows: list[tuple[int, int, int]]
+) -> None:
+    """Whatever the pages and stretches are cut to, and also where times begin to have more digits."""
+    monkeypatch.setattr(vcd_pages, "PAGE_TICKS", page_ticks)
+    monkeypatch.setattr(vcd_pages, "TAIL", 100)
+    monkeypatch.setattr(vcd_pages, "TAILS", tuple(f"{rest:02}\n" for rest in range(100)))
+    monkeypatch.setattr(stretches, "CHANGES_AT_ONCE", 3)
+    signals = [Signal("out.0", "word", False), Signal("x.position", "count", False, True)]
+    header = (("machine", "m"), ("tick_hz", "1000"), ("digest", "d"))
+    columns = zip(*((tick, index, value & 3 if index == 0 else value) for index, tick, value in rows), strict=True)
+    trace = Trace.of_changes(header, signals, *(columns if rows else ((), (), ())), end=5001)
+    assert vcd_of(trace, WIDE) == written_change_by_change(trace, WIDE)
 
 
 def read_back(text: str) -> Any:
