@@ -121,7 +121,7 @@ class TableFiles:
         if not NAME.fullmatch(new_name) or len(new_name) > LONGEST_NAME:
             return (
                 Message("a name is at most {most} letters, digits, - and _, no - or _ first", most=LONGEST_NAME).at(
-                    new_name
+                    repr(new_name)
                 ),
             )
         if self._library.find(kind, new_name) is not None:

@@ -77,7 +77,7 @@ class Setting:
         """
         value = self._converted(typed.strip())
         if self.choices and value not in self.choices:
-            raise ValueError(Message("it is one of {choices}", choices=", ".join(self.choices)).at(typed))
+            raise ValueError(Message("it is one of {choices}", choices=", ".join(self.choices)).at(repr(typed)))
         if isinstance(value, str):
             return value
         too_low = (self.least is not None and value < self.least) or (self.above is not None and value <= self.above)
@@ -94,7 +94,7 @@ class Setting:
             return self.kind(typed)
         except ValueError:
             wanted = Message("a whole number") if self.kind is int else Message("a number")
-            raise ValueError(Message("{kind} is wanted", kind=wanted).at(typed)) from None
+            raise ValueError(Message("{kind} is wanted", kind=wanted).at(repr(typed))) from None
 
 
 def settings(source: Source) -> tuple[Setting, ...]:
