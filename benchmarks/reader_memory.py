@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from benchmarks.fuzz_readers import Reader, readers
-from drillctl.trace.segment_file import MAGIC
+from drillctl.trace.segment_file import CHANGE_BYTES, MAGIC, room_bytes
 
 TIMES, ROOM_BYTES = 10, 100_000_000
 SIZE_BYTES = 5_000_000
@@ -49,20 +49,24 @@ def trace(head: bytes = b"", changes: bytes = b"", trailer: bytes = b"") -> byte
     return TRACE_HEAD + head + b"signal a <\n\n0 a 0\n" + changes + b"end 900000000\n" + trailer
 
 
-def segments(columns: Callable[[int], bytes], size: int) -> bytes:
-    """Segments whose last two blocks, ticks and values of a signal, are made to the limits of a file of this size."""
+def segments(size: int, rows: int, images: int) -> bytes:
+    """Segments with so many rows in the last two blocks, ticks and values of a signal, and so many images."""
     head = b"drillctl-trace 1\nmachine pcb-drill\ntick_hz 500\nsignal out.0 >\nsignal a <\n\nend 0\n"
-    reel = bytes(4)
+    pool, column = bytes(4 * images), struct.pack("<QQq", rows, 1, 1) + bytes(rows)
     one = struct.pack("<QQ", 1, 1) + struct.pack("<q", 1) + b"\0"
-    blocks = [struct.pack("<QIBBB", 1, 0, 32, 1, 0), head, b"\n", reel, one, one, columns(size), columns(size)]
+    blocks = [struct.pack("<QIBBB", 1, 0, 32, 1, 0), head, b"\n", pool, one, one, column, column]
     packed = zlib.compress(b"".join(struct.pack("<Q", len(block)) + block for block in blocks), 6)
     return MAGIC + packed + os.urandom(max(0, size - len(packed)))
 
 
-def rows(size: int) -> bytes:
-    """A column of so many ones."""
-    total = 900_000 + size
-    return struct.pack("<QQq", total, 1, 1) + bytes(total)
+def most_rows(size: int) -> bytes:
+    """Segments of as many changes as a file of this size may have."""
+    return segments(size, (room_bytes(size) - 10_000) // (2 * CHANGE_BYTES), 1)
+
+
+def most_images(size: int) -> bytes:
+    """Segments of as many images as a file of this size may have."""
+    return segments(size, 1, (room_bytes(size) - 10_000) // 4)
 
 
 INPUTS: dict[str, tuple[str, Callable[[int], bytes]]] = {
@@ -78,7 +82,8 @@ INPUTS: dict[str, tuple[str, Callable[[int], bytes]]] = {
     "trace: changes": ("trace", lambda size: trace(changes=numbered("{}1 a 1\n{}2 a 0\n".replace("{}", "{0}"), size))),
     "trace: remarks": ("trace", lambda size: trace(trailer=repeated(b"#ab\n", size))),
     "trace: signals": ("trace", lambda size: TRACE_HEAD + numbered("signal s{} <\n", size)),
-    "segments: rows": ("segments", lambda size: segments(rows, size)),
+    "segments: rows": ("segments", most_rows),
+    "segments: images": ("segments", most_images),
     "drill: holes": ("board", lambda size: b"M48\nMETRIC\nT1C0.8\n%\nT1\n" + numbered("X{}\n", size) + b"M30\n"),
     "drill: repeats": (
         "board",

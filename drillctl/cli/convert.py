@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drillctl.cli import jobs, options, streams
+from drillctl.cli.operating import waiting
 from drillctl.language import Message, known_words, message_of
 
 QUEUE = ".kmd"
@@ -72,11 +73,16 @@ def _trace(arguments: argparse.Namespace) -> int:
     from drillctl.replay.header import machine_of
     from drillctl.trace.files import read_trace, write_record
 
-    trace = read_trace(arguments.file, arguments.to_tick)
-    machine = machine_of(trace, arguments.file, options.library(arguments))
-    with reserved([arguments.to], inputs=[arguments.file]) as (output,):
-        assert output is not None
-        write_record(in_form_of(arguments.to, trace, machine), output)
+    library = options.library(arguments)
+    with waiting() as wait:
+        wait(f"reading {arguments.file.name}")
+        trace = read_trace(arguments.file, arguments.to_tick)
+        machine = machine_of(trace, arguments.file, library)
+        with reserved([arguments.to], inputs=[arguments.file]) as (output,):
+            assert output is not None
+            converted = in_form_of(arguments.to, trace, machine, wait)
+            wait(f"writing {arguments.to.name}")
+            write_record(converted, output)
     return 0
 
 
@@ -96,7 +102,9 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     from drillctl.generation.pcb_drill.board import file_warnings, refusal
 
     try:
-        drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
+        with waiting() as wait:
+            reading = wait(f"reading {arguments.file.name}")
+            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=reading)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     try:

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from drillctl.cli import jobs, options
+from drillctl.cli.operating import waiting
 from drillctl.language import json_text
 
 
@@ -24,6 +25,8 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.ui.terminal.reports import estimate_lines
 
     machine = options.machine(arguments)
-    estimated = estimate(jobs.load(arguments.job, jobs.recipe(arguments), machine), arguments.engine)
+    job = jobs.load(arguments.job, jobs.recipe(arguments), machine)
+    with waiting() as wait:
+        estimated = estimate(job, arguments.engine, wait)
     print(json_text(estimated.as_dict(), 2) if arguments.json else "\n".join(estimate_lines(estimated)))
     return 1 if estimated.fault else 0

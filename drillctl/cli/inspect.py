@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs
+from drillctl.cli.operating import waiting
 from drillctl.language import json_text
 
 if TYPE_CHECKING:
@@ -29,7 +30,9 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.ui.terminal.reports import inspect_lines
 
     try:
-        drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end)
+        with waiting() as wait:
+            reading = wait(f"reading {arguments.file.name}")
+            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=reading)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     contents = summary(drill_file)

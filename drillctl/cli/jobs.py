@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
+from drillctl.cli.operating import waiting
 from drillctl.files.inputs import real_path
 from drillctl.generation.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 
@@ -88,7 +89,8 @@ def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
     wishes = made.wishes(machine)
     if aligned := made.alignment():
         _show_alignment(aligned)
-    return load_job(file, machine, wishes, *made.reading())
+    with waiting() as wait:
+        return load_job(file, machine, wishes, *made.reading(), wait)
 
 
 def _show_alignment(alignment: "Alignment") -> None:

@@ -11,6 +11,7 @@ from drillctl.language import Message
 if TYPE_CHECKING:
     from drillctl.jobs.runner import JobResult
     from drillctl.jobs.session import Session
+    from drillctl.ui.terminal.wait import Wait
 
 
 def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
@@ -22,6 +23,8 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
     from drillctl.ticker.launch import REAL, pace_of
     from drillctl.ui.terminal.progress import ProgressView, ToolPrompt
 
+    with waiting() as wait:
+        session = session.with_forecast(wait)
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
     with ProgressView(streams.bar(sys.stderr), by_clock=paced) as view:
         if not asks and not (paced and _has_watcher(arguments)):
@@ -31,6 +34,13 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
         with TerminalKeys(sys.stdin) as keys:
             prompt = ToolPrompt(keys.entered, sys.stderr) if asks else None
             return replace(session, tool_change=prompt, operator=keys if paced else None).run(view.show)
+
+
+def waiting() -> "Wait":
+    """What is done before a verb's answer, shown to a person at a terminal (``with waiting() as wait``)."""
+    from drillctl.ui.terminal.wait import Wait
+
+    return Wait(streams.bar(sys.stderr))
 
 
 def _asks(arguments: argparse.Namespace, spec: str) -> bool:

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from drillctl.cli import options
+from drillctl.cli.operating import waiting
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -24,7 +25,8 @@ def call(arguments: argparse.Namespace) -> int:
     library = options.library(arguments)
     differing = 0
     for file in arguments.traces:
-        verdict = replay(file, library, arguments.engine, arguments.from_tick)
+        with waiting() as wait:
+            verdict = replay(file, library, arguments.engine, arguments.from_tick, wait)
         failed = verdict.failed(arguments.same_tables)
         differing += failed
         print(f"{file}: {'DIFFERS' if failed else 'same'}, {verdict.remark()}")

@@ -54,7 +54,8 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     recipe = Recipe.of_options(account.head.options, file)
     tables = recipe.tables and Path(recipe.tables)
     machine = options.machine(argparse.Namespace(machine=recipe.machine, tables=tables, tick_hz=recipe.tick_hz))
-    left = rest_of(file, account, machine).left
+    with operating.waiting() as wait:
+        left = rest_of(file, account, machine, wait).left
     return Session(left, _running(file, account, arguments), file, account)
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from drillctl.files.inputs import read_bytes
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, names_of
+from drillctl.generation.waits import Waits, reading
 from drillctl.generation.wishes import Wishes
 from drillctl.kmd import KmdError, parse_program, to_text
 from drillctl.language import Message, message_of, one_line
@@ -19,8 +20,9 @@ def is_queue(path: Path) -> bool:
     return path.suffix.lower() == ENDING
 
 
-def load_queue(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str) -> Job:
+def load_queue(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str, waits: Waits) -> Job:
     """A queue as a job, as it stands: nothing is placed or ordered. Raises JobError with file, line and column."""
+    waits(reading(path.name))
     try:
         text = read_bytes(path, LARGEST_QUEUE_BYTES, Message("a queue")).decode()
         program = parse_program(text, names_of(machine), str(path))

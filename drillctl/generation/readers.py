@@ -10,6 +10,7 @@ from typing import NamedTuple
 from drillctl.generation.job import Job
 from drillctl.generation.pcb_drill.board import load_board
 from drillctl.generation.queues import is_queue, load_queue
+from drillctl.generation.waits import Waits, unwatched
 from drillctl.generation.wishes import Wishes
 from drillctl.machine import Machine
 
@@ -19,7 +20,7 @@ class Reader(NamedTuple):
 
     what: str
     recognises: Callable[[Path], bool]
-    load: Callable[[Path, Machine, Wishes, str | None, str], Job]
+    load: Callable[[Path, Machine, Wishes, str | None, str, Waits], Job]
 
 
 READERS = (
@@ -28,7 +29,16 @@ READERS = (
 )
 
 
-def load_job(path: Path, machine: Machine, wishes: Wishes, fmt: str | None = None, after_end: str = "refuse") -> Job:
-    """The job in a file, by the reader that recognises it. ``fmt`` and ``after_end`` say how a drill file is read."""
+def load_job(
+    path: Path,
+    machine: Machine,
+    wishes: Wishes,
+    fmt: str | None = None,
+    after_end: str = "refuse",
+    waits: Waits = unwatched,
+) -> Job:
+    """The job in a file, by the reader that recognises it. ``fmt`` and ``after_end`` say how a drill file is read;
+    ``waits`` is called with how far the work is.
+    """
     reader = next(reader for reader in READERS if reader.recognises(path))
-    return reader.load(path, machine, wishes, fmt, after_end)
+    return reader.load(path, machine, wishes, fmt, after_end, waits)

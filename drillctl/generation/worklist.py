@@ -14,6 +14,7 @@ from drillctl.generation.drills import Drill, drill_problems
 from drillctl.generation.errors import JobError
 from drillctl.generation.order import TravelCost, plan_groups
 from drillctl.generation.placing import Affine, boards
+from drillctl.generation.waits import Advance, ignored
 from drillctl.generation.wishes import Wishes
 from drillctl.language import Message
 from drillctl.machine import Machine, travel_table
@@ -74,8 +75,11 @@ class WorkList:
         return WorkList(groups, self.hits.take(left), self.steps[left], self.boards, self.number[left])
 
 
-def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine) -> WorkList:
-    """The work list of a file on a machine. Raises JobError for a machine, tools or holes that don't fit."""
+def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine, advance: Advance = ignored) -> WorkList:
+    """The work list of a file on a machine; ``advance`` is called with how far the ordering is.
+
+    Raises JobError for a machine, tools or holes that don't fit.
+    """
     axes = positioning_axes(machine)
     extent_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
     maps = boards(wishes.placing, extent_mm)
@@ -88,7 +92,7 @@ def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine) -> WorkList
     steps = np.rint(placed_mm * scale).astype(np.int64)
     _check_reach(drill_file, hits, steps, wishes.base_steps, machine)
     groups = _groups(drill_file, hits, wishes)
-    order = _order(groups, steps, wishes.order, machine, axes)
+    order = _order(groups, steps, wishes.order, machine, axes, advance)
     return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1))
 
 
@@ -166,12 +170,12 @@ def _groups(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> tuple[Group,
 
 
 def _order(
-    groups: tuple[Group, ...], steps: Integers, how: str, machine: Machine, axes: tuple[int, int]
+    groups: tuple[Group, ...], steps: Integers, how: str, machine: Machine, axes: tuple[int, int], advance: Advance
 ) -> NDArray[np.intp]:
     """Rows of ``steps`` in drilling order; the head starts at the working base."""
     tables = [_travel(machine, axis, int(np.ptp([0, *steps[:, k]]))) for k, axis in enumerate(axes)]
     parts = [steps[group.start : group.stop] for group in groups]
-    orders = plan_groups(parts, TravelCost(*tables), how, np.zeros(2, np.int64))
+    orders = plan_groups(parts, TravelCost(*tables), how, np.zeros(2, np.int64), advance)
     return np.concatenate([group.start + order for group, order in zip(groups, orders, strict=True)])
 
 

@@ -8,20 +8,23 @@ from numpy.typing import NDArray
 
 from drillctl.generation.job import Job
 from drillctl.generation.sequences import tool_changes
+from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.ticker.forecast import Forecast, forecast
 from drillctl.viewmodel import Estimate, ToolEstimate, fault_report
 
 
-def estimate(job: Job, engine: str | None = None) -> Estimate:
+def estimate(job: Job, engine: str | None = None, waits: Waits = unwatched) -> Estimate:
     """The time of a job, also by tool: the first tool's share begins with the initialisation, the last one's ends with
-    the job. ``engine``: ``tick`` to run every tick of it.
+    the job. ``engine``: ``tick`` to run every tick of it. ``waits`` is called with how far the work is.
     """
-    return estimate_with_ticks(job, engine)[0]
+    return estimate_with_ticks(job, engine, waits)[0]
 
 
-def estimate_with_ticks(job: Job, engine: str | None = None) -> tuple[Estimate, NDArray[np.int64]]:
+def estimate_with_ticks(
+    job: Job, engine: str | None = None, waits: Waits = unwatched
+) -> tuple[Estimate, NDArray[np.int64]]:
     """As ``estimate``; also the ticks (n,) of each command."""
-    found = forecast(job.program, job.machine, engine)
+    found = forecast(job.program, job.machine, engine, waits(FORECASTING))
     return _estimate(job, found), found.ticks
 
 

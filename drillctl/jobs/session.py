@@ -20,6 +20,7 @@ from drillctl.generation.job import Job
 from drillctl.generation.pcb_drill.board import without_holes
 from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import Recipe
+from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
 from drillctl.jobs.operator import Operator, ToolChange
 from drillctl.jobs.runner import JobResult, JobRunner, Watcher
@@ -27,8 +28,8 @@ from drillctl.jobs.site import site_of
 from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.ticker.forecast import forecast
-from drillctl.ticker.launch import FREE, RunSettings, files_of, is_soon_over, pace_of, start
-from drillctl.trace.segments import MOST_TICKS
+from drillctl.ticker.launch import FREE, RunSettings, files_of, in_batches, is_soon_over, pace_of, start
+from drillctl.trace.segments import MOST_STRIP_TICKS, MOST_TICKS
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,8 @@ class Session:
     start_from: Head | Account | None = None
     tool_change: ToolChange | None = None
     operator: Operator | None = None
+    has_forecast: bool = False
+    ticks: NDArray[np.int64] | None = None  # of each command, where the time left is worth showing
 
     def journalled(self, file: Path, journal: Path | None, recipe: Recipe) -> "Session":
         """The same with a journal for a job made from ``file``; in the user's state folder where no place is given."""
@@ -57,7 +60,7 @@ class Session:
         """Runs the job to its end; ``watcher`` is given its progress. Raises JobError, JournalError or PortError before
         anything moves.
         """
-        ticks = self._forecast()
+        ticks = self.ticks if self.has_forecast else self.with_forecast().ticks
         done_before = self.start_from.holes_done if isinstance(self.start_from, Account) else 0
         with ExitStack() as opened:
             journal = None
@@ -71,20 +74,25 @@ class Session:
             )  # fmt: skip
             return runner.run()
 
-    def _forecast(self) -> NDArray[np.int64] | None:
-        """The ticks of each command, where the time left is worth showing. Raises JobError for a run that is to be kept
-        in a trace and has more ticks than one has room for.
+    def with_forecast(self, waits: Waits = unwatched) -> "Session":
+        """The same with the ticks of each command, where the time left is worth showing; ``run`` makes the forecast
+        itself where it was not made before. Raises JobError for a run that is to be kept in a trace and has more ticks
+        than one has room for.
         """
+        return replace(self, has_forecast=True, ticks=self._forecast(waits))
+
+    def _forecast(self, waits: Waits) -> NDArray[np.int64] | None:
         kept = self.running.traced and pace_of(self.running) == FREE
         if not kept and (not self.job.work or is_soon_over(self.running)):
             return None
-        found = forecast(self.job.program, self.job.machine)
-        if kept and found.total_ticks > MOST_TICKS:
+        found = forecast(self.job.program, self.job.machine, advance=waits(FORECASTING))
+        room = MOST_STRIP_TICKS if self.running.taped and not in_batches(self.running) else MOST_TICKS
+        if kept and found.total_ticks > room:
             reason = Message(
                 "{ticks} ticks; a trace has room for {room}; record a part of the job, or run it without --trace and "
                 "--vcd",
                 ticks=found.total_ticks,
-                room=MOST_TICKS,
+                room=room,
             ).at(self.job.name)
             raise JobError(reason)
         return None if is_soon_over(self.running) or not self.job.work else found.ticks
@@ -99,14 +107,14 @@ class RemainingJob:
     left: Job
 
 
-def rest_of(journal: Path, account: Account, machine: Machine) -> RemainingJob:
+def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = unwatched) -> RemainingJob:
     """Makes the job of a journal again and leaves out what is drilled. Raises JournalError unless it is the same job as
     then; JobError, PlacingError or AlignmentError where it can't be made, or nothing is left.
     """
     recipe = Recipe.of_options(account.head.options, journal)
     file = Path(account.head.job)
     wishes = recipe.wishes(machine)
-    job = load_job(file, machine, wishes, *recipe.reading())
+    job = load_job(file, machine, wishes, *recipe.reading(), waits)
     check_same(journal, account.head, head_of(file, job, account.head.options))
     if account.complete:
         raise JobError(

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from drillctl.files.outputs import Output
+from drillctl.generation.waits import Advance, Waits, ignored, unwatched
 from drillctl.machine import Library, Machine
 from drillctl.plant import PlantChoice, PlantRefused
 from drillctl.replay.header import check_tick, header_value, machine_of, same_tables
@@ -19,6 +20,8 @@ from drillctl.ticker.sampler import wire_names
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
 from drillctl.trace.files import read_record, read_trace, takes_segments, whole_trace, write_record
+
+RUNNING_AGAIN = "running it again"
 
 
 @dataclass(frozen=True)
@@ -62,35 +65,38 @@ class Verdict:
         return render(self.difference, wire_names(self.machine))
 
 
-def replay(file: Path, library: Library, engine: str | None = None, from_tick: int = 0) -> Verdict:
+def replay(
+    file: Path, library: Library, engine: str | None = None, from_tick: int = 0, waits: Waits = unwatched
+) -> Verdict:
     """Runs a trace again by an engine (None: fast where possible) and compares it from a tick on. On the ideal plant
-    the ticks before are run in whole commands by either engine. Raises TraceError for a file that is no trace,
-    can't be run or is shorter; TableError for its machine.
+    the ticks before are run in whole commands by either engine. ``waits`` is called with how far the work is. Raises
+    TraceError for a file that is no trace, can't be run or is shorter; TableError for its machine.
     """
+    waits(f"reading {file.name}")
     kept = read_record(file)
     head = kept.rest if isinstance(kept, Segments) else kept
     machine = machine_of(head, file, library)
     check_tick(head, file, from_tick)
     same = same_tables(head, machine, file)
-    if isinstance(kept, Segments) and engine != TICK and taped_again(head, machine, file).like(kept):
+    if isinstance(kept, Segments) and engine != TICK and taped_again(head, machine, file, waits).like(kept):
         return Verdict(machine, head, head, None, same, from_tick)
     recorded = whole_trace(kept, file) if isinstance(kept, Segments) else kept
-    actual = _actual(recorded, machine, file, engine, from_tick)
+    actual = _actual(recorded, machine, file, engine, from_tick, waits)
     return Verdict(machine, recorded, actual, first_difference(recorded, actual, from_tick=from_tick), same, from_tick)
 
 
-def in_form_of(file: Path, trace: Trace, machine: Machine) -> Trace | Segments:
+def in_form_of(file: Path, trace: Trace, machine: Machine, waits: Waits = unwatched) -> Trace | Segments:
     """A trace in the form of a file of this name; in the segment form with as few segments as possible."""
     if not takes_segments(file, machine.cards):
         return trace
-    taped = taped_again(trace, machine, file)
+    taped = taped_again(trace, machine, file, waits)
     return taped if taped.change_count == len(trace.ticks) and taped.trace() == trace else Segments.of_trace(trace)
 
 
-def taped_again(recorded: Trace, machine: Machine, file: Path) -> Segments:
+def taped_again(recorded: Trace, machine: Machine, file: Path, waits: Waits = unwatched) -> Segments:
     """Runs a trace again on the ideal plant and returns the record in the segment form. Raises TraceError."""
     ticker = FastTicker.ideal(machine, taped=True)
-    _run(Player(ticker, recorded, machine, file), recorded.end)
+    _run(Player(ticker, recorded, machine, file), recorded.end, waits(RUNNING_AGAIN))
     segments = ticker.record(recorded.header)
     assert isinstance(segments, Segments)
     return segments
@@ -111,19 +117,22 @@ def record_again(file: Path, library: Library) -> None:
     write_record(in_form_of(file, replace(recorded, header=tuple(header)), machine), Output(file))
 
 
-def _actual(recorded: Trace, machine: Machine, file: Path, engine: str | None, from_tick: int) -> Trace:
+def _actual(
+    recorded: Trace, machine: Machine, file: Path, engine: str | None, from_tick: int, waits: Waits
+) -> Trace:
     """The run by the tables at hand. Where the ideal plant gives just the recorded inputs, the fast engine runs it."""
     ticker = Ticker(machine, playback(recorded, machine, file), traced=True)
     if engine != TICK or from_tick:
         fast = FastTicker.ideal(machine, traced=True)
         player = Player(fast, recorded, machine, file)
-        _run(player, from_tick)
+        advance = waits(RUNNING_AGAIN)
+        _run(player, from_tick, advance)
         fast.in_batches = engine != TICK
-        _run(player, recorded.end)
+        _run(player, recorded.end, advance)
         actual = _trace_of(fast, recorded)
         if all(_same_changes(recorded, actual, f"in.{number}") for number in range(machine.cards)):
             return actual
-    _run(Player(ticker, recorded, machine, file), recorded.end)
+    _run(Player(ticker, recorded, machine, file), recorded.end, waits(RUNNING_AGAIN))
     return _trace_of(ticker, recorded)
 
 
@@ -138,9 +147,9 @@ def _same_changes(first: Trace, second: Trace, name: str) -> bool:
     return all(map(np.array_equal, first.changes_of(name), second.changes_of(name)))
 
 
-def _run(player: Player, end: int) -> None:
-    for _ticks in player.up_to(end):
-        pass
+def _run(player: Player, end: int, advance: Advance = ignored) -> None:
+    for ticks in player.up_to(end):
+        advance(ticks, end)
 
 
 def _trace_of(ticker: Ticker, recorded: Trace) -> Trace:

@@ -4,6 +4,7 @@ Rule: exact. The program is run by the fast engine, which gives the same ticks a
 each command are recorded.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,8 +29,16 @@ class Forecast:
         return int(self.ticks.sum())
 
 
-def forecast(program: NDArray[np.void], machine: Machine, engine: str | None = None) -> Forecast:
-    """Forecasts a program, dtype kmd.RECORD, numbered from 1; with the engine ``tick`` by running every tick of it."""
+def forecast(
+    program: NDArray[np.void],
+    machine: Machine,
+    engine: str | None = None,
+    advance: Callable[[int, int], None] | None = None,
+) -> Forecast:
+    """Forecasts a program, dtype kmd.RECORD, numbered from 1; with the engine ``tick`` by running every tick of it.
+
+    advance: is called with the number of commands that are done, and with that of all.
+    """
     ticker = FastTicker.ideal(machine, capacity=len(program), in_batches=engine != TICK)
     ticker.queue.put(program)
     ticks, m = np.zeros(len(program), np.int64), ticker.controller
@@ -38,4 +47,6 @@ def forecast(program: NDArray[np.void], machine: Machine, engine: str | None = N
             ticks[m.command.sequence - 1] = m.elapsed
         else:
             ticks[batch.commands["sequence"] - 1] = batch.ticks
+        if advance is not None:
+            advance(int(m.command.sequence), len(program))
     return Forecast(ticks, m.fault)

@@ -100,7 +100,12 @@ def pace_of(running: RunSettings) -> str:
 
 def is_soon_over(running: RunSettings) -> bool:
     """Whether a run takes no longer than its forecast would, so that the time left isn't worth working out."""
-    return running.plant == IDEAL_PLANT and running.engine != TICK and pace_of(running) == FREE
+    return in_batches(running) and pace_of(running) == FREE
+
+
+def in_batches(running: RunSettings) -> bool:
+    """Whether whole commands can be run at once, where nothing else keeps the run to single ticks."""
+    return running.plant == IDEAL_PLANT and running.engine != TICK
 
 
 def start(machine: Machine, running: RunSettings, status_file: Path, keeper: RingRecorder | None = None) -> Link:

@@ -19,15 +19,15 @@ from drillctl.language import Message, message_of
 from drillctl.trace.reader import TraceError, read_text
 from drillctl.trace.record import Trace
 from drillctl.trace.segments import MOST_TICKS, OUTPUT, Segments
-from drillctl.trace.tapes import Tape
+from drillctl.trace.tapes import Images, Tape
 from drillctl.trace.text import COMMAND, write_text
 from drillctl.trace.values import Values
 
 MAGIC = b"drillctl-segments 1\n"
 LEVEL = 6
 LARGEST_FILE_BYTES = 1 << 28
-ROOM_BYTES, ROOM_TIMES = 1 << 25, 16  # unpacked: so much, and so many times the file's size
-ROOM_ROWS, ROWS_A_BYTE = 1_000_000, 4  # of all columns: so many, and so many for each byte of the file
+ROOM_BYTES, ROOM_TIMES = 26_000_000, 5  # in memory: so much, and so many times the file's size
+VALUE_BYTES, CHANGE_BYTES = 8, 40  # of a row of a tape's column; of a signal's column, which is sorted among the others
 COUNT = struct.Struct("<Q")
 SUMS = struct.Struct("<QIBBB")  # ticks, CRC-32 of the images, bits of an image, tapes, 1: commands without numbers
 INDEXES = (np.dtype("<u1"), np.dtype("<u2"), np.dtype("<u4"))
@@ -53,7 +53,7 @@ def segment_bytes(segments: Segments) -> bytes:
         blocks += [_column(np.diff(column, prepend=0)) for column in segments.rest.changes_of(signal.name)]
     packed = b"".join(COUNT.pack(len(block)) + block for block in blocks)
     file = MAGIC + zlib.compress(packed, LEVEL)
-    if len(packed) > room_bytes(len(file)) or segments.end > MOST_TICKS:
+    if bytes_in_memory(segments) > room_bytes(len(file)) or segments.end > MOST_TICKS:
         raise ValueError(
             Message("{end} ticks are more than segments hold; keep a part of the run, or a .trace", end=segments.end)
         )
@@ -76,40 +76,69 @@ def read_segments(path: str | os.PathLike[str]) -> Segments:
 
 
 class _Blocks:
-    """The blocks of a file, one after the other. Raises ValueError where there is none, or no room for what it has."""
+    """The blocks of a file, unpacked one after the other. Raises ValueError where there is none, or no room for it."""
 
     def __init__(self, data: bytes):
-        self._data, self._at = _inflated(data), 0
-        self._rows_left = ROOM_ROWS + ROWS_A_BYTE * len(data)
+        self._unpacker, self._packed = zlib.decompressobj(), data[len(MAGIC) :]
+        self._room_left = room_bytes(len(data))
 
     def __next__(self) -> bytes:
-        begin = self._at + COUNT.size
-        self._at = begin + COUNT.unpack_from(self._data, self._at)[0]
-        if self._at > len(self._data):
-            raise ValueError(Message("cut short"))
-        return self._data[begin : self._at]
+        size = self._size()
+        self._take(size)
+        return self._read(size)
 
-    def column(self) -> Values:
-        """Reads the next block as a column."""
-        block = next(self)
-        self._rows_left -= COUNT.unpack_from(block)[0]
-        if self._rows_left < 0:
-            raise ValueError(Message("more rows than a file of its size has"))
+    def column(self, row_bytes: int = VALUE_BYTES) -> Values:
+        """Reads the next block as a column, whose rows take so much memory each."""
+        block = self._read(self._size())
+        self._take(COUNT.unpack_from(block)[0] * row_bytes)
         return _uncolumn(block)
 
+    def images(self, dtype: np.dtype[np.unsignedinteger]) -> Images:
+        """Reads the next block as images, a plane at a time: it is the largest."""
+        size = self._size()
+        self._take(size)
+        count, rest = divmod(size, dtype.itemsize)
+        if rest:
+            raise ValueError(Message("cut short"))
+        found = np.empty((count, dtype.itemsize), np.uint8)
+        for place in range(dtype.itemsize):
+            found[:, place] = np.frombuffer(self._read(count), np.uint8)
+        return found.view(dtype).ravel()
 
-def _inflated(data: bytes) -> bytes:
-    """Returns what follows the first line, unpacked. Raises ValueError where it is more than ``room_bytes``."""
-    unpacker = zlib.decompressobj()
-    found = unpacker.decompress(data[len(MAGIC) :], room_bytes(len(data)))
-    if not unpacker.eof:
-        raise ValueError(Message("cut short, or more than a file of its size has"))
-    return found
+    def _size(self) -> int:
+        """Reads how many bytes the next block has. Raises ValueError where there is no room for them."""
+        size: int = COUNT.unpack(self._read(COUNT.size))[0]
+        if size > self._room_left:
+            raise ValueError(Message("more than a file of its size has"))
+        return size
+
+    def _take(self, size: int) -> None:
+        self._room_left -= size
+        if self._room_left < 0:
+            raise ValueError(Message("more than a file of its size has"))
+
+    def _read(self, size: int) -> bytes:
+        found = self._unpacker.decompress(self._packed, size) if size else b""
+        self._packed = self._unpacker.unconsumed_tail
+        if len(found) < size:
+            raise ValueError(Message("cut short"))
+        return found
+
+    def close(self) -> None:
+        """Raises ValueError where the file does not end here."""
+        if self._unpacker.decompress(self._packed, 1) or not self._unpacker.eof:
+            raise ValueError(Message("cut short, or more than a file of its size has"))
 
 
 def room_bytes(file_bytes: int) -> int:
-    """Returns to how many bytes a file of this size may unpack."""
+    """Returns how much memory the segments in a file of this size may take."""
     return ROOM_BYTES + ROOM_TIMES * file_bytes
+
+
+def bytes_in_memory(segments: Segments) -> int:
+    """Returns how much memory segments take, as the reader counts it."""
+    rows = VALUE_BYTES * sum(len(tape.start) + len(tape.ticks) for tape in segments.tapes)
+    return segments.pool.nbytes + rows + 2 * CHANGE_BYTES * len(segments.rest.ticks)
 
 
 def _unpacked(blocks: _Blocks) -> Segments:
@@ -121,12 +150,15 @@ def _unpacked(blocks: _Blocks) -> Segments:
     if bits not in BITS or not tape_count:
         raise ValueError(Message("no images of 32 or 64 bits"))
     head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
-    pool = _unplaned(next(blocks), np.dtype(f"<u{bits // 8}"))
+    pool = blocks.images(np.dtype(f"<u{bits // 8}"))
     tapes = [Tape(blocks.column(), blocks.column()) for _ in range(tape_count)]
     others = [signal for signal in head.signals if not OUTPUT.fullmatch(signal.name)]
-    changes = [(blocks.column().cumsum(), blocks.column().cumsum()) for _ in others]
+    changes = [(blocks.column(CHANGE_BYTES).cumsum(), blocks.column(CHANGE_BYTES).cumsum()) for _ in others]
+    blocks.close()
     rows = [np.full(len(ticks), number) for number, (ticks, _) in enumerate(changes)]
-    columns = [np.concatenate(column) for column in ([t for t, _ in changes], rows, [v for _, v in changes])]
+    none = np.zeros(0, np.int64)
+    parts = [t for t, _ in changes], rows, [v for _, v in changes]
+    columns = [np.concatenate([none, *part]) for part in parts]
     rest = Trace.of_changes(head.header, others, columns[0], columns[1], columns[2], end, head.trailer)
     for tape in tapes:
         _check(tape, end, len(pool))

@@ -19,6 +19,7 @@ from drillctl.trace.values import WIDEST_BITS, Values
 
 OUTPUT = re.compile(r"out\.(\d+)")
 MOST_TICKS = 100_000_000  # of a run that is kept in segments, or run again: two days at 500 Hz
+MOST_STRIP_TICKS = 3_000_000  # of a run that was ticked, whose images are kept one for a tick
 MOST_CHANGES = 4_000_000  # of a trace that is made of them in memory
 CHUNK_TICKS = 1 << 20  # of the image array at once, where the whole of it is gone through
 WORD = (1 << WIDEST_BITS) - 1
@@ -40,10 +41,12 @@ class Segments:
     @classmethod
     def of_trace(cls, trace: Trace) -> "Segments":
         """Returns any trace in this form, its outputs as one long strip: exact, and as large as the run is long."""
-        pool = np.zeros(trace.end, np.uint64)
-        for signal in trace.signals:
-            if match := OUTPUT.fullmatch(signal.name):
-                pool |= dense(trace, signal.name).astype(np.uint64) << np.uint64(WIDEST_BITS * int(match[1]))
+        words = [signal for signal in trace.signals if OUTPUT.fullmatch(signal.name)]
+        dtype: type[np.unsignedinteger] = np.uint32 if len(words) == 1 else np.uint64
+        pool: Images = np.zeros(trace.end, dtype)
+        for signal in words:
+            card = int(signal.name.partition(".")[2])
+            pool = pool | dense(trace, signal.name).astype(dtype) << dtype(WIDEST_BITS * card)
         return cls(without_outputs(trace), trace.signals, pool, (Tape.whole(0, trace.end),))
 
     def like(self, other: "Segments") -> bool:

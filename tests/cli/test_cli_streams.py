@@ -15,10 +15,6 @@ from tests.support.terminal import Terminal
 
 needs_full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 needs_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
-OFTEN = (
-    "from drillctl.cli import main; from drillctl.ui.terminal import progress; "
-    "progress.PLAIN_EVERY_S = 0.1; exit(main())"
-)
 PACED = ("--pace", "real", "--tick-hz", "4000", "--journal", "j")
 
 
@@ -40,11 +36,11 @@ def test_streams_that_the_caller_has_closed(verb: str, code: int, closed: str, f
 
 
 @needs_linux
-def test_a_job_goes_on_when_nobody_reads_its_progress(folder: Path) -> None:
-    """As ``run ... 2>&1 | head -1`` does, once a line has come."""
+def test_a_job_goes_on_when_nobody_reads_what_it_tells(folder: Path) -> None:
+    """As ``run ... 2>&1 | true`` does."""
     reading, writing = os.pipe()
     os.close(reading)
-    call = [sys.executable, "-c", OFTEN, "run", "kicad.drl", *PACED, "--json"]
+    call = [*COMMAND, "run", "kicad.drl", *PACED, "--json"]
     done = subprocess.run(call, cwd=folder, stdout=subprocess.PIPE, stderr=writing, timeout=60, check=False)
     os.close(writing)
     assert done.returncode == 0 and json.loads(done.stdout)["holes_done"] == 3

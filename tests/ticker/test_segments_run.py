@@ -12,8 +12,9 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.replay.compare import replay
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.forecast import forecast
-from drillctl.trace import Segments, read_segments, segment_bytes
+from drillctl.trace import Segments, Signal, Trace, read_segments, segment_bytes
 from drillctl.trace.files import read_trace
+from drillctl.trace.segments import MOST_STRIP_TICKS
 
 ROOT = Path(__file__).resolve().parents[2]
 LIBRARY = Library((shipped_tables(),))
@@ -119,6 +120,27 @@ def test_more_changes_than_there_is_room_for_are_refused_and_a_part_is_made(
     assert main(["convert", str(file), "--to", str(part), "--to-tick", to_tick]) == 0
     assert part.read_text().splitlines()[-1] == f"end {to_tick}"
     assert main(["replay", str(part)]) == main(["replay", str(file)]) == 0
+
+
+def test_a_ticked_run_of_more_ticks_than_segments_hold_is_refused_before_it_moves(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("wait.kmd").write_text(f"KMD_CZEKAJ {MOST_STRIP_TICKS}\n")
+    assert main(["run", "wait.kmd", "--plant", "dynamic", "--trace", "a.seg"]) == 2
+    out, err = capsys.readouterr()
+    assert not out and f"ticks; a trace has room for {MOST_STRIP_TICKS}" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["wait.kmd"]
+
+
+def test_the_longest_strip_is_written_and_read(tmp_path: Path) -> None:
+    """In 64 bits, with a change every tick that no packing makes small."""
+    words = np.random.default_rng(1).integers(0, 1 << 32, MOST_STRIP_TICKS)
+    ticks = np.arange(MOST_STRIP_TICKS)
+    cards = [Signal("out.0", "word", False), Signal("out.1", "word", False)]
+    trace = Trace.of_changes([], cards, ticks, np.zeros(len(ticks), np.int32), words, MOST_STRIP_TICKS)
+    (tmp_path / "a.seg").write_bytes(segment_bytes(Segments.of_trace(trace)))
+    assert read_segments(tmp_path / "a.seg").end == MOST_STRIP_TICKS
 
 
 @pytest.mark.parametrize("kept", ["--trace=a.trace", "--trace=a.seg", "--vcd=a.vcd"])

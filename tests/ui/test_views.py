@@ -1,6 +1,8 @@
 """Views as text: each is a function of a record, so no terminal is needed."""
 
 import io
+import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,6 +10,7 @@ import pytest
 
 from drillctl.kmd import FAULTS, Fault
 from drillctl.language.figures import clock
+from drillctl.ui.terminal import wait
 from drillctl.ui.terminal.progress import ProgressView
 from drillctl.ui.terminal.reports import summary_lines
 from drillctl.ui.widgets.dots import dot_rows
@@ -49,12 +52,15 @@ def test_clock(seconds: float, text: str) -> None:
     assert clock(seconds) == text
 
 
-def test_in_a_pipe_progress_is_plain_and_seldom() -> None:
+def test_in_a_pipe_no_progress_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = [1000.0]
+    monkeypatch.setattr("drillctl.ui.terminal.progress.time.monotonic", lambda: now_s[0])
     stream = io.StringIO()
     with ProgressView(stream) as view:
         for done in range(50):
+            now_s[0] += 60.0
             view.show(Progress(done, 50, 1, done * 100, done * 0.2, 9.8))
-    assert stream.getvalue() == "" and "\r" not in stream.getvalue()
+    assert stream.getvalue() == ""
 
 
 class Terminal(io.StringIO):
@@ -85,6 +91,50 @@ def test_the_time_left_of_a_free_run_is_the_wait_and_machine_time_stands_beside_
         view.show(Progress(40, 50, 2, 2_000_000, 4000.0, None))
     told = stream.getvalue()
     assert "machine time 16:40, 0:15 left" in told and "machine time 1:06:40, 0:02 left" in told
+
+
+def eventually(told: Callable[[], bool]) -> bool:
+    """Whether it comes to be so; a thread draws."""
+    until_s = time.monotonic() + 30.0
+    while not told() and time.monotonic() < until_s:
+        time.sleep(0.01)
+    return told()
+
+
+def test_a_wait_says_what_is_done_and_how_long_it_will_take(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wait, "SHOWN_AFTER_S", 0.0)
+    monkeypatch.setattr(wait, "DRAWN_EVERY_S", 0.01)
+    stream = Terminal()
+    with wait.Wait(stream) as waits:
+        advance = waits("reading a\x1b[2J\nb.drl")
+        assert eventually(lambda: "reading a\\x1b[2J b.drl, 0:00 so far" in stream.getvalue().replace("\\n", " "))
+        advance(1, 4)
+        assert eventually(lambda: "b.drl: 25%, " in stream.getvalue() and " left" in stream.getvalue())
+        waits("putting the holes in order")(1, 2)
+        assert eventually(lambda: "in order: 50%" in stream.getvalue())
+    assert stream.getvalue().rstrip(" ").endswith("\r"), "the line is wiped out"
+
+
+def test_the_time_left_is_by_how_long_it_took_so_far() -> None:
+    part = wait.Wait(io.StringIO())("running it again")
+    began_s = part._began_s
+    assert part.line(began_s + 75.0) == "running it again, 1:15 so far"
+    part(25, 100)
+    assert part.line(began_s + 10.0) == "running it again: 25%, 0:30 left"
+    part(100, 100)
+    assert part.line(began_s + 40.0) == "running it again: 100%, 0:00 left"
+
+
+def test_a_wait_under_a_second_and_one_in_a_pipe_show_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    short = Terminal()
+    with wait.Wait(short) as waits:
+        waits("reading")(1, 2)
+    monkeypatch.setattr(wait, "SHOWN_AFTER_S", 0.0)
+    pipe = io.StringIO()
+    with wait.Wait(pipe) as waits:
+        waits("reading")(1, 2)
+        time.sleep(0.05)
+    assert (short.getvalue(), pipe.getvalue()) == ("", "")
 
 
 def test_a_board_is_drawn_to_scale_with_y_upwards() -> None:

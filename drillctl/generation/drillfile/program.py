@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from drillctl.generation.waits import Advance, ignored
 from drillctl.language import Message
 
 from . import afterend, comments
@@ -22,10 +23,13 @@ LONG_MESSAGE = re.compile(r"\s*M45(?!\d)", re.I)  # for the operator; it goes on
 COMMAND_LIMIT = 40_000  # lines that are no plain holes; a drill file has dozens, a milled panel thousands
 
 
-def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Machine, list[Remark]]:
+def run(
+    text: str, facts: Facts, after_end: str = afterend.REFUSE, advance: Advance = ignored
+) -> tuple[Machine, list[Remark]]:
     """The machine after the whole text, and the problems found on the way (at most PROBLEM_LIMIT).
 
-    after_end: what becomes of holes behind M30, one of afterend.CHOICES.
+    after_end: what becomes of holes behind M30, one of afterend.CHOICES; advance: is called with how much of
+    the text is read.
     """
     machine = Machine(facts)
     tail = afterend.Tail(after_end)
@@ -49,6 +53,7 @@ def run(text: str, facts: Facts, after_end: str = afterend.REFUSE) -> tuple[Mach
                 break
         machine.line += text.count("\n", at, end)
         at = end
+        advance(at, len(text))
     _finish(machine, tail, text[text.rfind("\n", 0, -1) + 1 :] if torn else "", problems)
     return machine, problems
 

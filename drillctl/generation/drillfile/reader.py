@@ -14,6 +14,7 @@ from typing import BinaryIO
 import numpy as np
 
 from drillctl.files.inputs import opened
+from drillctl.generation.waits import Advance, ignored
 
 from . import checks, sidefiles
 from .afterend import REFUSE
@@ -27,15 +28,15 @@ from .recognise import Recognition, dialect, parse_option, recognise
 from .spacing import meetings
 
 
-def read(path: Path, *, fmt: str | None = None, after_end: str = REFUSE) -> DrillFile:
+def read(path: Path, *, fmt: str | None = None, after_end: str = REFUSE, advance: Advance = ignored) -> DrillFile:
     """The drill file at path, with the reports beside it (sidefiles.py).
 
     fmt: format settled by hand, 'inch,2:4,leading' or 'mm,decimal'; after_end: what becomes of holes behind M30
-    (afterend.CHOICES). DrillFileError for anything that is
-    no drillable file; OSError when the file cannot be opened.
+    (afterend.CHOICES); advance: is called with how much of the text is read. DrillFileError for anything that is no
+    drillable file; OSError when the file cannot be opened.
     """
     with opened(path) as stream:
-        return _decode(stream, path.name, sidefiles.beside(path), fmt, after_end)
+        return _decode(stream, path.name, sidefiles.beside(path), fmt, after_end, advance)
 
 
 def decode(
@@ -50,7 +51,14 @@ def decode(
     return _decode(io.BytesIO(data), name, side_files, fmt, after_end)
 
 
-def _decode(stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: str | None, after_end: str) -> DrillFile:
+def _decode(
+    stream: BinaryIO,
+    name: str,
+    side_files: Mapping[str, bytes],
+    fmt: str | None,
+    after_end: str,
+    advance: Advance = ignored,
+) -> DrillFile:
     try:
         option = parse_option(fmt) if fmt else None
         condensed = condense(stream)
@@ -60,7 +68,7 @@ def _decode(stream: BinaryIO, name: str, side_files: Mapping[str, bytes], fmt: s
     facts = Facts()
     for side_name, side_data in side_files.items():
         sidefiles.hear(side_name, side_data, facts)
-    machine, problems = run(text, facts, after_end)
+    machine, problems = run(text, facts, after_end, advance)
     if problems:
         raise DrillFileError(name, tuple(problems))
     found = recognise(machine, option)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from drillctl.generation.order.improve import Improver
 from drillctl.generation.order.neighbours import find_neighbours
 from drillctl.generation.order.travel import Steps, TravelCost
+from drillctl.generation.waits import Advance, ignored
 
 NEIGHBOURS = 8
 # Chosen with benchmarks/order_quality.py: at 1,000 holes twice the rounds gain about 0.2 %.
@@ -29,19 +30,27 @@ SEED = 1996
 Draw = Callable[[], float]  # a number from 0 up to, not including, 1
 
 
-def optimised_order(points: Steps, travel: TravelCost, order: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Shorten `order`, a path through all of `points` (n, 2) in steps; row 0, the start, stays first."""
+def optimised_order(
+    points: Steps, travel: TravelCost, order: NDArray[np.int64], advance: Advance = ignored
+) -> NDArray[np.int64]:
+    """Shorten `order`, a path through all of `points` (n, 2) in steps; row 0, the start, stays first.
+
+    `advance` is called with how many of the rounds are done.
+    """
     improver = Improver(points, travel, find_neighbours(points, travel, NEIGHBOURS), order.tolist())
     improver.settle(range(len(points)))
     holes = len(points) - 1
     if holes > 1:  # a single hole has nothing to change places with
         draw = random.Random(SEED).random  # the one method whose numbers no later Python may change
-        for _ in range(_rounds(holes)):
+        rounds = rounds_of(holes)
+        for done in range(rounds):
             _round(improver, holes, draw)
+            advance(done + 1, rounds)
     return np.array(improver.path.order[:-1])
 
 
-def _rounds(holes: int) -> int:
+def rounds_of(holes: int) -> int:
+    """How many disturbances are tried on a group of so many holes."""
     return min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS, MOST_ROUNDS_TIMES_HOLES // holes)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.pcb_drill.program import board_program
+from drillctl.generation.waits import ORDERING, Waits, reading
 from drillctl.generation.wishes import Wishes
 from drillctl.generation.worklist import WorkList, build
 from drillctl.language import Message
@@ -19,15 +20,18 @@ if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile, DrillFileError
 
 
-def load_board(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str) -> Job:
+def load_board(
+    path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str, waits: Waits
+) -> Job:
     """A drill file as a job; ``fmt`` and ``after_end`` as drillfile.read has them. Raises JobError."""
     from drillctl.generation.drillfile import DrillFileError, read
 
     try:
-        drill_file = replace(read(path, fmt=fmt, after_end=after_end), name=str(path))
+        advance = waits(reading(path.name))
+        drill_file = replace(read(path, fmt=fmt, after_end=after_end, advance=advance), name=str(path))
     except DrillFileError as error:
         raise refusal(path, error) from error
-    work = build(drill_file, wishes, machine)
+    work = build(drill_file, wishes, machine, waits(ORDERING))
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
     return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
 

@@ -1,6 +1,6 @@
-"""A job on its way: a bar with the time left on a terminal, a plain line now and then in a pipe.
+"""A job on its way: a bar with the time left, on a terminal alone.
 
-Rule: writes to one stream, never to standard output.
+Rule: writes to one stream, never to standard output, and nothing where that is no terminal.
 """
 
 import time
@@ -15,7 +15,6 @@ from drillctl.viewmodel import Progress
 if TYPE_CHECKING:
     from tqdm import tqdm
 
-PLAIN_EVERY_S = 10.0
 DRAWN_EVERY_S = 0.1
 BAR = "drilling {bar} {n_fmt}/{total_fmt}{postfix}"
 
@@ -32,7 +31,7 @@ class ProgressView:
         self._first: tuple[float, Progress] | None = None  # when it came, and what it said
         self._on_terminal = stream.isatty()
         self._bar: tqdm[NoReturn] | None = None
-        self._due_s = 0.0 if self._on_terminal else time.monotonic() + PLAIN_EVERY_S
+        self._due_s = 0.0
 
     def __enter__(self) -> "ProgressView":
         return self
@@ -46,16 +45,14 @@ class ProgressView:
 
     def show(self, progress: Progress) -> None:
         """Draws the newest record, at most as often as a person can read it."""
+        if not self._on_terminal:
+            return
         now_s = time.monotonic()
         self._first = self._first or (now_s, progress)
         if now_s < self._due_s:
             return
-        self._due_s = now_s + (DRAWN_EVERY_S if self._on_terminal else PLAIN_EVERY_S)
-        progress = replace(progress, seconds_left=self._wait_s(progress, now_s))
-        if self._on_terminal:
-            self._draw(progress)
-        else:
-            print(_line(progress), file=self._stream, flush=True)
+        self._due_s = now_s + DRAWN_EVERY_S
+        self._draw(replace(progress, seconds_left=self._wait_s(progress, now_s)))
 
     def _wait_s(self, progress: Progress, now_s: float) -> float | None:
         """How many seconds the person will still wait; None if it can't be said."""
@@ -82,10 +79,6 @@ def _left(progress: Progress) -> str:
     left = "" if progress.seconds_left is None else f", {clock(progress.seconds_left)} left"
     held = "held (Space goes on), " if progress.held else ""
     return f"{held}{tool}machine time {clock(progress.machine_seconds)}{left}"
-
-
-def _line(progress: Progress) -> str:
-    return f"drilling: {progress.holes_done} of {progress.holes_total} holes, {_left(progress)}"
 
 
 class ToolPrompt:
