@@ -6,8 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from drillctl.generation.order.improve import Improver, Path
+from drillctl.generation.order import improve
+from drillctl.generation.order.improve import Improver
 from drillctl.generation.order.neighbours import find_neighbours
+from drillctl.generation.order.path import Path
 from drillctl.generation.order.plan import path_ticks
 from drillctl.generation.order.travel import TravelCost
 
@@ -100,3 +102,12 @@ def test_ticks_said_to_be_saved_are_saved(points: NDArray[np.int64]) -> None:
     assert sorted(after) == order and after[0] == 0 and improver.path.order[-1] == len(points)
     before_ticks = path_ticks(points[1:], range(len(points) - 1), TRAVEL, points[0])
     assert path_ticks(points[1:], np.array(after[1:], int) - 1, TRAVEL, points[0]) == before_ticks - saved
+
+
+@settings(deadline=None)
+@given(clustered)
+def test_pairs_worked_out_one_by_one_are_those_of_the_matrix(points: NDArray[np.int64]) -> None:
+    """Small boards have all pairs beforehand, large ones by and by."""
+    by_and_by = improve._rows_by_axis(points, TRAVEL)
+    beforehand = improve.loop_rows(points, TRAVEL)
+    assert [[row[other] for other in range(len(row))] for row in by_and_by] == [list(row) for row in beforehand]

@@ -13,9 +13,12 @@ Position -1 is END's, so "the hole before the start" needs no case of its own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Sequence
+
+import numpy as np
 
 from drillctl.generation.order.neighbours import Neighbours
+from drillctl.generation.order.path import Path
 from drillctl.generation.order.travel import Steps, TravelCost
 
 START = 0
@@ -23,7 +26,9 @@ FORWARD, BACKWARD = 1, -1
 LONGEST_PIECE = 3  # holes that Or-opt moves at once (Or 1976)
 UNAFFORDABLE = -(10**15)  # ticks "saved" by keeping END before the start; no path is that long
 
-PairTicks = Callable[[int, int], int]
+MATRIX_HOLES = 700  # up to so many all pairs are worked out beforehand: half a million numbers
+
+Row = Sequence[int]  # of one hole: the ticks to each
 
 
 class Improver:
@@ -32,7 +37,7 @@ class Improver:
     def __init__(self, points: Steps, travel: TravelCost, near: Neighbours, order: Iterable[int]) -> None:
         self.end = len(points)
         self.path = Path([*order, self.end])
-        self.ticks = loop_ticks(points, travel)
+        self.rows = loop_rows(points, travel)
         self._near = [
             list(zip(holes, ticks, strict=True))
             for holes, ticks in zip(near.index.tolist(), near.ticks.tolist(), strict=True)
@@ -50,50 +55,54 @@ class Improver:
         return total
 
     def _wake(self, *holes: int) -> None:
-        self._awake.update((hole, None) for hole in holes if hole != self.end)
+        for hole in holes:
+            if hole != self.end:
+                self._awake[hole] = None
 
     def _repair_at(self, a: int) -> int:
         """Make the first repair found at hole a. Ticks saved, 0 if there was none."""
+        order, place, rows = self.path.order, self.path.place, self.rows
         for side in (FORWARD, BACKWARD):
-            b = self.path.order[self.path.place[a] + side]
-            taken_out = self.ticks(a, b)
+            b = order[place[a] + side]
+            from_b, taken_out = rows[b], rows[a][b]
             for c, joined in self._near[a]:
                 gain = taken_out - joined
                 if gain <= 0:
                     break
-                saved = self._two_opt(a, b, c, side, gain) or self._or_opt(a, b, c, side, gain)
-                if saved:
+                d = order[place[c] + side]
+                saved = gain + rows[c][d] - from_b[d]
+                if saved > 0:
+                    self._two_opt(a, b, c, d, side)
+                    return saved
+                if saved := self._or_opt(a, b, c, side, gain):
                     return saved
         return 0
 
-    def _two_opt(self, a: int, b: int, c: int, side: int, gain: int) -> int:
+    def _two_opt(self, a: int, b: int, c: int, d: int, side: int) -> None:
         """Join a to c and b to d, the hole beside c: what lies between is driven the other way round."""
         place = self.path.place
-        d = self.path.order[place[c] + side]
-        saved = gain + self.ticks(c, d) - self.ticks(b, d)
-        if saved <= 0:
-            return 0
         first, last = sorted((place[a], place[c]))
         if side == FORWARD:
             self.path.turn(first + 1, last)
         else:
             self.path.turn(first, last - 1)
         self._wake(a, b, c, d)
-        return saved
 
     def _or_opt(self, a: int, b: int, c: int, side: int, gain: int) -> int:
         """Take out the piece a..e, one to three holes leading away from b; put its end a next to c."""
-        order, place, ticks = self.path.order, self.path.place, self.ticks
-        for far in range(place[a], place[a] - LONGEST_PIECE * side, -side):
+        order, place, rows = self.path.order, self.path.place, self.rows
+        far, beside_c, from_b = place[a], place[c], rows[b]
+        for _ in range(LONGEST_PIECE):
             e = order[far]
             if e == c or e == self.end:
                 break
-            f = order[far - side]
-            freed = gain + ticks(e, f) - ticks(b, f)
+            far -= side
+            f = order[far]
+            freed = gain + rows[e][f] - from_b[f]
             if freed <= 0:
                 continue
-            for d in (order[place[c] + 1], order[place[c] - 1]):
-                saved = freed + ticks(c, d) - ticks(e, d)
+            for d in (order[beside_c + 1], order[beside_c - 1]):
+                saved = freed + rows[c][d] - rows[e][d]
                 if saved > 0 and d != e:
                     self._move_piece(a, e, c, d)
                     self._wake(a, b, c, d, e, f)
@@ -108,68 +117,47 @@ class Improver:
         self.path.move(first, last, min(place[c], place[d]), turned=a_leads != c_leads)
 
 
-def loop_ticks(points: Steps, travel: TravelCost) -> PairTicks:
-    """Ticks between two rows of `points` or END (number len(points)), one pair at a time.
+def loop_rows(points: Steps, travel: TravelCost) -> Sequence[Row]:
+    """`rows[one][other]`: ticks between two rows of `points` or END (number len(points)), as plain numbers.
 
-    Plain lists: for single pairs they are several times quicker than numpy.
+    For single pairs plain lists are several times quicker than numpy.
     """
-    x, y = points[:, 0].tolist(), points[:, 1].tolist()
-    ticks_x, ticks_y = travel.ticks_x.tolist(), travel.ticks_y.tolist()
     end = len(points)
+    if end > MATRIX_HOLES:
+        return _rows_by_axis(points, travel)
+    ticks = np.zeros((end + 1, end + 1), np.int64)
+    ticks[:end, :end] = travel.between(points[:, None], points[None])
+    ticks[START, end] = ticks[end, START] = UNAFFORDABLE
+    rows: list[list[int]] = ticks.tolist()
+    return rows
 
-    def ticks(one: int, other: int) -> int:
-        if one == end or other == end:
-            return UNAFFORDABLE if START in (one, other) else 0
-        in_x = ticks_x[abs(x[one] - x[other])]
-        in_y = ticks_y[abs(y[one] - y[other])]
+
+def _rows_by_axis(points: Steps, travel: TravelCost) -> Sequence[Row]:
+    x, y = points[:, 0].tolist(), points[:, 1].tolist()
+    tables = travel.ticks_x.tolist(), travel.ticks_y.tolist()
+    to_end = [UNAFFORDABLE, *[0] * (len(points) - 1)]
+    return [*(PairByPair(here, x, y, *tables, free) for *here, free in zip(x, y, to_end, strict=True)), [*to_end, 0]]
+
+
+class PairByPair(Sequence[int]):
+    """The ticks from the hole `here` (x, y) to each, worked out when they are asked for; `to_end` to END."""
+
+    __slots__ = ("_end", "_here_x", "_here_y", "_ticks_x", "_ticks_y", "_to_end", "_x", "_y")
+
+    def __init__(
+        self, here: list[int], x: list[int], y: list[int], ticks_x: list[int], ticks_y: list[int], to_end: int
+    ) -> None:
+        (self._here_x, self._here_y), self._x, self._y = here, x, y
+        self._ticks_x, self._ticks_y, self._end, self._to_end = ticks_x, ticks_y, len(x), to_end
+
+    def __len__(self) -> int:
+        """All holes and END."""
+        return self._end + 1
+
+    def __getitem__(self, other: int) -> int:  # type: ignore[override]  # never asked for a slice
+        """Ticks to one of them."""
+        if other == self._end:
+            return self._to_end
+        in_x = self._ticks_x[abs(self._here_x - self._x[other])]
+        in_y = self._ticks_y[abs(self._here_y - self._y[other])]
         return in_x if in_x > in_y else in_y
-
-    return ticks
-
-
-class Path:
-    """`order[position]` is a hole, `place[hole]` its position. The first stays first, the last stays last."""
-
-    def __init__(self, order: list[int]) -> None:
-        self.order = list(order)
-        self.place = [0] * len(order)
-        for position, hole in enumerate(order):
-            self.place[hole] = position
-        self._turned: list[tuple[int, int]] = []
-
-    def turn(self, first: int, last: int) -> None:
-        """Reverse the piece from position `first` to position `last`, both included."""
-        piece = self.order[first : last + 1]
-        piece.reverse()
-        self.order[first : last + 1] = piece
-        for position, hole in enumerate(piece, first):
-            self.place[hole] = position
-        self._turned.append((first, last))
-
-    def swap(self, first: int, middle: int, end: int) -> None:
-        """Exchange the pieces first..middle-1 and middle..end-1, each keeping its direction."""
-        self.turn(first, end - 1)
-        self.turn(first, first + end - middle - 1)
-        self.turn(first + end - middle, end - 1)
-
-    def move(self, first: int, last: int, after: int, *, turned: bool) -> None:
-        """Put the piece first..last behind position `after`, outside it; `turned`: the other way round."""
-        length = last - first + 1
-        if after > last:
-            self.swap(first, last + 1, after + 1)
-            start = after + 1 - length
-        else:
-            self.swap(after + 1, first, last + 1)
-            start = after + 1
-        if turned:
-            self.turn(start, start + length - 1)
-
-    def keep(self) -> None:
-        """What was changed so far is no longer undone by `undo`."""
-        self._turned.clear()
-
-    def undo(self) -> None:
-        """Take back everything since `keep`."""
-        for first, last in reversed(self._turned.copy()):
-            self.turn(first, last)
-        self.keep()
