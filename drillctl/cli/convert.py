@@ -69,19 +69,20 @@ def _ending(out: Path) -> str:
 def _trace(arguments: argparse.Namespace) -> int:
     """Writes a trace in its other form; segments as small as the tables at hand allow."""
     from drillctl.files.outputs import reserved
+    from drillctl.generation.waits import reading
     from drillctl.replay.compare import in_form_of
     from drillctl.replay.header import machine_of
     from drillctl.trace.files import read_trace, write_record
 
     library = options.library(arguments)
     with waiting() as wait:
-        wait(f"reading {arguments.file.name}")
+        wait(reading(arguments.file.name))
         trace = read_trace(arguments.file, arguments.to_tick)
         machine = machine_of(trace, arguments.file, library)
         with reserved([arguments.to], inputs=[arguments.file]) as (output,):
             assert output is not None
             converted = in_form_of(arguments.to, trace, machine, wait)
-            wait(f"writing {arguments.to.name}")
+            wait(Message("writing {name}", name=arguments.to.name))
             write_record(converted, output)
     return 0
 
@@ -100,11 +101,12 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     from drillctl.generation.drillfile.write import write
     from drillctl.generation.errors import JobError
     from drillctl.generation.pcb_drill.board import file_warnings, refusal
+    from drillctl.generation.waits import reading
 
     try:
         with waiting() as wait:
-            reading = wait(f"reading {arguments.file.name}")
-            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=reading)
+            advance = wait(reading(arguments.file.name))
+            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     try:

@@ -27,12 +27,13 @@ def call(arguments: argparse.Namespace) -> int:
     """Prints the summary; a refused file is an error (exit 2)."""
     from drillctl.generation.drillfile import DrillFileError, read, summary
     from drillctl.generation.pcb_drill.board import refusal
+    from drillctl.generation.waits import reading
     from drillctl.ui.terminal.reports import inspect_lines
 
     try:
         with waiting() as wait:
-            reading = wait(f"reading {arguments.file.name}")
-            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=reading)
+            advance = wait(reading(arguments.file.name))
+            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     contents = summary(drill_file)

@@ -23,6 +23,7 @@ from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.readers import load_job
 from drillctl.generation.recipe import MeasuredRow, Recipe
+from drillctl.generation.waits import PLANNED, unwatched
 from drillctl.jobs.estimate import estimate_with_ticks
 from drillctl.jobs.journal import Account, Head, Journal, JournalError, head_of, read_journal
 from drillctl.jobs.journal.folder import give_up, unfinished
@@ -31,7 +32,7 @@ from drillctl.jobs.session import default_journal, journals, rest_of
 from drillctl.jobs.site import moved
 from drillctl.language import Message, Refusal, message_of
 from drillctl.machine import Library, Machine
-from drillctl.viewmodel.console import BoardView, Problems
+from drillctl.viewmodel.console import BoardView, Problems, Watch
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, Site, UnfinishedJob
 
 REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, OSError)
@@ -72,13 +73,13 @@ class Boards:
         self.journal: Journal | None = None
         self.troubles: Problems = ()
 
-    def load(self, file: Path, asked: Asked, machine: Machine, base: Base) -> Problems:
+    def load(self, file: Path, asked: Asked, machine: Machine, base: Base, watch: Watch) -> Problems:
         """Plans the board of a drill file, from this working base; it becomes the newest of the recent jobs."""
         try:
             recipe = recipe_of(asked, machine, base)
         except msgspec.ValidationError as error:
             return (Message("it can't be opened with these settings: {why}", why=message_of(error)).at(file),)
-        if problems := self._planned(file, recipe, machine):
+        if problems := self._planned(file, recipe, machine, watch):
             return problems
         self._recent.add(file, asked)
         return ()
@@ -157,12 +158,13 @@ class Boards:
             self.journal.close()
             self.journal = None
 
-    def _planned(self, file: Path, recipe: Recipe, machine: Machine) -> Problems:
+    def _planned(self, file: Path, recipe: Recipe, machine: Machine, watch: Watch = unwatched) -> Problems:
         try:
-            job = load_job(file, machine, recipe.wishes(machine), *recipe.reading())
+            job = load_job(file, machine, recipe.wishes(machine), *recipe.reading(), watch)
             if job.work is None:
                 return (Message("a queue of commands; it is run from the queue editor").at(file),)
-            estimate, ticks = estimate_with_ticks(job)
+            estimate, ticks = estimate_with_ticks(job, waits=watch)
+            watch(PLANNED)
             view = board_view(file, job, estimate, *recipe.reading())
             head = head_of(file, job, recipe.options())
         except REFUSALS as error:

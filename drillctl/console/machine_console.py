@@ -20,12 +20,13 @@ from drillctl.console.scope import RunRecording
 from drillctl.console.views import machine_list, machine_view
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
+from drillctl.generation.waits import unwatched
 from drillctl.kmd import Condition, KmdError, Request, parse_program
 from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.link import Link
-from drillctl.viewmodel.console import BoardView, MachineView, Problems
+from drillctl.viewmodel.console import BoardView, MachineView, Problems, Watch
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
 
@@ -138,11 +139,11 @@ class MachineConsole:
         """Asks for another tick rate; it is in force once the ticker has served the request."""
         return self.busy() or self.used.set_tick_hz(hz)
 
-    def load(self, file: str, asked: Asked) -> Problems:
+    def load(self, file: str, asked: Asked, watch: Watch = unwatched) -> Problems:
         """Reads a drill file, places and orders its holes and checks them against the reach. May take seconds."""
         if self.at_work:
             return (BUSY,)
-        return self._boards.load(Path(file), asked, self.machine, self._base.xy)
+        return self._boards.load(Path(file), asked, self.machine, self._base.xy, watch)
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
         """Fits a placing to measured holes, as ``--align`` does."""

@@ -1,22 +1,26 @@
 """What a person waits for while a job is made: the parts of the work, and how far each is.
 
-Rule: whoever shows it - a terminal, a screen, nobody - the result is the same.
+Rule: whoever shows it - a terminal, a screen, nobody - the result is the same. An exception from a call ends the work,
+which has changed nothing by then.
 """
 
 from collections.abc import Callable
 
+from drillctl.language import Message
+
 Advance = Callable[[int, int], None]  # is called with how much of a part is done, and with the whole
-Waits = Callable[[str], Advance]  # is called with what a part does, as that part begins
-FORECASTING = "working out how long the job takes"
-ORDERING = "putting the holes in order"
+Waits = Callable[[Message], Advance]  # is called with what a part does, as that part begins
+FORECASTING = Message("working out how long the job takes")
+ORDERING = Message("putting the holes in order")
+PLANNED = Message("drawing the board")
 
 
-def reading(name: str) -> str:
+def reading(name: str) -> Message:
     """What is done while a file of this name is read."""
-    return f"reading {name}"
+    return Message("reading {name}", name=name)
 
 
-def unwatched(what: str) -> Advance:
+def unwatched(what: Message) -> Advance:
     """Waits of a part of the work that nobody watches."""
     return ignored
 

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from drillctl.files.outputs import Output
-from drillctl.generation.waits import Advance, Waits, ignored, unwatched
+from drillctl.generation.waits import Advance, Waits, ignored, reading, unwatched
+from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.plant import PlantChoice, PlantRefused
 from drillctl.replay.header import check_tick, header_value, machine_of, same_tables
@@ -21,7 +22,7 @@ from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
 from drillctl.trace.files import read_record, read_trace, takes_segments, whole_trace, write_record
 
-RUNNING_AGAIN = "running it again"
+RUNNING_AGAIN = Message("running it again")
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ def replay(
     the ticks before are run in whole commands by either engine. ``waits`` is called with how far the work is. Raises
     TraceError for a file that is no trace, can't be run or is shorter; TableError for its machine.
     """
-    waits(f"reading {file.name}")
+    waits(reading(file.name))
     kept = read_record(file)
     head = kept.rest if isinstance(kept, Segments) else kept
     machine = machine_of(head, file, library)

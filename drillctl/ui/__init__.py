@@ -5,6 +5,7 @@
     explanations.py  what F1 says of each screen and its signs, before its keys
     next_step.py  what the machine waits for, with the keys of the screen on top
     preferences.py  the theme that was chosen, kept in the user's configuration
+    background.py  work that may take seconds, done beside the screen
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
     machines.py  which screens and menus a machine has: a row for each family of machines
 

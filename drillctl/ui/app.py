@@ -13,6 +13,7 @@ import urwid
 
 from drillctl.language.words import _, translated
 from drillctl.ui.alerts import Alerts
+from drillctl.ui.background import Background
 from drillctl.ui.explanations import EXPLAINED
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
@@ -23,7 +24,7 @@ from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
 from drillctl.ui.widgets.menus import Item, PullDown
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
-from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.console import Console, Problems, Watch
 
 BEAT_S = 0.05
 FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off
@@ -59,6 +60,7 @@ class App(Boxes):
         terminal = terminal or _terminal()
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows), self.frame.say)
         self._alerts = Alerts(console, self.layers)
+        self._background = Background(self.layers, self.frame.say)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
         )
@@ -84,6 +86,7 @@ class App(Boxes):
         if isinstance(self.screens[-1], Live):
             self.screens[-1].refresh(view)
         self._alerts.show(view)
+        self._background.turn()
 
     def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
         """Looks for the emergency stop and for a new size of the terminal before any widget sees the keys."""
@@ -133,6 +136,10 @@ class App(Boxes):
         else:
             self.open(screen)
         return screen
+
+    def work(self, work: Callable[[Watch], Problems], then: Callable[[Problems], object]) -> None:
+        """Does work beside the screen; ``then`` is called with its problems."""
+        self._background.run(work, then)
 
     def emergency_stop(self) -> None:
         """Stops the machine immediately; the outputs go off."""

@@ -4,7 +4,7 @@ Rule: asking never blocks and never raises for what a person did: it answers wit
 means it was accepted. Millimetres are from the working base, as the operator counts.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -104,6 +104,10 @@ class BoardView:
     estimate: Estimate
 
 
+Watch = Callable[[Message], Callable[[int, int], None]]
+"""Is called with what is done next, and returns what is called with how much of that is done, and of how much."""
+
+
 class Console(Protocol):
     """The operator's desk, as screens use it. ``turn`` is called some twenty times a second."""
 
@@ -128,8 +132,10 @@ class Console(Protocol):
     def go_real(self) -> Problems:
         """Changes to the machine on the port that its file asks for. Refused while something moves."""
 
-    def load(self, file: str, options: Asked) -> Problems:
-        """Reads a drill file and plans it. Refused with its reasons; the board loaded before then stays."""
+    def load(self, file: str, options: Asked, watch: Watch) -> Problems:
+        """Reads a drill file and plans it; ``watch`` is called with how far that is, maybe from another thread, and may
+        raise. Refused with its reasons. The board loaded before stays in both cases.
+        """
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
         """What measured holes say about where the board lies; changes nothing."""

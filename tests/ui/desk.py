@@ -7,7 +7,7 @@ import numpy as np
 import urwid
 
 from drillctl.ui.app import App
-from drillctl.viewmodel.console import AxisView, BoardView, MachineView, Problems, ToolView
+from drillctl.viewmodel.console import AxisView, BoardView, MachineView, Problems, ToolView, Watch
 from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
 
@@ -74,7 +74,7 @@ class FakeConsole:
     def machines(self) -> Sequence[tuple[str, str]]:
         return [("pcb-drill", "the paper's"), ("boiler-drum", "the large one")]
 
-    def load(self, file: str, asked: Asked) -> Problems:
+    def load(self, file: str, asked: Asked, watch: Watch) -> Problems:
         if not self.answer:
             self.loaded = replace(BOARD, file=file)
         return self._keep("load", file, asked)

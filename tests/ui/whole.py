@@ -13,11 +13,12 @@ import pytest
 from drillctl.cli.screen import EditorScreens
 from drillctl.console import signals as handbench
 from drillctl.console.machine_console import MachineConsole
+from drillctl.generation.waits import unwatched
 from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
 from drillctl.ui import app
-from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.jobs import Asked
 from tests.ui.desk import Paper
 
@@ -59,8 +60,8 @@ class Watched(MachineConsole):
         self.moved: list[tuple[str, set[str]]] = []
         self.stops = 0
 
-    def load(self, file: str, asked: Asked) -> Problems:
-        return super().load(str(BLINKER), asked)
+    def load(self, file: str, asked: Asked, watch: Watch = unwatched) -> Problems:
+        return super().load(str(BLINKER), asked, watch)
 
     def start(self, dry: bool) -> Problems:
         return self.noted("dry" if dry else "start", super().start(dry))

@@ -5,7 +5,7 @@ shown of a board comes from its BoardView alone.
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from typing import Any
 import urwid
 
 from drillctl.files.inputs import real_path
+from drillctl.language import Message
 from drillctl.language.figures import pair_mm
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
@@ -26,7 +27,7 @@ from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.dialogs import Field
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Icon, Size, Text
-from drillctl.viewmodel.console import Console, Problems
+from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob
 
 BY_FIELD = {choice.field: choice for choice in CHOICES}
@@ -113,7 +114,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def load(self, file: Path) -> None:
         """Loads a file. Holes measured on another board, and its tools left out, do not apply to it."""
         same = file == self._loaded
-        self._tell(self._try(file, self._options if same else replace(self._options, measured=(), skip_tools=())))
+        self._read(file, self._options if same else replace(self._options, measured=(), skip_tools=()), self._tell)
 
     def cycle(self, field: str) -> None:
         """The next value of a choice; the first one after a value that can't be chosen."""
@@ -196,10 +197,13 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
 
     def _open_again(self, job: RecentJob) -> None:
         file = Path(job.file)
-        problems = self._try(file, job.asked)
-        self._tell(problems)
-        if not problems:
-            self._browser.stand_on(file)
+
+        def opened(problems: Problems) -> None:
+            self._tell(problems)
+            if not problems:
+                self._browser.stand_on(file)
+
+        self._read(file, job.asked, opened)
 
     def _set_offset(self, text: str) -> None:
         pair = pair_mm(text)
@@ -210,18 +214,29 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             self._change(offset_mm=pair)
 
     def _change(self, **changed: Any) -> None:
-        self._tell(self._with(**changed))
+        self._read(self._loaded, replace(self._options, **changed), self._tell)
 
     def _with(self, **changed: Any) -> Problems:
-        return self._try(self._loaded, replace(self._options, **changed))
+        """The same while a form waits for what is wrong with it."""
+        options = replace(self._options, **changed)
+        return self._taken(self._loaded, options, self._load(self._loaded, options, _unwatched))
 
     def _tell(self, problems: Problems) -> None:
         if problems:
             self._shell.message(_("Refused"), [translated(problem) for problem in problems])
 
-    def _try(self, file: Path, options: Asked) -> Problems:
-        """Reads the file with these options; without a file yet they are kept for the first one."""
-        problems = self._console.load(str(file), options) if file.name else ()
+    def _read(self, file: Path, options: Asked, then: Callable[[Problems], None]) -> None:
+        """Reads the file with these options beside the screen; without a file yet they are kept for the first one."""
+
+        self._shell.work(
+            lambda watch: self._load(file, options, watch), lambda problems: then(self._taken(file, options, problems))
+        )
+
+    def _load(self, file: Path, options: Asked, watch: Watch) -> Problems:
+        return self._console.load(str(file), options, watch) if file.name else ()
+
+    def _taken(self, file: Path, options: Asked, problems: Problems) -> Problems:
+        """Shows a board that was read without problems; returns these."""
         if not problems:
             self._options, self._loaded = options, file
             self._look_at(file if file.name else self._browser.current)
@@ -234,6 +249,10 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         lines = board_lines(board) if board else preview(path)
         self._rows[:] = [_row(line) for line in [*option_lines(self._options), "", *lines]]
         self._rows.set_focus(0)
+
+
+def _unwatched(what: Message) -> Callable[[int, int], None]:
+    return lambda done, total: None
 
 
 def _typed_mm(value_mm: float | None) -> str:

@@ -12,7 +12,7 @@ import urwid
 from drillctl.language.words import _
 from drillctl.ui.widgets.dialogs import Field
 from drillctl.ui.widgets.menus import Item
-from drillctl.viewmodel.console import Console, MachineView, Problems
+from drillctl.viewmodel.console import Console, MachineView, Problems, Watch
 from drillctl.viewmodel.signals import ManualControl
 
 
@@ -33,6 +33,11 @@ class Shell(Protocol):
 
     def show(self, name: str) -> urwid.Widget | None:
         """Opens one of the program's screens by its name in the menus; None if there is no such screen."""
+
+    def work(self, work: Callable[[Watch], Problems], then: Callable[[Problems], object]) -> None:
+        """Does work that may take seconds: a dialog shows how far it is, and lets the operator give it up. ``then`` is
+        called with its problems where it was not given up.
+        """
 
     def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
         """Opens a dialog of several lines to type in; it stays, and says why, while ``accept`` finds problems."""

@@ -9,8 +9,8 @@ from threading import Event, Thread
 from types import TracebackType
 from typing import TextIO
 
-from drillctl.language import one_line
-from drillctl.language.figures import clock
+from drillctl.language import Message
+from drillctl.ui.widgets.work_part import WorkPart
 
 SHOWN_AFTER_S = 1.0
 DRAWN_EVERY_S = 0.2
@@ -21,7 +21,7 @@ class Wait:
 
     def __init__(self, stream: TextIO):
         self._stream = stream
-        self._part: _Part | None = None
+        self._part: WorkPart | None = None
         self._over = Event()
         self._thread = Thread(target=self._draw, daemon=True) if stream.isatty() else None
 
@@ -37,9 +37,9 @@ class Wait:
         if self._thread is not None:
             self._thread.join()
 
-    def __call__(self, what: str) -> "_Part":
+    def __call__(self, what: Message) -> WorkPart:
         """Begins a part of the work, which ends the part before it."""
-        self._part = _Part(what)
+        self._part = WorkPart(what)
         return self._part
 
     def _draw(self) -> None:
@@ -54,21 +54,3 @@ class Wait:
                     line.set_description_str(self._part.line(time.monotonic()))
             line.clear()
 
-
-class _Part:
-    """A part of the work, and how far it is: ``part(done, total)``."""
-
-    def __init__(self, what: str):
-        self._what, self._began_s = one_line(what), time.monotonic()
-        self._done = (0, 0)
-
-    def __call__(self, done: int, total: int) -> None:
-        """Keeps how much is done, and of how much."""
-        self._done = (done, total)
-
-    def line(self, now_s: float) -> str:
-        """What is done, with the share and the time left as soon as they are known."""
-        (done, total), elapsed_s = self._done, now_s - self._began_s
-        if not 0 < done <= total:
-            return f"{self._what}, {clock(elapsed_s)} so far"
-        return f"{self._what}: {done / total:.0%}, {clock(elapsed_s * (total - done) / done)} left"
