@@ -25,6 +25,8 @@ def visible(text: str, keep: str = "") -> str:
     Escaped are all controls (ESC, BEL, C1, DEL, line ends), the marks that turn the direction of writing, whatever has
     no width, blanks other than the space, and lone surrogates. A backslash of the text itself stays.
     """
+    if text.isascii() and text.isprintable():  # most texts, and a screen has hundreds in each frame
+        return text
     bare = text.translate(dict.fromkeys(map(ord, keep)))
     if bare.isprintable() and not _IGNORABLE.search(bare):
         return text

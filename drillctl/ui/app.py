@@ -27,6 +27,7 @@ from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
 
 BEAT_S = 0.05
+REST_BEAT_S = 0.1  # while nothing is at work; a paced machine takes a desk that is silent for 0.4 s for lost
 FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off
 # Of each beat, the console is given so long: a paced machine has its queue filled in it. One that runs free gets on in
 # it, and is given more while it works, the keys and the picture the rest.
@@ -55,6 +56,7 @@ class App(Boxes):
         self._keep_theme = keep_theme
         self._console, self._plain, self._makers = console, plain, makers or {}
         self._made: dict[str, urwid.Widget] = {}
+        self._at_work = False
         self.frame = MainFrame()
         self._use(screens_of(console.view()))
         terminal = terminal or _terminal()
@@ -80,6 +82,7 @@ class App(Boxes):
         while time.monotonic() < began_s + for_s:
             for_s = FREE_TURNING_S if self._console.turn() else TURNING_S
         view = self._console.view()
+        self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
         step = self._family.next_step(self._console, view)
         self.frame.show_step(step_line(step, self.screens[-1], self._family.menus))
@@ -216,7 +219,7 @@ class App(Boxes):
         """Runs one turn of the loop; the next one is due a beat after this one began."""
         if self._interrupts:
             raise KeyboardInterrupt(self._interrupts[0])
-        loop.set_alarm_in(BEAT_S, self._beat)
+        loop.set_alarm_in(BEAT_S if self._at_work else REST_BEAT_S, self._beat)
         self.turn()
 
     def _screen(self, name: str) -> urwid.Widget | None:

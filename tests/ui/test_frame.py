@@ -14,6 +14,7 @@ from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called
 from drillctl.ui.widgets.menus import Item, hot_letter, plain_label
 from drillctl.ui.widgets.themes import ATTRIBUTES, DEFAULT_THEME, THEMES, depth_of, palette
+from drillctl.ui.widgets.windows import Window
 from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50), (50, 15)]
@@ -286,3 +287,41 @@ def test_a_capital_is_its_letter_unless_it_has_a_row(pressed: str, done: list[st
     )
     assert called(hands, keys, pressed) is bool(done)
     assert hands.done == done
+
+
+def test_a_screen_on_which_nothing_changes_is_not_drawn_again() -> None:
+    """The terminal is sent what differs from the canvas before: nothing for the same one."""
+    program = Program(FakeConsole(loaded=BOARD), (160, 50))
+    program.app.turn()
+    before = program.canvas()
+    program.app.turn()
+    assert program.canvas() is before
+    program.console.now = replace(VIEW, moving=True)
+    program.app.turn()
+    assert program.canvas() is not before
+
+
+def test_a_click_in_a_window_counts_from_inside_its_border() -> None:
+    clicks: list[tuple[int, int]] = []
+
+    class Inside(urwid.SolidFill):
+        def mouse_event(self, size: object, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+            clicks.append((col, row))
+            return True
+
+    window = Window(Inside(), "title")
+    window.mouse_event((10, 5), "mouse press", 1, 9, 4, True)
+    window.show(framed=True)
+    for place in ((0, 0), (9, 4), (1, 1), (8, 3)):
+        window.mouse_event((10, 5), "mouse press", 1, *place, True)
+    assert clicks == [(9, 4), (0, 0), (7, 2)]
+
+
+@pytest.mark.parametrize("title", ["", "short", "longer than the window is wide"])
+@pytest.mark.parametrize("size", [(1, 1), (2, 9), (3, 3), (12, 4)])
+def test_a_window_has_exactly_the_size_it_is_given(size: tuple[int, int], title: str) -> None:
+    window = Window(urwid.SolidFill("x"), title)
+    window.show(framed=True)
+    canvas = window.render(size)
+    assert (canvas.cols(), canvas.rows()) == size
+    assert "x" in "".join(row.decode() for row in canvas.text)

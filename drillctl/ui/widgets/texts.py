@@ -33,9 +33,14 @@ def shown(markup: Markup) -> Markup:
 class Text(urwid.Text):
     """A text that is only read."""
 
+    _given: Any = None
+
     def set_text(self, markup: Any) -> None:
-        """Shows another text, escaped."""
-        super().set_text(shown(markup))
+        """Shows another text, escaped. The same text again draws nothing: screens hand theirs on at every beat."""
+        given = list(markup) if isinstance(markup, list) else markup
+        if given != self._given:
+            self._given = given
+            super().set_text(shown(markup))
 
 
 class Icon(urwid.SelectableIcon):
@@ -158,4 +163,4 @@ def _fitting(words: str, room: int) -> tuple[int, int]:
 def width_of(line: Line) -> int:
     """How many columns a line takes."""
     texts = (visible(part if isinstance(part, str) else part[1]) for part in line)
-    return sum(urwid.calc_width(text, 0, len(text)) for text in texts)
+    return sum(len(text) if text.isascii() else urwid.calc_width(text, 0, len(text)) for text in texts)
