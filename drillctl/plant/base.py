@@ -4,6 +4,7 @@ Rule: everything follows from the output images; the inputs follow from where th
 """
 
 from collections.abc import Sequence
+from math import inf
 
 from drillctl.machine import Machine
 from drillctl.plant.carriage import Carriage
@@ -67,6 +68,15 @@ class Plant:
         """Returns the present value of each of ``lanes``."""
         behind_columns = self.behind_steps(axis, travelled) / abs(self.carriages[axis].steps_per_column)
         return round(self.position_steps(axis)), round(behind_columns)
+
+    def quiet_steps(self, axis: int) -> tuple[float, float]:
+        """Returns the places between which (neither included) no sensor of an axis changes, and no bit meets or leaves
+        the board.
+        """
+        bounds = [sensor.changes_at() for sensor in self.carriages[axis].sensors]
+        if axis == self._head and self._surface is not None:
+            bounds.append((self._surface, inf) if self._in_board else (-inf, self._surface))
+        return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)

@@ -3,8 +3,6 @@
 Rule: it moves at once when its image changes. Speed, ramp and forcing make no difference to it.
 """
 
-from math import inf
-
 from drillctl.machine import Machine
 from drillctl.plant.base import Plant
 from drillctl.plant.carriage import Carriage, Switch
@@ -35,15 +33,6 @@ class IdealPlant(Plant):
                 rotor.seen = pattern
                 if rotor.pull(pattern):
                     self._carry(index)
-
-    def quiet_steps(self, axis: int) -> tuple[float, float]:
-        """Returns the places between which (neither included) no sensor of an axis changes, and no bit meets or leaves
-        the board.
-        """
-        bounds = [sensor.changes_at() for sensor in self.carriages[axis].sensors]
-        if axis == self._head and self._surface is not None:
-            bounds.append((self._surface, inf) if self._in_board else (-inf, self._surface))
-        return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
     def memory(self, axis: int) -> tuple[bool, ...]:
         """Returns the state of an axis's sensors, and for the first head whether its bit is in the board."""

@@ -7,6 +7,7 @@ import pytest
 
 from drillctl.lab.moves import move
 from drillctl.machine import AxisTable, Dynamics, Library, shipped_tables
+from drillctl.plant.dynamic import law as columns
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import SUBSTEPS, coefficients
 from drillctl.plant.dynamic.rotor import DynamicRotor, rest_cycles, wires_of
@@ -141,7 +142,7 @@ def test_what_is_left_out_at_rest_would_have_changed_nothing(table: AxisTable) -
     for image in [image for each in moves for image in each.images.tolist()]:
         supply = wires.supply(image, d)
         rested += not quick.tick(supply)
-        slow.resting = False
+        slow.rows[columns.RESTING] = 0.0
         slow.tick(supply)
         assert (quick.cycles, quick.speed, quick.currents) == (slow.cycles, slow.speed, slow.currents)
     assert rested > 200

@@ -1,7 +1,9 @@
 """The dynamic plant: a motor as four half-winding currents, an inertia, friction and a detent. docs/PLANT.md.
 
 coefficients.py  the equations, and the constants that a substep multiplies with
-axis.py          one rotor, in plain floats: the reference
+law.py           what a tick does to motors, carriages and drill, in plain floats; law.pxd: its C types
+kernel.py        which form of the law runs: compiled, or as it stands
+axis.py          one rotor, a tick at a time
 fleet.py         many variants of one rotor at once, the same to the bit (numpy; not needed to run a machine)
 rotor.py         an axis's motor between port images and columns
 drilling.py      the drill in the board, sensors with faults, belts with play

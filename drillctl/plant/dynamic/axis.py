@@ -1,100 +1,79 @@
-"""One rotor with inertia: currents, speed and place, a tick at a time. The reference that fleet.py must equal to the
-bit.
+"""One rotor with inertia: currents, speed and place, a tick at a time. It holds the row that law.py computes with.
 
-Rule: plain floats, + - * and comparisons (coefficients.py has the equations). A rotor that a whole tick left as it was,
-to the bit, is not computed again until its image or its load changes.
+Rule: a rotor that a whole tick left as it was, to the bit, is not computed again until its image or its load changes.
 """
 
-from drillctl.plant.dynamic.coefficients import QUARTER, SINE, SINES, SLOPE, Coefficients, Supply
+from dataclasses import fields
+from typing import Any
 
-State = tuple[float, float, float, float, float, float]
+from drillctl.plant.dynamic import law as columns
+from drillctl.plant.dynamic.coefficients import Coefficients, Supply
+from drillctl.plant.dynamic.kernel import KERNEL, Kernel
+
+_COEFFICIENTS = [(field.name, getattr(columns, field.name.upper())) for field in fields(Coefficients)]
 
 
 class DynamicAxis:
     """A rotor, at first at rest without currents at ``cycles``.
 
-    currents  of the four half windings, in A, in the order of WINDING_DEGREES
-    speed     rad/s of the shaft
-    cycles    electrical cycles
-    resting   a tick more would change nothing
+    rows, at  where its columns are, as law.py names them
+    law       the coefficients that stand there
     """
 
-    __slots__ = ("_backward", "_forward", "_supply", "currents", "cycles", "law", "resting", "speed")
+    __slots__ = ("_kernel", "at", "law", "rows")
 
-    def __init__(self, law: Coefficients, cycles: float):
-        self.law = law
-        self.currents = (0.0, 0.0, 0.0, 0.0)
-        self.speed = 0.0
-        self.cycles = cycles
-        self.resting = False
-        self._forward = self._backward = law.stop
-        self._supply: Supply | None = None
+    def __init__(self, law: Coefficients, cycles: float, kernel: Kernel = KERNEL):
+        self._kernel = kernel
+        self.rows, self.at = kernel.numbers([0.0] * columns.ROW), 0
+        self.rows[columns.CYCLES] = cycles
+        self.take(law)
+
+    @property
+    def currents(self) -> tuple[float, float, float, float]:
+        """Of the four half windings, in A, in the order of WINDING_DEGREES."""
+        begin = self.at + columns.CURRENTS
+        first, second, third, fourth = self.rows[begin : begin + columns.WINDINGS]
+        return first, second, third, fourth
+
+    @property
+    def speed(self) -> float:
+        """In rad/s of the shaft."""
+        return self.rows[self.at + columns.SPEED]
+
+    @property
+    def cycles(self) -> float:
+        """Where it is, in electrical cycles."""
+        return self.rows[self.at + columns.CYCLES]
+
+    @property
+    def resting(self) -> bool:
+        """Whether a tick more would change nothing."""
+        return self.rows[self.at + columns.RESTING] != 0.0
+
+    def move_to(self, rows: Any, at: int) -> None:
+        """Goes on in a row that lies beside those of other axes."""
+        rows[at : at + columns.ROW] = self.rows
+        self.rows, self.at = rows, at
 
     def take(self, law: Coefficients) -> None:
         """Uses these coefficients from now on, for a new tick rate. A load must be set again (``load``)."""
         self.law = law
-        self._forward = self._backward = law.stop
-        self.resting = False
+        for name, column in _COEFFICIENTS:
+            self.rows[self.at + column] = float(getattr(law, name))
+        self.rows[self.at + columns.FORWARD] = self.rows[self.at + columns.BACKWARD] = law.stop
+        self.rows[self.at + columns.RESTING] = 0.0
 
     def load(self, forward_nm: float, backward_nm: float) -> None:
         """Sets the torque that resists besides the table's friction, by direction, from now on."""
-        forward = self.law.stop + forward_nm * self.law.gain
-        backward = self.law.stop + backward_nm * self.law.gain
-        if (forward, backward) != (self._forward, self._backward):
-            self._forward, self._backward = forward, backward
-            self.resting = False
+        self._kernel.load(self.rows, self.at, forward_nm, backward_nm)
 
     def tick(self, supply: Supply) -> bool:
         """Computes one tick on a supply (Wires.supply); returns False where the rotor rests and
         nothing was to be done.
         """
-        if self.resting and supply == self._supply:
-            return False
-        before = (self.currents, self.speed, self.cycles)
-        self._supply = supply
-        self._integrate(supply)
-        self.resting = (self.currents, self.speed, self.cycles) == before
-        return True
-
-    def _integrate(self, supply: Supply) -> None:
-        # Locals for speed: most of a simulated second is spent in this loop.
-        sine, slope, quarter, places = SINE, SLOPE, QUARTER, SINES
-        law, forward, backward = self.law, self._forward, self._backward
-        decay, emf, keep, push = law.decay, law.emf, law.keep, law.push
-        detent, advance = law.detent, law.advance
-        to_a, to_b, to_c, to_d = supply
-        a, b, c, d = self.currents
-        speed, cycles = self.speed, self.cycles
-        for _ in range(law.substeps):
-            place = cycles % 1.0 * places
-            entry = int(place)
-            part = place - entry
-            sin = sine[entry] + slope[entry] * part
-            cos = sine[entry + quarter] + slope[entry + quarter] * part
-
-            back = emf * speed
-            goal = to_a + back * sin
-            a = goal + (a - goal) * decay
-            goal = to_b - back * sin
-            b = goal + (b - goal) * decay
-            goal = to_c + back * cos
-            c = goal + (c - goal) * decay
-            goal = to_d - back * cos
-            d = goal + (d - goal) * decay
-            a = a if a > 0.0 else 0.0
-            b = b if b > 0.0 else 0.0
-            c = c if c > 0.0 else 0.0
-            d = d if d > 0.0 else 0.0
-
-            pull = (a - b) * sin + (c - d) * cos
-            hold = sin * cos * (1.0 - 2.0 * sin * sin)
-            speed = speed * keep - push * pull - detent * hold
-            if speed > forward:
-                speed -= forward
-            elif speed < -backward:
-                speed += backward
-            else:
-                speed = 0.0
-            cycles += advance * speed
-        self.currents = (a, b, c, d)
-        self.speed, self.cycles = speed, cycles
+        begin = self.at + columns.SUPPLY
+        if tuple(self.rows[begin : begin + columns.WINDINGS]) != supply:
+            for winding, level in enumerate(supply):
+                self.rows[begin + winding] = level
+            self.rows[self.at + columns.RESTING] = 0.0
+        return self._kernel.step(self.rows, self.at, self._kernel.sine, self._kernel.slope)

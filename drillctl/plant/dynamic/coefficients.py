@@ -13,7 +13,7 @@ forcing and true stiction added. One substep of h seconds: currents exactly for 
 friction as far as it can stop the rotor, then place (semi-implicit Euler).
 
 Rule: after this module only + - * and comparisons; constants and sines are rounded to 13 digits, so that the last
-bits of no mathematical library show. axis.py has the substep for one rotor, fleet.py for many: the same to the bit.
+bits of no mathematical library show. law.py has the substep for one rotor, fleet.py for many: the same to the bit.
 """
 
 import math
@@ -98,11 +98,14 @@ class Wires:
 
     def supply(self, image: int, d: Dynamics) -> Supply:
         """Returns the final currents, in A, that a port image drives towards without back-EMF."""
-        volts = (self._volts(image, winding, d) for winding in range(len(WINDING_DEGREES)))
-        first, second, third, fourth = (rounded(volt / d.resistance_ohm) for volt in volts)
+        off, normal, forced = self.levels(d)
+        first, second, third, fourth = (
+            (forced if image & forcing else normal) if image & on else off
+            for on, forcing in zip(self.on, self.forcing, strict=True)
+        )
         return first, second, third, fourth
 
-    def _volts(self, image: int, winding: int, d: Dynamics) -> float:
-        if not image & self.on[winding]:
-            return -d.freewheel_volts
-        return (d.forcing_volts if image & self.forcing[winding] else d.normal_volts) - d.switch_volts
+    def levels(self, d: Dynamics) -> tuple[float, float, float]:
+        """Returns the final current, in A, of a winding that is off, on 5 V, on 24 V."""
+        off, normal, forced = -d.freewheel_volts, d.normal_volts - d.switch_volts, d.forcing_volts - d.switch_volts
+        return rounded(off / d.resistance_ohm), rounded(normal / d.resistance_ohm), rounded(forced / d.resistance_ohm)

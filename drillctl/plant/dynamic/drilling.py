@@ -7,43 +7,48 @@ drilled already, and none on the way up.
 import math
 from collections.abc import Sequence
 from random import Random
+from typing import Any
 
 from drillctl.machine import AxisTable, Sensor
 from drillctl.machine.model import MM_PER_INCH, Surroundings
 from drillctl.plant.carriage import Carriage, Switch
+from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic.kernel import Kernel
 from drillctl.plant.faults import Faults
 
 SAME_HOLE_MM = 0.1  # within this distance the bit is in the same hole again
 
 
 class Bit:
-    """The bit of one head.
+    """The bit of one head, as law.py computes with it.
 
-    wear_m  metres of board that it has cut
+    columns  what law.py reads and changes, and a place for each of the ``axes``
     """
 
-    def __init__(self, head: AxisTable, surface_steps: int, surroundings: Surroundings, wear_m: float):
+    def __init__(self, head: AxisTable, axes: int, surface_steps: int | None, surroundings: Surroundings,
+                 wear_m: float, kernel: Kernel):  # fmt: skip
         assert head.dynamics is not None
-        self.wear_m = wear_m
-        self._surface = self._bottom = float(surface_steps)
-        self._hole: tuple[float, ...] | None = None
-        self._metres_per_step = 0.001 / head.steps_per_mm
         columns_per_turn = head.motor.columns_per_cycle * head.dynamics.cycles_per_turn
         lead_m = 0.001 * MM_PER_INCH * columns_per_turn / head.columns_per_inch
-        self._nm_per_n = lead_m / (2 * math.pi)
-        self._thrust_n, self._growth = surroundings.thrust_n, surroundings.thrust_growth
+        self.columns = kernel.numbers([0.0] * (law.HOLE + axes))
+        self.columns[law.MOUNTED] = float(surface_steps is not None)
+        self.columns[law.INVERTED] = float(head.invert)
+        self.columns[law.SURFACE] = self.columns[law.BOTTOM] = float(surface_steps or 0)
+        self.columns[law.WEAR] = wear_m
+        self.columns[law.METRES] = 0.001 / head.steps_per_mm
+        self.columns[law.THRUST], self.columns[law.GROWTH] = surroundings.thrust_n, surroundings.thrust_growth
+        self.columns[law.LEVER] = lead_m / (2 * math.pi)
+        self.columns[law.SAME] = SAME_HOLE_MM
 
-    def torque_nm(self, depth_steps: float, over_mm: Sequence[float]) -> float:
-        """Returns the torque that resists the head's motor on the way down. ``over_mm`` is the
-        place of the other axes.
-        """
-        if self._hole is None or math.dist(self._hole, over_mm) > SAME_HOLE_MM:
-            self._hole, self._bottom = tuple(over_mm), self._surface
-        if depth_steps < self._bottom:
-            return 0.0
-        self.wear_m += (depth_steps - self._bottom) * self._metres_per_step
-        self._bottom = depth_steps
-        return self._thrust_n * (1 + self._growth * self.wear_m) * self._nm_per_n
+    @property
+    def mounted(self) -> bool:
+        """Whether there is one."""
+        return self.columns[law.MOUNTED] != 0.0
+
+    @property
+    def wear_m(self) -> float:
+        """Metres of board that it has cut."""
+        return self.columns[law.WEAR]
 
 
 class FaultySwitch(Switch):
@@ -58,6 +63,10 @@ class FaultySwitch(Switch):
         self._scatter = scatter_mm * steps_per_mm
         self._random = Random(f"{seed} {sensor.name}")
         self._draw_edge()
+
+    def changes_at(self) -> tuple[float, float]:
+        """As a Switch has it; one that is stuck never changes."""
+        return super().changes_at() if self._stuck is None else (-math.inf, math.inf)
 
     @property
     def flutters(self) -> bool:
@@ -83,21 +92,20 @@ class FaultySwitch(Switch):
 
 
 class LooseCarriage(Carriage):
-    """A carriage on a belt with play: it follows once the play is used up, and stays where it was left."""
+    """A carriage on a belt with play: law.py moves it once the play is used up, else it stays where it was left."""
 
     def __init__(self, table: AxisTable, sensors: Sequence[FaultySwitch], play_mm: float):
         super().__init__(table, sensors)
         self.switches = sensors
-        self._half_play = play_mm * table.steps_per_mm / 2
-        self._at = float(self.start)
+        self.half_play = play_mm * table.steps_per_mm / 2
 
     @property
     def flutters(self) -> bool:
         """Whether a wire of its sensors may change although nothing moves."""
         return any(switch.flutters for switch in self.switches)
 
-    def place(self, columns: float) -> float:
-        """Returns where the carriage is once the rotor has turned by so many columns. Asked twice, it is the same."""
-        rotor = super().place(columns)
-        self._at = min(max(self._at, rotor - self._half_play), rotor + self._half_play)
-        return self._at
+    def lie_in(self, rows: Any, at: int, steps_per_mm: float) -> None:
+        """Writes itself into a row of law.py."""
+        rows[at + law.START] = rows[at + law.PLACE] = float(self.start)
+        rows[at + law.PITCH], rows[at + law.PLAY] = self.steps_per_column, self.half_play
+        rows[at + law.SCALE] = float(steps_per_mm)

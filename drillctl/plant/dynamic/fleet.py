@@ -1,7 +1,7 @@
-"""Many variants of one rotor at once: the same substep as axis.py, a lane for each, equal to the bit.
+"""Many variants of one rotor at once: the same substep as law.py, a lane for each, equal to the bit.
 
-Rule: numpy's + - * and comparisons element by element, in the order of axis.py; no reductions. Quicker than axis.py
-from about thirty lanes on. For sweeps, tuning, and the figures of docs/PLANT.md; the machine itself is run by axis.py.
+Rule: numpy's + - * and comparisons element by element, in the order of law.py; no reductions. Quicker than the plain
+law from about thirty lanes on. For sweeps, tuning, and the figures of docs/PLANT.md; the machine is run by law.py.
 """
 
 from collections.abc import Sequence

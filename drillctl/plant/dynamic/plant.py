@@ -4,12 +4,19 @@ Rule: one tick of time for each image, so it must be driven once a tick; what it
 tables, its faults and the seed, to the bit.
 """
 
+from array import array
 from collections.abc import Sequence
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
 
 from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
+from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
+from drillctl.plant.dynamic.kernel import KERNEL, Kernel
 from drillctl.plant.dynamic.rotor import DynamicRotor
 from drillctl.plant.faults import Faults, PlantRefused
 
@@ -22,37 +29,94 @@ class DynamicPlant(Plant):
 
     lanes = (*PLACE_LANES, *CURRENT_LANES)
 
-    def __init__(self, machine: Machine, faults: Sequence[str] = (), seed: int = 0):
+    def __init__(self, machine: Machine, faults: Sequence[str] = (), seed: int = 0, kernel: Kernel = KERNEL):
         self.described = " ".join(("dynamic", *faults))
         self.seed = seed
         known_faults = Faults(faults, machine)
         _check_dynamics(machine)
-        self.motors = [DynamicRotor(a, machine.tick_hz, known_faults.of("jammed", a.name) or 1.0) for a in machine.axes]
-        self.belts = [_belt(machine, index, known_faults, seed) for index in range(len(machine.axes))]
+        axes = range(len(machine.axes))
+        self._kernel = kernel
+        self.motors = [
+            DynamicRotor(table, machine.tick_hz, known_faults.of("jammed", table.name) or 1.0, kernel)
+            for table in machine.axes
+        ]
+        self.belts = [_belt(machine, index, known_faults, seed) for index in axes]
+        self._rows = kernel.numbers([0.0] * law.ROW * len(axes))
+        for index, (motor, belt) in enumerate(zip(self.motors, self.belts, strict=True)):
+            motor.lie_in(self._rows, index * law.ROW)
+            belt.lie_in(self._rows, index * law.ROW, machine.axes[index].steps_per_mm)
+        self._wires = array("Q", [*chain.from_iterable(motor.wires() for motor in self.motors), 0])
+        for index in axes:
+            kernel.supply(self._rows, index * law.ROW, self._wires, index * law.WIRES, 0)
         super().__init__(machine, self.motors, self.belts)
-        self._others = [axis for axis in range(len(machine.axes)) if axis != self._head]
-        self._scales = [axis.steps_per_mm for axis in machine.axes]
-        self.bit = self._mounted_bit(machine, known_faults)
+        if known_faults.of("broken"):
+            self._surface = None
+        head = machine.axes[self._head]
+        worn_m = known_faults.of("blunt") or 0.0
+        self._bit = Bit(head, len(axes), self._surface, machine.surroundings, worn_m, kernel)
+        self._bound()
         self._resting = False
+        self._one = np.zeros(1, np.uint64)
+
+    @property
+    def bit(self) -> Bit | None:
+        """The drill, where there is one."""
+        return self._bit if self._bit.mounted else None
 
     def drive(self, image: int) -> None:
         """Computes one tick with this image at the card. Nothing is computed while a whole tick changed nothing."""
-        if self._resting and image == self.image:
-            return
-        self.image = image
-        self._resist()
-        self._resting = True
-        for index, motor in enumerate(self.motors):
-            moved = motor.pull(image & motor.mask)
-            if moved or self.belts[index].flutters:
-                self._carry(index)
-                self._resting = False
+        if not self._resting or image != self.image:
+            self._one[0] = image
+            self._advance(self._one, 1)
+
+    def run(self, images: NDArray[np.uint64]) -> int:
+        """Computes a tick for each image (ticks,), up to the first one that changes the inputs, or in which the bit
+        meets the board; returns how many.
+        """
+        inputs, touches, done = self.inputs, self.touches, 0
+        while done < len(images) and (inputs, touches) == (self.inputs, self.touches):
+            done += self._advance(images[done:], 1 if self._fluttering else len(images) - done)
+        return done
 
     def set_rate(self, tick_hz: int) -> None:
         """Goes on from the present state, in ticks of another length."""
         for motor in self.motors:
             motor.set_rate(tick_hz)
         self._resting = False
+
+    def position_steps(self, axis: int) -> float:
+        """Returns where a carriage is, in steps from machine zero as the machine's file means it."""
+        return self._rows[axis * law.ROW + law.PLACE]
+
+    def _advance(self, images: NDArray[np.uint64], ticks: int) -> int:
+        """Computes at most so many ticks, up to one in which a sensor may change; returns how many."""
+        kernel, bit = self._kernel, self._bit.columns
+        done = kernel.run(
+            self._rows, len(self.motors), self._head, self._wires, bit, kernel.images(images), ticks, kernel.sine,
+            kernel.slope,
+        )  # fmt: skip
+        self.image = int(images[done - 1])
+        for motor in self.motors:
+            motor.follow()
+        if self._fluttering or bit[law.LEFT]:
+            self._pass_sensors()
+        self._resting = bit[law.STILL] != 0.0 and not self._fluttering
+        return done
+
+    def _pass_sensors(self) -> None:
+        """Lets the sensors of the axes that moved, or whose wires flutter, answer to where the carriages are."""
+        for index, belt in enumerate(self.belts):
+            if belt.flutters or self._rows[index * law.ROW + law.MOVED]:
+                self._carry(index)
+        self._bound()
+
+    def _bound(self) -> None:
+        """Notes between which places no sensor changes and the bit neither meets nor leaves the board."""
+        self._fluttering = any(belt.flutters for belt in self.belts)
+        self._bit.columns[law.IN_BOARD] = self._in_board
+        for index in range(len(self.motors)):
+            begin = index * law.ROW
+            self._rows[begin + law.LOW], self._rows[begin + law.HIGH] = self.quiet_steps(index)
 
     def behind_steps(self, axis: int, travelled: int) -> float:
         """Returns lag, friction, play and lost steps together."""
@@ -66,23 +130,6 @@ class DynamicPlant(Plant):
         first, against_first, against_second, second = self.motors[axis].axis.currents  # as WINDING_DEGREES has them
         pulling = round(1000 * (first - against_first)), round(1000 * (second - against_second))
         return (*super().lane_values(axis, travelled), *pulling)
-
-    def _mounted_bit(self, machine: Machine, known_faults: Faults) -> Bit | None:
-        if known_faults.of("broken"):
-            self._surface = None
-        if self._surface is None:
-            return None
-        return Bit(machine.axes[self._head], self._surface, machine.surroundings, known_faults.of("blunt") or 0.0)
-
-    def _resist(self) -> None:
-        """Sets the board's resistance for the next tick, from where the head is now."""
-        if self.bit is None:
-            return
-        torque_nm = 0.0
-        if self._in_board:
-            over_mm = [self.position_steps(axis) / self._scales[axis] for axis in self._others]
-            torque_nm = self.bit.torque_nm(self.position_steps(self._head), over_mm)
-        self.motors[self._head].resist(torque_nm)
 
 
 def _check_dynamics(machine: Machine) -> None:

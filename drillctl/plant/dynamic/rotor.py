@@ -5,25 +5,27 @@ return to it, has lost none, however far it lags or friction keeps it from its r
 """
 
 from dataclasses import replace
+from typing import Any
 
 from drillctl.machine import AxisTable
 from drillctl.machine.dynamics import WINDING_DEGREES
+from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import Supply, Wires, coefficients
+from drillctl.plant.dynamic.kernel import KERNEL, Kernel
 from drillctl.plant.rotor import FULL_TURN, Rotor
 
 
 class DynamicRotor(Rotor):
     """The motor of an axis that has dynamics; ``friction`` multiplies the table's Coulomb friction."""
 
-    def __init__(self, table: AxisTable, tick_hz: int, friction: float = 1.0):
+    def __init__(self, table: AxisTable, tick_hz: int, friction: float = 1.0, kernel: Kernel = KERNEL):
         super().__init__(table)
         assert table.dynamics is not None
         self._dynamics = replace(table.dynamics, coulomb_nm=table.dynamics.coulomb_nm * friction)
         self._wires = wires_of(table)
-        self._invert = table.invert
         self._supplies: dict[int, Supply] = {}
-        self.axis = DynamicAxis(coefficients(self._dynamics, tick_hz), self.zero / FULL_TURN)
+        self.axis = DynamicAxis(coefficients(self._dynamics, tick_hz), self.zero / FULL_TURN, kernel)
 
     def set_rate(self, tick_hz: int) -> None:
         """Uses ticks of 1 / tick_hz seconds from now on."""
@@ -35,13 +37,23 @@ class DynamicRotor(Rotor):
         if supply is None:
             supply = self._supplies[pattern] = self._wires.supply(pattern, self._dynamics)
         moved = self.axis.tick(supply)
-        self.degrees = self.axis.cycles * FULL_TURN
+        self.follow()
         return moved
 
-    def resist(self, torque_nm: float) -> None:
-        """Sets the torque that resists the axis's next steps up, from now on; nothing resists on the way back."""
-        forward, backward = (0.0, torque_nm) if self._invert else (torque_nm, 0.0)
-        self.axis.load(forward, backward)
+    def follow(self) -> None:
+        """Reads the rotor's place anew, after a tick."""
+        self.degrees = self.axis.cycles * FULL_TURN
+
+    def lie_in(self, rows: Any, at: int) -> None:
+        """Goes on in a row of law.py that lies beside those of other axes."""
+        rows_before, levels = self.axis.rows, self._wires.levels(self._dynamics)
+        rows_before[law.OFF], rows_before[law.NORMAL], rows_before[law.FORCED] = levels
+        rows_before[law.ZERO], rows_before[law.COLUMNS] = float(self.zero), float(self.columns_per_cycle)
+        self.axis.move_to(rows, at)
+
+    def wires(self) -> tuple[int, ...]:
+        """Returns its wires as law.py has them."""
+        return (*self._wires.on, *self._wires.forcing)
 
     def columns_lost(self, travelled: int) -> float:
         """Returns the columns by which the rotor is behind, rounded to whole electrical cycles."""

@@ -1,0 +1,85 @@
+"""Which form of the law runs: the compiled one where it was built from the present text, else the plain one.
+
+Rule: both give the same bits, so nothing but time depends on the choice. DRILLCTL_KERNEL=plain in the environment
+chooses the plain one.
+"""
+
+import os
+from array import array
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from importlib import import_module
+from importlib.util import find_spec
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic.coefficients import SINE, SLOPE
+
+COMPILED = "drillctl.plant.dynamic._law"
+SOURCES = ("law.py", "law.pxd")
+
+Floats = Sequence[float]
+Images = NDArray[np.uint64]
+
+
+@dataclass(frozen=True, slots=True)
+class Kernel:
+    """The functions of the law in one form, and the sines as that form reads them quickest."""
+
+    compiled: bool
+    step: Callable[[Any, int, Floats, Floats], bool]
+    load: Callable[[Any, int, float, float], None]
+    supply: Callable[[Any, int, Any, int, int], None]
+    run: Callable[..., int]
+    sine: Floats
+    slope: Floats
+
+    @classmethod
+    def of(cls, functions: ModuleType, compiled: bool) -> "Kernel":
+        """From law.py, or the module that was compiled from it."""
+        kind = floats if compiled else tuple
+        return cls(compiled, functions.step, functions.load, functions.supply, functions.run, kind(SINE), kind(SLOPE))
+
+    def numbers(self, values: Sequence[float]) -> Any:
+        """Returns these floats as this form reads and changes them quickest."""
+        return floats(values) if self.compiled else list(values)
+
+    def images(self, images: Images) -> Sequence[int] | Images:
+        """Returns output images (ticks,) as ``run`` reads them."""
+        return images if self.compiled else images.tolist()
+
+
+def floats(values: Sequence[float]) -> "array[float]":
+    """Returns these floats as the compiled form reads and changes them; the plain one can too."""
+    return array("d", values)
+
+
+def digest(read: Callable[[str], bytes]) -> str:
+    """Returns what tells one text of the law from another; ``read`` returns the bytes of a file beside this one."""
+    return sha256(b"".join(map(read, SOURCES))).hexdigest()
+
+
+def compiled_law() -> ModuleType | None:
+    """Returns the compiled law; None where there is none, or it was built from another text than is here."""
+    if find_spec(COMPILED) is None or law.__spec__ is None:
+        return None
+    found, loader = import_module(COMPILED), law.__spec__.loader
+    folder = os.path.dirname(law.__file__)
+    here = digest(lambda name: loader.get_data(os.path.join(folder, name)))  # type: ignore[union-attr]
+    return found if here == found.DIGEST else None
+
+
+PLAIN = Kernel.of(law, compiled=False)
+
+
+def _chosen() -> Kernel:
+    found = None if os.environ.get("DRILLCTL_KERNEL") == "plain" else compiled_law()
+    return PLAIN if found is None else Kernel.of(found, compiled=True)
+
+
+KERNEL = _chosen()

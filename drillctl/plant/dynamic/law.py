@@ -1,0 +1,279 @@
+"""The law of motion of the dynamic plant: what a tick does to motors, carriages and the drill, on plain floats.
+
+The equations stand in coefficients.py, with the numbers that a substep multiplies with. This module is run as it
+stands, or compiled from this same text (law.pxd has the C types, kernel.py chooses): the same results to the bit.
+
+Rule: only + - * and comparisons of floats, a floor, and one division by a whole number; no call out of this module.
+So every statement means the same in C, without contraction.
+
+Each axis is a row of ``rows``, a flat sequence of floats; row n begins at ``n * ROW``, and a function is told where, as
+``at``. The columns of a row:
+
+    CURRENTS       4 half windings [A], in the order of WINDING_DEGREES
+    SPEED          rad/s of the shaft
+    CYCLES         electrical cycles
+    SUPPLY         4 currents [A] that the present image drives towards without back-EMF
+    OFF, NORMAL, FORCED   what SUPPLY is for a winding that is off, on 5 V, on 24 V
+    DECAY .. SUBSTEPS     as in coefficients.Coefficients
+    FORWARD, BACKWARD     rad/s that friction and load take off in a substep, by direction
+    RESTING        1 where a tick more would change nothing
+    MOVED          1 where the last tick changed something
+    ZERO .. PLACE  the belt: degrees at power-up, columns of a cycle, steps at power-up, steps of a column, half the
+                   play in steps, and where the carriage is, in steps
+    LOW, HIGH      the places between which (neither included) no sensor changes and no bit meets or leaves the board
+    SCALE          steps of a millimetre
+
+``wires`` has WIRES whole numbers for each axis: for each of its four half windings the bit of its 5 V wire, then for
+each the bits of the 24 V wires that feed it; behind them stands the last image. ``bit`` is the drill: the columns
+MOUNTED .. SAME, what ``run`` says of its last tick in LEFT and STILL, and from HOLE on a place in millimetres for each
+axis, where the present hole is.
+"""
+
+from collections.abc import MutableSequence, Sequence
+
+Rows = MutableSequence[float]
+
+CURRENTS = 0
+SPEED = 4
+CYCLES = 5
+SUPPLY = 6
+OFF = 10
+NORMAL = 11
+FORCED = 12
+DECAY = 13
+EMF = 14
+KEEP = 15
+PUSH = 16
+DETENT = 17
+STOP = 18
+GAIN = 19
+ADVANCE = 20
+SUBSTEPS = 21
+FORWARD = 22
+BACKWARD = 23
+RESTING = 24
+ZERO = 25
+COLUMNS = 26
+START = 27
+PITCH = 28
+PLAY = 29
+PLACE = 30
+LOW = 31
+HIGH = 32
+SCALE = 33
+MOVED = 34
+ROW = 35
+
+WINDINGS = 4
+WIRES = 8
+
+MOUNTED = 0
+IN_BOARD = 1
+INVERTED = 2
+SURFACE = 3
+BOTTOM = 4
+BEGUN = 5
+WEAR = 6
+METRES = 7
+THRUST = 8
+GROWTH = 9
+LEVER = 10
+SAME = 11
+LEFT = 12
+STILL = 13
+HOLE = 14
+
+TURN = 360.0
+SINES = 1024
+QUARTER = 256
+
+
+def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second is spent in it
+    rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]
+) -> None:
+    """One tick of a unipolar motor of two phases: all its substeps. ``sine`` and ``slope`` as in coefficients.py."""
+    decay = rows[at + DECAY]
+    emf = rows[at + EMF]
+    keep = rows[at + KEEP]
+    push = rows[at + PUSH]
+    detent = rows[at + DETENT]
+    forward = rows[at + FORWARD]
+    backward = rows[at + BACKWARD]
+    advance = rows[at + ADVANCE]
+    to_a = rows[at + SUPPLY]
+    to_b = rows[at + SUPPLY + 1]
+    to_c = rows[at + SUPPLY + 2]
+    to_d = rows[at + SUPPLY + 3]
+    a = rows[at + CURRENTS]
+    b = rows[at + CURRENTS + 1]
+    c = rows[at + CURRENTS + 2]
+    d = rows[at + CURRENTS + 3]
+    speed = rows[at + SPEED]
+    cycles = rows[at + CYCLES]
+    places = SINES
+    quarter = QUARTER
+    base = cycles // 1.0
+    for _ in range(int(rows[at + SUBSTEPS])):
+        turned = cycles - base
+        if turned < 0.0 or turned >= 1.0:
+            base = cycles // 1.0
+            turned = cycles - base
+        place = turned * places
+        entry = int(place)
+        part = place - entry
+        sin = sine[entry] + slope[entry] * part
+        cos = sine[entry + quarter] + slope[entry + quarter] * part
+
+        back = emf * speed
+        goal = to_a + back * sin
+        a = goal + (a - goal) * decay
+        goal = to_b - back * sin
+        b = goal + (b - goal) * decay
+        goal = to_c + back * cos
+        c = goal + (c - goal) * decay
+        goal = to_d - back * cos
+        d = goal + (d - goal) * decay
+        a = a if a > 0.0 else 0.0
+        b = b if b > 0.0 else 0.0
+        c = c if c > 0.0 else 0.0
+        d = d if d > 0.0 else 0.0
+
+        pull = (a - b) * sin + (c - d) * cos
+        hold = sin * cos * (1.0 - 2.0 * sin * sin)
+        speed = speed * keep - push * pull - detent * hold
+        if speed > forward:
+            speed -= forward
+        elif speed < -backward:
+            speed += backward
+        else:
+            speed = 0.0
+        cycles += advance * speed
+    rows[at + CURRENTS] = a
+    rows[at + CURRENTS + 1] = b
+    rows[at + CURRENTS + 2] = c
+    rows[at + CURRENTS + 3] = d
+    rows[at + SPEED] = speed
+    rows[at + CYCLES] = cycles
+
+
+def step(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> bool:
+    """One tick of a motor on its present supply; returns False where it rests and nothing was to be done."""
+    if rows[at + RESTING] != 0.0:
+        return False
+    a = rows[at + CURRENTS]
+    b = rows[at + CURRENTS + 1]
+    c = rows[at + CURRENTS + 2]
+    d = rows[at + CURRENTS + 3]
+    speed = rows[at + SPEED]
+    cycles = rows[at + CYCLES]
+    unipolar(rows, at, sine, slope)
+    moved = speed != rows[at + SPEED] or cycles != rows[at + CYCLES]
+    moved = moved or a != rows[at + CURRENTS] or b != rows[at + CURRENTS + 1]
+    moved = moved or c != rows[at + CURRENTS + 2] or d != rows[at + CURRENTS + 3]
+    rows[at + RESTING] = 0.0 if moved else 1.0
+    return True
+
+
+def supply(rows: Rows, at: int, wires: MutableSequence[int], first: int, image: int) -> None:
+    """Sets what an output image drives the currents of an axis towards; its wires begin at ``first``."""
+    for winding in range(WINDINGS):
+        if not image & wires[first + winding]:
+            level = rows[at + OFF]
+        elif image & wires[first + WINDINGS + winding]:
+            level = rows[at + FORCED]
+        else:
+            level = rows[at + NORMAL]
+        if level != rows[at + SUPPLY + winding]:
+            rows[at + SUPPLY + winding] = level
+            rows[at + RESTING] = 0.0
+
+
+def load(rows: Rows, at: int, forward_nm: float, backward_nm: float) -> None:
+    """Sets the torque that resists an axis besides the table's friction, by direction."""
+    forward = rows[at + STOP] + forward_nm * rows[at + GAIN]
+    backward = rows[at + STOP] + backward_nm * rows[at + GAIN]
+    if forward != rows[at + FORWARD] or backward != rows[at + BACKWARD]:
+        rows[at + FORWARD] = forward
+        rows[at + BACKWARD] = backward
+        rows[at + RESTING] = 0.0
+
+
+def carry(rows: Rows, at: int) -> bool:
+    """Moves a carriage after its rotor, as far as the play of its belt; returns whether it has left LOW .. HIGH."""
+    columns = (rows[at + CYCLES] * TURN - rows[at + ZERO]) * rows[at + COLUMNS] / TURN
+    rotor = rows[at + START] + columns * rows[at + PITCH]
+    place = rows[at + PLACE]
+    place = max(place, rotor - rows[at + PLAY])
+    place = min(place, rotor + rows[at + PLAY])
+    rows[at + PLACE] = place
+    return not rows[at + LOW] < place < rows[at + HIGH]
+
+
+def cut(rows: Rows, axes: int, head: int, bit: Rows) -> float:
+    """Returns the torque [N m] that resists the head's motor on the way down, its bit being in the board; the hole
+    gets deeper and the bit wears.
+    """
+    off = 0.0
+    for axis in range(axes):
+        if axis != head:
+            away = rows[axis * ROW + PLACE] / rows[axis * ROW + SCALE] - bit[HOLE + axis]
+            off += away * away
+    if bit[BEGUN] == 0.0 or off > bit[SAME] * bit[SAME]:
+        for axis in range(axes):
+            bit[HOLE + axis] = rows[axis * ROW + PLACE] / rows[axis * ROW + SCALE]
+        bit[BEGUN] = 1.0
+        bit[BOTTOM] = bit[SURFACE]
+    depth = rows[head * ROW + PLACE]
+    if depth < bit[BOTTOM]:
+        return 0.0
+    bit[WEAR] += (depth - bit[BOTTOM]) * bit[METRES]
+    bit[BOTTOM] = depth
+    return bit[THRUST] * (1.0 + bit[GROWTH] * bit[WEAR]) * bit[LEVER]
+
+
+def resist(rows: Rows, axes: int, head: int, bit: Rows) -> None:
+    """Sets the board's resistance for the next tick, from where the head is now."""
+    torque = 0.0
+    if bit[IN_BOARD] != 0.0:
+        torque = cut(rows, axes, head, bit)
+    if bit[INVERTED] != 0.0:
+        load(rows, head * ROW, 0.0, torque)
+    else:
+        load(rows, head * ROW, torque, 0.0)
+
+
+def run(
+    rows: Rows, axes: int, head: int, wires: MutableSequence[int], bit: Rows, images: Sequence[int], ticks: int,
+    sine: Sequence[float], slope: Sequence[float],
+) -> int:  # fmt: skip
+    """Runs the machine on output images, one a tick, at most ``ticks`` of them; returns how many. It stops early after
+    a tick in which a carriage left LOW .. HIGH; LEFT is 1 then. STILL is 1 where the last tick changed nothing.
+    """
+    still = False
+    seen = axes * WIRES
+    for tick in range(ticks):
+        image = images[tick]
+        if image != wires[seen]:
+            wires[seen] = image
+            for axis in range(axes):
+                supply(rows, axis * ROW, wires, axis * WIRES, image)
+        elif still:
+            continue
+        still = True
+        left = False
+        if bit[MOUNTED] != 0.0:
+            resist(rows, axes, head, bit)
+        for axis in range(axes):
+            rows[axis * ROW + MOVED] = 0.0
+            if step(rows, axis * ROW, sine, slope):
+                rows[axis * ROW + MOVED] = 1.0
+                still = False
+                if carry(rows, axis * ROW):
+                    left = True
+        if left:
+            bit[LEFT] = 1.0
+            bit[STILL] = 0.0
+            return tick + 1
+    bit[LEFT] = 0.0
+    bit[STILL] = 1.0 if still else 0.0
+    return ticks

@@ -1,0 +1,88 @@
+"""The law of the dynamic plant: compiled and plain give the same bits; a stretch of ticks is its single ticks."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from drillctl.lab.moves import move
+from drillctl.machine import Library, shipped_tables
+from drillctl.plant.dynamic import kernel, law
+from drillctl.plant.dynamic.kernel import KERNEL, PLAIN, Kernel, digest
+from drillctl.plant.dynamic.plant import DynamicPlant
+
+LIBRARY = Library((shipped_tables(),))
+FAULTS = ((), ("blunt=3",), ("broken=1",), ("loose.x=0.4", "jammed.z=3"), ("bouncing.z_top=7", "stuck.x_min=1"))
+NEEDS_COMPILED = pytest.mark.skipif(not KERNEL.compiled, reason="the law is not compiled here (hatch_build.py)")
+
+moves = st.lists(st.tuples(st.integers(0, 2), st.integers(1, 25), st.booleans()), min_size=1, max_size=3)
+
+
+def images_of(machine_name: str, wanted: list[tuple[int, int, bool]]) -> np.ndarray:
+    """One move after the other, each of one axis, up or down, the others without current."""
+    machine = LIBRARY.machine(machine_name)
+    parts = []
+    for index, steps, up in wanted:
+        table = machine.axes[index % len(machine.axes)]
+        parts.append(move(table, steps if up else -steps, rest_ticks=3).images)
+    return np.concatenate(parts).astype(np.uint64)
+
+
+def state(plant: DynamicPlant) -> list[object]:
+    motors = [(m.axis.currents, m.axis.speed, m.axis.cycles, m.degrees) for m in plant.motors]
+    places = [plant.position_steps(axis) for axis in range(len(plant.motors))]
+    return [motors, places, plant.inputs, plant.touches, plant.image, plant.bit and plant.bit.wear_m]
+
+
+@NEEDS_COMPILED
+@settings(max_examples=12)
+@given(name=st.sampled_from(["pcb-drill", "pcb-drill-ramp-lab"]), faults=st.sampled_from(FAULTS), wanted=moves)
+def test_compiled_and_plain_give_the_same_bits(
+    name: str, faults: tuple[str, ...], wanted: list[tuple[int, int, bool]]
+) -> None:
+    images = images_of(name, wanted)
+    plants = [DynamicPlant(LIBRARY.machine(name), faults, 3, each) for each in (KERNEL, PLAIN)]
+    for image in images.tolist():
+        for plant in plants:
+            plant.drive(image)
+        assert state(plants[0]) == state(plants[1])
+
+
+@pytest.mark.parametrize("form", [KERNEL, PLAIN], ids=["chosen", "plain"])
+@settings(max_examples=8)
+@given(faults=st.sampled_from(FAULTS), wanted=moves, seed=st.integers(0, 9))
+def test_a_stretch_is_its_ticks_and_ends_where_an_input_changes(
+    form: Kernel, faults: tuple[str, ...], wanted: list[tuple[int, int, bool]], seed: int
+) -> None:
+    machine, images = LIBRARY.machine("pcb-drill"), images_of("pcb-drill", wanted)
+    whole, single = DynamicPlant(machine, faults, seed, form), DynamicPlant(machine, faults, seed, form)
+    done = 0
+    while done < len(images):
+        ticks = whole.run(images[done:])
+        assert ticks > 0
+        for number, image in enumerate(images[done : done + ticks].tolist(), 1):
+            before = single.inputs, single.touches
+            single.drive(image)
+            assert number == ticks or before == (single.inputs, single.touches)
+        assert state(whole) == state(single)
+        done += ticks
+
+
+@NEEDS_COMPILED
+def test_a_kernel_of_another_text_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert kernel.compiled_law() is not None
+    monkeypatch.setattr(kernel, "digest", lambda read: "another")
+    assert kernel.compiled_law() is None
+
+
+def test_the_build_and_the_program_tell_texts_apart_alike() -> None:
+    path = Path(__file__).parents[2] / "hatch_build.py"
+    spec = importlib.util.spec_from_file_location("hatch_build", path)
+    assert spec is not None and spec.loader is not None
+    hook = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(hook)
+    folder = Path(law.__file__).parent
+    assert hook._digest(folder) == digest(lambda name: (folder / name).read_bytes())
