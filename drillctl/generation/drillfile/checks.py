@@ -99,10 +99,7 @@ def first_ones(remarks: Iterable[Remark]) -> tuple[Remark, ...]:
 
 def _counted(alike: list[Remark]) -> Remark:
     first = min(alike, key=lambda remark: (remark.line is None, remark.line))
-    if len(alike) == 1:
-        return first
-    count = f"{len(alike)} in all"
-    return first._replace(text=f"{first.text}; {count}" if first.text else count)
+    return first._replace(alike=len(alike))
 
 
 def _differs(one_mm: float, other_mm: float) -> bool:

@@ -125,22 +125,28 @@ WARNINGS = {
 
 
 class Remark(NamedTuple):
-    """One complaint: code of a table above, source line (1-based) or None, the offending text."""
+    """One complaint: code of a table above, source line (1-based) or None, the offending text; it may stand for others
+    of its kind, ``alike`` of them with itself.
+    """
 
     code: str
     line: int | None = None
     text: str = ""
+    alike: int = 1
 
     @property
     def reason(self) -> Message:
         """The complaint as a sentence, with the offending text quoted."""
         words = REFUSALS.get(self.code) or WARNINGS[self.code]
         said = Message("{sentence} ({text!r})", sentence=words, text=self.text) if self.text else words
+        if self.alike > 1:
+            said = Message("{reason}; {count} in all", reason=said, count=self.alike)
         return said.at(self.code)
 
     def as_dict(self) -> dict[str, object]:
         """Code, line, text and reason, as `inspect --json` prints them."""
-        return {"code": self.code, "line": self.line, "text": self.text, "reason": self.reason}
+        found: dict[str, object] = {"code": self.code, "line": self.line, "text": self.text, "reason": self.reason}
+        return found | {"count": self.alike} if self.alike > 1 else found
 
 
 class Complaint(Exception):

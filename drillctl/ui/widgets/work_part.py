@@ -6,6 +6,8 @@ from drillctl.language import Message, one_line
 from drillctl.language.figures import clock
 from drillctl.language.words import _, translated
 
+SURE_FROM = 0.01  # the share that must be done before the time left is worth showing
+
 
 class WorkPart:
     """What is done in this part; a call keeps how much of it is done, and of how much."""
@@ -22,7 +24,7 @@ class WorkPart:
         """What is done, with the share and the time left as soon as they are known."""
         (done, total), elapsed_s = self._done, now_s - self._began_s
         what = one_line(translated(self._what))
-        if not 0 < done <= total:
+        if not total * SURE_FROM <= done <= total or not done:
             return _("{what}, {time} so far").format(what=what, time=clock(elapsed_s))
         left = clock(elapsed_s * (total - done) / done)
         return _("{what}: {share:.0%}, {time} left").format(what=what, share=done / total, time=left)

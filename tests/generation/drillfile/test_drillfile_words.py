@@ -184,8 +184,9 @@ def test_format_one_has_other_names() -> None:
 
 def test_one_warning_a_kind_with_count_and_first_line() -> None:
     found = read_text(HEADER + "X1.0Y1.0\n" * 4 + "X9.0Y9.0\nX9.2Y9.0\nM30\n")
-    told = [(remark.code, remark.line, remark.text) for remark in found.warnings]
-    assert told == [("overlapping-holes", 12, ""), ("duplicate-hole", 8, "3 in all")]
+    warnings = [(remark.code, remark.line, remark.alike) for remark in found.warnings]
+    assert warnings == [("overlapping-holes", 12, 1), ("duplicate-hole", 8, 3)]
+    assert found.warnings[1].reason.endswith("; 3 in all")
 
 
 def test_the_documents_table_is_the_codes() -> None:
