@@ -345,7 +345,7 @@ def main() -> None:
     parser.add_argument("--show", choices=OUTCOMES, nargs="*", default=["silent"], help="outcomes printed in full")
     arguments = parser.parse_args()
     verdicts = campaign(arguments.count, arguments.seed)
-    broken = campaign(arguments.count // 5, arguments.seed, choose_broken)
+    broken = campaign(max(1, arguments.count // 5), arguments.seed, choose_broken)
     for verdict in [*verdicts, *broken]:
         if verdict.outcome in arguments.show:
             print(verdict.outcome, verdict.kind, verdict.way, verdict.said, verdict.text.decode()[:600], sep="\n")

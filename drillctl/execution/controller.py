@@ -44,7 +44,7 @@ class Controller:
     running   sequence of the command that was current in this tick, 0 = none
     served    the requests served in this tick, as bits; unseen: the same of a wake that was no tick
     tick_hz   ticks a second, for what is limited in seconds; set_rate changes it
-    hot_until the tick in which what was switched on by hand and would burn a winding goes off (hot.py), 0 for none
+    hot_until the tick in which what was switched on by hand and would burn a winding goes off (stops.py), 0 for none
     cut_off   1: that has happened, and no output was set since
     gap       whole periods by which the next tick begins too late, set by whoever paces; late: the same, applied
     caught    the last gap stopped an axis that was too fast to be stopped without losing steps

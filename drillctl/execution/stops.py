@@ -1,15 +1,19 @@
 """What the table in conditions.py does on a request or a fault: the actions, each for a controller.
 
 Rule: nothing here asks at which stage the controller is, nor changes it; the table has done both.
+
+What was switched on by hand and would burn a winding (24 V at rest, both halves of a winding) goes off after HOT_S: the
+table starts that time, and the tick ends it with ``cut_off``. It is counted in ticks, so a trace has it and replays;
+whoever paces counts ticks while it lasts, though nothing moves. A column of a phase table is never touched.
 """
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.execution.hot import output_set, rate_set
 from drillctl.kmd import Fault
 from drillctl.kmd.queue import RequestBit, bit_and_value, pace_of
 from drillctl.ports import SAFE_IMAGE, with_bits
 
+HOT_S = 1
 SURVIVES_STATE = 1  # a rotor stops dead from states 0 and 1: the automaton itself stops from them
 
 
@@ -75,14 +79,27 @@ def set_output(m: Controller) -> None:
         if axis.wires & bit:
             axis.set_wire(bit, on)
             m.position_known = False
-    output_set(m)
+    m.cut_off = 0
+    hot = any(_hot(axis) for axis in m.axes)
+    m.hot_until = (m.hot_until or m.tick + HOT_S * m.tick_hz) if hot else 0
+
+
+def cut_off(m: Controller) -> None:
+    """HOT_S are over: what the axes' tables don't have goes off, where it was dangerous."""
+    m.hot_until = 0
+    for axis in m.axes:
+        hot = _hot(axis)
+        if hot:
+            m.cut_off = 1
+            axis.set_wire(hot, 0)
 
 
 def set_pace(m: Controller) -> None:
-    """Sets another tick rate from the next tick on; the position stays."""
+    """Sets another tick rate from the next tick on; the position stays, and so do the seconds of ``hot_until``."""
     before_hz = m.tick_hz
     m.set_rate(pace_of(m.requests.hand))
-    rate_set(m, before_hz)
+    if m.hot_until:
+        m.hot_until = m.tick + max(1, (m.hot_until - m.tick) * m.tick_hz // before_hz)
 
 
 def ignore_pace(m: Controller) -> None:
@@ -137,3 +154,14 @@ def _hold_current(m: Controller) -> None:
 def _stand_still(m: Controller) -> None:
     m.moving = 0
     m.switched = SAFE_IMAGE
+
+
+def _hot(axis: Axis) -> int:
+    """The bits that were added by hand to what the axis holds, and would burn it. An axis that moves has none."""
+    table = axis.hold_patterns[axis.direction * axis.direction_sign]
+    added = axis.hold_bits & ~table[axis.column]
+    hot = added & axis.forcing
+    for pair in axis.halves:
+        if axis.hold_bits & pair == pair:
+            hot |= added & pair
+    return hot

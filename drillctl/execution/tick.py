@@ -10,8 +10,8 @@ from drillctl.execution.clock import apply_gap
 from drillctl.execution.commands import finish, start_next
 from drillctl.execution.conditions import Event, occur, serve
 from drillctl.execution.controller import Controller, Stage
-from drillctl.execution.hot import cut_off
 from drillctl.execution.limit_checks import guard
+from drillctl.execution.stops import cut_off
 
 RUNNING, LATCHED = Stage.RUNNING.value, Stage.LATCHED.value
 

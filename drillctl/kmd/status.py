@@ -1,7 +1,7 @@
 """The status record: small, of fixed size, published after each tick. Screens, journal and summary are made from it.
 
-Rule: execution/report.py writes it, and the ticker adds what only it knows (lateness, lost steps); everybody above only
-reads. Integers: no file, no millimetre, no word.
+Rule: execution/between_ticks.py writes it, and the ticker adds what only it knows (lateness, lost steps); everybody
+above only reads. Integers: no file, no millimetre, no word.
 """
 
 from enum import IntEnum

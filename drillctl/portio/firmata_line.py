@@ -41,7 +41,8 @@ class FirmataLine:
                 why=verbatim(str(error)),
             )
             raise PortRefused(name, reason) from error
-        # May fail: only some USB converters hold bytes back, and only some of their drivers can be set not to.
+        # May fail: only some USB converters hold bytes back, and only some of their drivers can be set not to (OSError;
+        # ValueError where the driver's answer makes no sense). NotImplementedError: pyserial can do it on Linux alone.
         with suppress(OSError, ValueError, NotImplementedError):
             self._serial.set_low_latency_mode(True)
 

@@ -101,7 +101,7 @@ class Segments:
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
-        """The trace's header."""
+        """Key and value of each header line of the trace, in the order of the file."""
         return self.rest.header
 
     def with_header(self, header: Header) -> "Segments":

@@ -31,6 +31,7 @@ from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
 from drillctl.viewmodel import Outcome
 from tests.portio.firmata_stand_in import Faults, Sketch
+from tests.support.wired_board import follow_pins
 
 BOARD = "M48\nMETRIC\nT1C0.800\n%\nG90\nG05\nT1\nX0.02Y0.02\nX0.06Y0.02\nX0.06Y0.05\nM30\n"
 CHANGES = {  # of mega-28byj48: near to its sensors, and short strokes
@@ -43,7 +44,6 @@ CHANGES = {  # of mega-28byj48: near to its sensors, and short strokes
     "z = 2547": "z = 24",
     "spin_up_s = 2 ": "spin_up_s = 0.02 ",
 }
-OUTPUT_PORTS, INPUT_PORT = (2, 3, 4), 5  # of a Mega: bits 0..23, and inputs 0..7
 BYTE_S = 10 / 57_600
 ANSWER_TICKS = 2
 MOST_TICKS = 5_000
@@ -100,7 +100,7 @@ class BoardLine:
     def send(self, data: bytes) -> None:
         for byte in b"" if self.silent else data:
             self.sketch.take(byte)
-        self._drive()
+        follow_pins(self.sketch, self.plant)
 
     send_first = send
 
@@ -131,15 +131,7 @@ class BoardLine:
         if wake == reset.wake:
             self.silent = reset.silent
             self.sketch.reset(reset.greets)
-        self._drive()
-
-    def _drive(self) -> None:
-        board = self.sketch.board
-        if board.modes:
-            pins = [8 * port + bit for port in OUTPUT_PORTS for bit in range(8)]
-            self.plant.drive(sum(board.output(pin) << number for number, pin in enumerate(pins)))
-        board.outside[INPUT_PORT] = self.plant.inputs
-        self.sketch.report()
+        follow_pins(self.sketch, self.plant)
 
     def _answer(self, data: bytes) -> None:
         if not self.silent:

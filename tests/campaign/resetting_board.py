@@ -18,8 +18,8 @@ from typing import Any
 
 from drillctl.generation.job import Job
 from drillctl.plant import IdealPlant
-from tests.campaign.board_resets import INPUT_PORT, OUTPUT_PORTS
 from tests.portio.firmata_stand_in import Faults, Sketch
+from tests.support.wired_board import OUTPUT_PORTS, follow_pins
 
 RUN_S = 60.0
 MOST_RESUMES, MOST_TRIES = 4, 3
@@ -60,7 +60,7 @@ class ResettingBoard:
         self.sketch.start()
         pending = bytearray()
         while not self._over.is_set():
-            self._drive()
+            follow_pins(self.sketch, self.plant)
             if select.select([self._host], [], [], 0.002)[0]:
                 for byte in os.read(self._host, 4096):
                     self._take(byte, pending)
@@ -76,19 +76,11 @@ class ResettingBoard:
             if self.messages == self._reset_at:
                 self.was_reset = True
                 self.sketch.reset(self._greets)
-                self._drive()
+                follow_pins(self.sketch, self.plant)
                 return
         self.sketch.take(byte)
         if whole:
-            self._drive()
-
-    def _drive(self) -> None:
-        board = self.sketch.board
-        if board.modes:
-            pins = [8 * port + bit for port in OUTPUT_PORTS for bit in range(8)]
-            self.plant.drive(sum(board.output(pin) << number for number, pin in enumerate(pins)))
-        board.outside[INPUT_PORT] = self.plant.inputs
-        self.sketch.report()
+            follow_pins(self.sketch, self.plant)
 
 
 @dataclass

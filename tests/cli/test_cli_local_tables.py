@@ -11,7 +11,7 @@ from drillctl.console.machine_console import MachineConsole
 from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
-from tests.ui.desk import Paper
+from tests.ui.fake_console import Paper
 
 QUEUE = "KMD_CZEKAJ 3\nKMD_KONIEC\n"
 SAID = "drillctl: local tables are in use, not the shipped ones: "

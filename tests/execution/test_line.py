@@ -12,20 +12,30 @@ from tests.support.bench import Bench, shipped
 REACHES = (0, 1, 2, 3, 5, 7, 8, 13, 30, 59)
 SIGNS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 LINE = "KMD_LINIAd x=60 y=-37 z=11"
+LONGEST_JOB_TICKS = 10_000
 
 
 def line_points(b: Bench, text: str) -> Iterator[list[int]]:
     """Positions after each step of any axis, from the start on."""
-    b.queue(text)
+    yield from points_of_job(b.queue(text))
+
+
+def points_of_job(b: Bench, hold_at: int = 0, held_ticks: int = 0) -> Iterator[list[int]]:
+    """Positions after each step of any axis, from now on to the end of the job, with one hold at that tick."""
     last = b.positions()
     yield last
-    while True:
+    for tick in range(LONGEST_JOB_TICKS):
+        if held_ticks and tick == hold_at:
+            b.ask(Request.HOLD)
+        if held_ticks and tick == hold_at + held_ticks:
+            b.ask(Request.RESUME)
         b.tick()
         if b.positions() != last:
             last = b.positions()
             yield last
         if b.ticker.over():
             return
+    raise AssertionError("the job does not end")
 
 
 def check_points(points: list[list[int]], reach: tuple[int, ...]) -> None:
@@ -76,9 +86,8 @@ def test_a_hold_anywhere_on_a_line_stays_on_it(name: str, held_ticks: int) -> No
     text = LINE.replace("z", machine.axis_names[2])
     whole = Bench(machine).queue(text).finish()
     for start in range(1, whole, max(1, whole // 40)):
-        b = Bench(machine).queue(text).tick(start)
-        b.ask(Request.HOLD).tick(held_ticks).ask(Request.RESUME)
-        b.finish()
+        b = Bench(machine).queue(text)
+        check_points(list(points_of_job(b, start, held_ticks)), (60, -37, 11))
         assert b.positions()[:3] == [60, -37, 11]
         assert not any(b.ticker.lost_steps())
 

@@ -1,9 +1,8 @@
 """The Firmata card when things go wrong: no board, an old one, one that goes away, one that takes nothing more."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
 
 import pytest
 
@@ -12,23 +11,10 @@ from drillctl.portio.firmata import FirmataCard, max_tick_hz, open_firmata, usb_
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
 from drillctl.ports import LONGEST_WAIT_S, PortError, PortLayout, PortLost, PortRefused, PortSlow
 from tests.portio.conformance import MOTOR, WIRING
-from tests.portio.firmata_stand_in import Faults, StandIn
+from tests.portio.firmata_stand_in import StandIn
 
 LISTEN_S = 0.05
 LONGEST_OPENING_S = 3.0
-
-
-@pytest.fixture
-def stand_in() -> Iterator[Callable[..., StandIn]]:
-    made: list[StandIn] = []
-
-    def make(**faults: Any) -> StandIn:
-        made.append(StandIn(Faults(**faults)))
-        return made[-1]
-
-    yield make
-    for board in made:
-        board.vanish()
 
 
 @pytest.fixture(autouse=True)

@@ -1,7 +1,7 @@
 """A Firmata board that was reset while it is in use: told by its greeting, by its pins, or by its silence."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -13,26 +13,13 @@ from drillctl.portio.firmata_protocol import DigitalReport, Firmware, PinState, 
 from drillctl.portio.firmata_watch import Watch
 from drillctl.ports import Answering, PortLayout, PortLost
 from tests.portio.conformance import WIRING
-from tests.portio.firmata_stand_in import Faults, StandIn
+from tests.portio.firmata_stand_in import StandIn
 
 LISTEN_S = 0.05
 PATIENCE_S = 3.0
 BYTE_S, TICK_S = 10 / 57_600, 0.002
 WANTED = {40: PinState(40, 0, 1), 41: PinState(41, 0, 1)}
 BLIND = PortLayout(500, 0, (1,), 0, 0)  # a machine without sensors
-
-
-@pytest.fixture
-def stand_in() -> Iterator[Callable[..., StandIn]]:
-    made: list[StandIn] = []
-
-    def make(**faults: Any) -> StandIn:
-        made.append(StandIn(Faults(**faults)))
-        return made[-1]
-
-    yield make
-    for board in made:
-        board.vanish()
 
 
 def ticked(card: FirmataCard, until: Callable[[], object] = lambda: False) -> None:

@@ -1,4 +1,4 @@
-"""Stand-ins for the editors' tests: a desk whose tables are words in lines, a shell that remembers, a console."""
+"""Stand-ins for the editors' tests: tables and queues in memory, a shell that remembers, a console."""
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field, replace

@@ -7,7 +7,7 @@ import pytest
 from drillctl.language import Message
 from drillctl.ui import background
 from drillctl.viewmodel.console import Problems, Watch
-from tests.ui.desk import BOARD, FakeConsole, Program
+from tests.ui.fake_console import BOARD, FakeConsole, Program
 
 PATIENCE_S = 20.0
 READING = Message("reading {name}", name="long.drl")

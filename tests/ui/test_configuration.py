@@ -31,13 +31,13 @@ def console() -> Console:
 
 
 @pytest.fixture
-def desk() -> Tables:
+def tables() -> Tables:
     return Tables(machines=FILE)
 
 
 @pytest.fixture
-def screen(console: Console, shell: Shell, desk: Tables) -> ConfigurationScreen:
-    return ConfigurationScreen(console, shell, desk, "one")
+def screen(console: Console, shell: Shell, tables: Tables) -> ConfigurationScreen:
+    return ConfigurationScreen(console, shell, tables, "one")
 
 
 def row_of(screen: ConfigurationScreen, label: str) -> list[str]:
@@ -63,30 +63,30 @@ def test_a_field_has_its_unit_and_bounds_and_the_focused_one_its_meaning(screen:
 
 
 def test_what_is_typed_is_saved_with_the_rest_as_it_was(
-    screen: ConfigurationScreen, shell: Shell, desk: Tables
+    screen: ConfigurationScreen, shell: Shell, tables: Tables
 ) -> None:
     press(screen, "end", "backspace", "5", "down", "f6", "f2")
-    assert desk.own["machines"] == "tick_hz 505\nmode REAL\nscale 1200"
+    assert tables.own["machines"] == "tick_hz 505\nmode REAL\nscale 1200"
     assert not screen.draft.changed and "position will be lost" in shell.asked[0]
 
 
 def test_a_value_that_cannot_be_taken_is_told_and_nothing_is_saved(
-    screen: ConfigurationScreen, shell: Shell, desk: Tables
+    screen: ConfigurationScreen, shell: Shell, tables: Tables
 ) -> None:
     press(screen, "end", "-", "down", "down", "end", "7")
     assert "problem: Interrupt frequency: '500-': not that" in text_of(screen)
     assert attributes_of(screen, "not that") == {"danger"}
     press(screen, "f2")
-    assert desk.own == {} and shell.told == [("Not saved", ["'500-': not that"])]
+    assert tables.own == {} and shell.told == [("Not saved", ["'500-': not that"])]
 
 
 def test_fields_that_are_right_alone_and_wrong_together_are_not_saved(
-    screen: ConfigurationScreen, shell: Shell, desk: Tables
+    screen: ConfigurationScreen, shell: Shell, tables: Tables
 ) -> None:
     press(screen, "end", *["backspace"] * 3, *"bad")
     assert "problem: 1: it is bad" in text_of(screen)
     press(screen, "f2")
-    assert desk.own == {} and shell.told == [("Not saved", ["1: it is bad"])]
+    assert tables.own == {} and shell.told == [("Not saved", ["1: it is bad"])]
 
 
 def test_the_old_value_typed_again_is_no_change(screen: ConfigurationScreen) -> None:
@@ -123,17 +123,17 @@ def test_a_copy_is_of_what_is_saved_and_loses_nothing_that_is_typed(screen: Conf
     assert shell.told[0][0] == "Not copied" and screen.changed and "Configuration: one" in text_of(screen)
 
 
-def test_reset_and_difference(console: Console, desk: Tables) -> None:
+def test_reset_and_difference(console: Console, tables: Tables) -> None:
     shell = Shell(says_yes=True)
-    desk.own["machines"] = FILE.replace("500", "400")
-    screen = ConfigurationScreen(console, shell, desk, "one")
+    tables.own["machines"] = FILE.replace("500", "400")
+    screen = ConfigurationScreen(console, shell, tables, "one")
     press(screen, "f3", "f8")
     assert shell.told == [("Differences", ["-before", "+after"])]
     assert row_of(screen, "Interrupt frequency")[0] == "500"
 
 
 class Unread(Tables):
-    """A desk that can't read the machine's file."""
+    """Tables of which no machine's file can be read."""
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
         return ()
@@ -152,36 +152,36 @@ def test_leaving_asks_only_where_something_would_be_lost(screen: ConfigurationSc
 
 @pytest.mark.parametrize("kind", EDITORS)
 def test_the_list_says_whose_a_table_is_and_opens_its_editor(console: Console, shell: Shell, kind: TableKind) -> None:
-    desk = Tables(phase="1a 5 x.", ramp="0 0 0 1", machines=FILE)
-    desk.in_use = False
-    tables = TableList(console, shell, desk, kind)
-    assert text_of(tables).split("\n")[0].split() == ["one", "shipped"]
-    desk.own[kind] = desk.shipped[kind]
-    assert "your own copy" in text_of(tables), "what changed meanwhile shows"
-    press(tables, "enter")
+    tables = Tables(phase="1a 5 x.", ramp="0 0 0 1", machines=FILE)
+    tables.in_use = False
+    listed = TableList(console, shell, tables, kind)
+    assert text_of(listed).split("\n")[0].split() == ["one", "shipped"]
+    tables.own[kind] = tables.shipped[kind]
+    assert "your own copy" in text_of(listed), "what changed meanwhile shows"
+    press(listed, "enter")
     assert isinstance(shell.opened[0], EDITORS[kind])
 
 
 def test_the_list_marks_what_the_machine_at_hand_is_driven_by(
     console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desk = Tables(phase="1a 5 x.")
+    tables = Tables(phase="1a 5 x.")
     entries = [TableEntry("one", "shipped", in_use=True), TableEntry("two", "shipped")]
-    monkeypatch.setattr(desk, "tables", lambda kind: entries)
-    first, second = text_of(TableList(console, shell, desk, "phase")).split("\n")[:2]
+    monkeypatch.setattr(tables, "tables", lambda kind: entries)
+    first, second = text_of(TableList(console, shell, tables, "phase")).split("\n")[:2]
     assert first.startswith("* one") and first.endswith("shipped, in use")
     assert second.startswith("  two") and second.endswith("shipped")
 
 
 def test_enter_opens_at_first_a_table_in_use(console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    desk = Tables(phase="1a 5 x.")
+    tables = Tables(phase="1a 5 x.")
     entries = [TableEntry("one", "shipped"), TableEntry("two", "shipped", in_use=True)]
-    monkeypatch.setattr(desk, "tables", lambda _kind: entries)
-    tables = TableList(console, shell, desk, "phase")
-    assert tables._current == "two"
-    press(tables, "up")
-    tables.fill()
-    assert tables._current == "one"
+    monkeypatch.setattr(tables, "tables", lambda _kind: entries)
+    listed = TableList(console, shell, tables, "phase")
+    assert listed._current == "two"
+    press(listed, "up")
+    listed.fill()
+    assert listed._current == "one"
 
 
 def test_a_table_is_copied_from_the_list(console: Console) -> None:
@@ -193,47 +193,47 @@ def test_a_table_is_copied_from_the_list(console: Console) -> None:
 
 def test_two_tables_are_compared_by_name(console: Console) -> None:
     shell = Shell(types="nothing")
-    tables = TableList(console, shell, Tables(machines=FILE), "machines")
-    press(tables, "d")
+    listed = TableList(console, shell, Tables(machines=FILE), "machines")
+    press(listed, "d")
     shell.types = "one"
-    press(tables, "d")
+    press(listed, "d")
     assert shell.told == [
         ("Not compared", ["there is no table named 'nothing'"]), ("Differences", ["none: they are alike"])
     ]  # fmt: skip
 
 
 def test_only_a_table_of_ones_own_is_deleted_and_only_after_a_yes(console: Console) -> None:
-    shell, desk = Shell(), Tables(phase="1a 5 x.")
-    desk.own["phase"] = "1a 5 .x"
-    tables = TableList(console, shell, desk, "phase")
-    press(tables, "delete")
-    assert desk.own and "for good" in shell.asked[0]
+    shell, tables = Shell(), Tables(phase="1a 5 x.")
+    tables.own["phase"] = "1a 5 .x"
+    listed = TableList(console, shell, tables, "phase")
+    press(listed, "delete")
+    assert tables.own and "for good" in shell.asked[0]
     shell.says_yes = True
-    press(tables, "delete", "delete")
-    assert not desk.own and shell.told == [("Nothing changed", ["it stays"])]
-    desk.own["phase"] = "1a 5 .x"
-    press(tables, "r")
-    assert not desk.own
+    press(listed, "delete", "delete")
+    assert not tables.own and shell.told == [("Nothing changed", ["it stays"])]
+    tables.own["phase"] = "1a 5 .x"
+    press(listed, "r")
+    assert not tables.own
 
 
 def test_a_table_that_was_never_shipped_is_not_asked_about_before_its_reset_is_refused(
     console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desk = Tables(phase="1a 5 x.")
-    monkeypatch.setattr(desk, "tables", lambda kind: [TableEntry("mine", "yours", ships=False)])
-    press(TableList(console, shell, desk, "phase"), "r")
+    tables = Tables(phase="1a 5 x.")
+    monkeypatch.setattr(tables, "tables", lambda kind: [TableEntry("mine", "yours", ships=False)])
+    press(TableList(console, shell, tables, "phase"), "r")
     assert shell.asked == [] and shell.told == [("Nothing changed", ["there is no copy of your own"])]
 
 
 def test_an_editor_left_with_edits_in_it_comes_back_as_it_was(console: Console, shell: Shell) -> None:
-    tables = TableList(console, shell, Tables(phase="1a 5 x."), "phase")
-    press(tables, "enter")
+    listed = TableList(console, shell, Tables(phase="1a 5 x."), "phase")
+    press(listed, "enter")
     press(shell.opened[0], " ")
-    press(tables, "enter")
+    press(listed, "enter")
     assert shell.opened[1] is shell.opened[0]
     shell.says_yes = True
     press(shell.opened[0], "esc")
-    press(tables, "enter")
+    press(listed, "enter")
     assert shell.opened[2] is not shell.opened[0]
 
 
@@ -243,10 +243,10 @@ def test_at_eighty_columns_every_field_has_a_line_with_its_unit_and_bounds(
 ) -> None:
     words.use(language)
     try:
-        desk = TableFiles(Library((tmp_path, shipped_tables())), tmp_path)
-        screen = ConfigurationScreen(console, shell, desk, "pcb-drill")
+        tables = TableFiles(Library((tmp_path, shipped_tables())), tmp_path)
+        screen = ConfigurationScreen(console, shell, tables, "pcb-drill")
         text = text_of(screen, (80, 60))
-        fields = desk.fields(desk.read("machines", "pcb-drill"))
+        fields = tables.fields(tables.read("machines", "pcb-drill"))
         for field in fields:
             unit = words._(words_of(field).unit)
             line = next(row for row in text.split("\n") if row.startswith(f"{label_of(field)} "))

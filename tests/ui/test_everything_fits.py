@@ -19,7 +19,7 @@ from drillctl.ui.widgets.menus import plain_label
 from drillctl.viewmodel.console import MachineView
 from drillctl.viewmodel.fault_texts import FAULT_WORDS, fault_report
 from tests.support.labels import POLISH, menu
-from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
+from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 from tests.ui.whole import SCREENS, Whole, at_home
 
 COLUMNS = 80
@@ -58,7 +58,7 @@ def _box(program: Program, below: Program) -> list[str]:
 
 
 def refusals() -> list[str]:
-    """What a station says to a request that it does not take: its constants that have a Polish form."""
+    """What a console says to a request that it does not take: its constants that have a Polish form."""
     files = Path(console.__file__).parent.glob("*.py")
     nodes = [node for file in files for node in ast.walk(ast.parse(file.read_text("utf-8")))]
     found = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
@@ -117,7 +117,7 @@ def opened(name: str) -> Iterator[Whole]:
         if program.app.screens[-1] is not before:
             yield program
     finally:
-        program.station.close()
+        program.console.close()
 
 
 def way(screen: str, method: str = "") -> tuple[str, ...]:

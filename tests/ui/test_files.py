@@ -16,7 +16,7 @@ from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
 from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob, Site, UnfinishedJob
 from tests.support.messages import screen_templates
-from tests.ui.desk import BOARD, VIEW, FakeConsole, Program
+from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50)]
 HERE = Site("simulated", "real", "ideal")

@@ -15,7 +15,7 @@ from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called
 from drillctl.ui.widgets.menus import Item, hot_letter, plain_label
 from drillctl.ui.widgets.themes import ATTRIBUTES, DEFAULT_THEME, THEMES, depth_of, palette
 from drillctl.ui.widgets.windows import Window
-from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
+from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Program
 
 SIZES = [(80, 24), (160, 50), (50, 15)]
 

@@ -27,7 +27,7 @@ from drillctl.ui.widgets import texts
 from drillctl.ui.widgets.dialogs import Field
 from drillctl.viewmodel.jobs import Asked, RecentJob, Site, UnfinishedJob
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
-from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
+from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
 from tests.ui.whole import BLINKER, SCREENS, at_home
 
 NASTY = "n\x1b[31m\x07\x9b2J\r\u202e\u200b\udcff"
@@ -123,18 +123,18 @@ def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return home
 
 
-class JobRunner:
-    """The whole program, its station on tables of the folder it was started in."""
+class WholeProgram:
+    """The whole program, its console on tables of the folder it was started in."""
 
     def __init__(self) -> None:
         library = Library((Path("tables"), shipped_tables()))
-        self.station = MachineConsole(
+        self.console = MachineConsole(
             library, library.machine("pcb-drill"), RunSettings("simulated", "free"), tools="ask"
         )
         self.paper = Paper()
         self.paper.size = (100, 40)
-        makers = EditorScreens(library, self.station, plain=False).makers()
-        self.app = app.App(self.station, makers=makers, terminal=self.paper)
+        makers = EditorScreens(library, self.console, plain=False).makers()
+        self.app = app.App(self.console, makers=makers, terminal=self.paper)
 
     def press(self, *keys: str) -> None:
         for key in keys:
@@ -150,39 +150,39 @@ class JobRunner:
 
 @pytest.mark.parametrize("screen", SCREENS)
 def test_every_screen(screen: str, hostile: Path) -> None:
-    desk = JobRunner()
+    whole = WholeProgram()
     try:
-        desk.app.show(screen)
-        desk.press("down", "enter", "down", "enter", "f1", "esc", "s", "esc", "esc")
-        desk.app.show(screen)
-        desk.press("end", "down", "down", "enter", "enter", "esc", "f9", "down", "right", "esc")
+        whole.app.show(screen)
+        whole.press("down", "enter", "down", "enter", "f1", "esc", "s", "esc", "esc")
+        whole.app.show(screen)
+        whole.press("end", "down", "down", "enter", "enter", "esc", "f9", "down", "right", "esc")
     finally:
-        desk.station.close()
+        whole.console.close()
 
 
 def test_a_board_whose_name_is_no_utf_8_is_loaded_and_drilled(hostile: Path) -> None:
-    desk = JobRunner()
+    whole = WholeProgram()
     try:
-        files: Any = desk.app.show("files")
+        files: Any = whole.app.show("files")
         files._browser.stand_on(hostile.resolve() / f"a{NASTY}.drl")
-        desk.press("enter")
-        board = desk.station.board()
+        whole.press("enter")
+        board = whole.console.board()
         assert board is not None and os.fsencode(board.file).endswith(b"\xff.drl")
-        assert not desk.station.start(False)
-        desk.press("l", "esc", "f2")
+        assert not whole.console.start(False)
+        whole.press("l", "esc", "f2")
     finally:
-        desk.station.close()
+        whole.console.close()
 
 
 def test_a_queue_with_comments_is_shown_and_kept(hostile: Path) -> None:
-    desk = JobRunner()
+    whole = WholeProgram()
     try:
-        editor: Any = desk.app.show("queue_editor")
+        editor: Any = whole.app.show("queue_editor")
         editor._open("c.kmd")
-        desk.press("down", "down")
+        whole.press("down", "down")
         assert editor.text == (hostile / "c.kmd").read_text()
     finally:
-        desk.station.close()
+        whole.console.close()
 
 
 def picture() -> Picture:

@@ -13,7 +13,7 @@ from drillctl.ui.screens.menus import HELP
 from drillctl.ui.screens.shell import MachineScreens
 from drillctl.viewmodel.console import MachineView
 from tests.test_rooms import PACKAGE, imported_modules
-from tests.ui.desk import VIEW, FakeConsole, Program
+from tests.ui.fake_console import VIEW, FakeConsole, Program
 
 UI = PACKAGE / "ui"
 SHARED = ("screens", "models", "widgets", "terminal")

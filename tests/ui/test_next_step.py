@@ -12,7 +12,7 @@ from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.pcb_drill.next_step import ACTIONS, ROWS
 from drillctl.ui.screens.shell import Step
 from drillctl.viewmodel.console import MachineView, ToolWanted
-from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
+from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Program
 
 pytestmark = pytest.mark.usefixtures("idle")
 

@@ -109,13 +109,13 @@ def shell() -> Shell:
 
 
 @pytest.fixture
-def desk() -> Tables:
+def tables() -> Tables:
     return Tables(phase=TABLE)
 
 
 @pytest.fixture
-def editor(shell: Shell, desk: Tables) -> PhaseEditor:
-    return PhaseEditor(Console(), shell, desk, "one")
+def editor(shell: Shell, tables: Tables) -> PhaseEditor:
+    return PhaseEditor(Console(), shell, tables, "one")
 
 
 def test_the_table_is_drawn_as_the_paper_prints_it(editor: PhaseEditor) -> None:
@@ -170,24 +170,24 @@ def test_a_wide_table_shows_the_columns_around_the_cursor(shell: Shell) -> None:
     assert header[-1] == "80" and "[.]" in text_of(editor)
 
 
-def test_saving_offers_to_start_the_machine_anew(editor: PhaseEditor, shell: Shell, desk: Tables) -> None:
+def test_saving_offers_to_start_the_machine_anew(editor: PhaseEditor, shell: Shell, tables: Tables) -> None:
     press(editor, " ", "f2")
-    assert desk.own["phase"] == editor.text and not editor.changed
+    assert tables.own["phase"] == editor.text and not editor.changed
     assert "position will be lost" in shell.asked[0] and "your own copy" in text_of(editor)
 
 
 def test_a_problem_is_never_saved(shell: Shell) -> None:
-    desk = Tables(phase="bad 5 xx..")
-    editor = PhaseEditor(Console(), shell, desk, "one")
+    tables = Tables(phase="bad 5 xx..")
+    editor = PhaseEditor(Console(), shell, tables, "one")
     assert "problem: 1: it is bad" in text_of(editor)
     press(editor, "f2")
-    assert desk.own == {} and shell.told == [("Not saved", ["1: it is bad"])]
+    assert tables.own == {} and shell.told == [("Not saved", ["1: it is bad"])]
 
 
-def test_reset_asks_and_goes_back_to_the_shipped_table(desk: Tables) -> None:
-    desk.own["phase"] = "1a 5 x..."
+def test_reset_asks_and_goes_back_to_the_shipped_table(tables: Tables) -> None:
+    tables.own["phase"] = "1a 5 x..."
     shell = Shell(says_yes=True)
-    editor = PhaseEditor(Console(), shell, desk, "one")
+    editor = PhaseEditor(Console(), shell, tables, "one")
     press(editor, "f8")
     assert len(shell.asked) == 1 and editor.text == TABLE and "(shipped)" in text_of(editor)
     press(editor, "f8")
@@ -199,18 +199,18 @@ def test_the_difference_is_told(editor: PhaseEditor, shell: Shell) -> None:
     assert [lines for _title, lines in shell.told] == [["none: this is the shipped table"], ["-before", "+after"]]
 
 
-def test_a_refusal_of_the_machine_is_told(desk: Tables) -> None:
+def test_a_refusal_of_the_machine_is_told(tables: Tables) -> None:
     shell, console = Shell(says_yes=True), Console()
     console.refusal = ("at work",)
-    press(PhaseEditor(console, shell, desk, "one"), " ", "f2")
+    press(PhaseEditor(console, shell, tables, "one"), " ", "f2")
     assert console.chosen == ["drill"] and shell.told == [("Not loaded", ["at work"])]
 
 
-def test_a_table_that_drives_nothing_here_is_saved_without_a_question(desk: Tables) -> None:
+def test_a_table_that_drives_nothing_here_is_saved_without_a_question(tables: Tables) -> None:
     shell, console = Shell(says_yes=True), Console()
-    desk.in_use = False
-    press(PhaseEditor(console, shell, desk, "one"), " ", "f2")
-    assert "phase" in desk.own and not shell.asked and not console.chosen
+    tables.in_use = False
+    press(PhaseEditor(console, shell, tables, "one"), " ", "f2")
+    assert "phase" in tables.own and not shell.asked and not console.chosen
     assert [title for title, _lines in shell.told] == ["Saved"]
 
 
@@ -238,9 +238,9 @@ def test_many_wires_show_the_cursor_and_the_verdict_at_eighty_by_twenty_four(she
         press(editor, "down")
 
 
-def test_edits_that_were_given_up_are_gone(desk: Tables) -> None:
+def test_edits_that_were_given_up_are_gone(tables: Tables) -> None:
     shell = Shell(says_yes=True)
-    editor = PhaseEditor(Console(), shell, desk, "one")
+    editor = PhaseEditor(Console(), shell, tables, "one")
     press(editor, " ", "esc")
     assert shell.closed == 1 and not editor.changed and editor.text == TABLE
 

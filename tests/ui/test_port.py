@@ -7,8 +7,8 @@ import pytest
 from drillctl.ui.screens.port import PortScreen
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.signals import PortReport, PortView
-from tests.ui.desk import VIEW, FakeConsole, Program
 from tests.ui.editor_fakes import Shell, press, text_of
+from tests.ui.fake_console import VIEW, FakeConsole, Program
 
 PORT = PortView("simulated", False, "REAL", "MEGA", "firmata", False)
 OUTPUTS = "outputs: " + " ".join(f"D{n}" for n in range(16, 40))

@@ -12,7 +12,7 @@ from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.widgets.dialogs import WIDEST
 from drillctl.viewmodel.console import ToolWanted
-from tests.ui.desk import BOARD, FAULT, VIEW, FakeConsole, Program
+from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Program
 from tests.ui.whole import SCREENS, Whole, at_home
 
 pytestmark = pytest.mark.usefixtures("idle")
@@ -127,7 +127,7 @@ def test_every_screen_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPat
             while program.app.layers.top:
                 program.app.layers.pop()
     finally:
-        program.station.close()
+        program.console.close()
 
 
 def test_every_sign_of_the_drilling_screen_is_explained() -> None:

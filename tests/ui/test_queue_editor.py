@@ -43,7 +43,7 @@ def console() -> Console:
 
 
 @pytest.fixture
-def desk() -> Queues:
+def queues() -> Queues:
     return Queues()
 
 
@@ -53,8 +53,8 @@ def hands(console: Console) -> Hands:
 
 
 @pytest.fixture
-def editor(console: Console, shell: Shell, desk: Queues, hands: Hands) -> QueueEditor:
-    return QueueEditor(console, shell, desk, hands)
+def editor(console: Console, shell: Shell, queues: Queues, hands: Hands) -> QueueEditor:
+    return QueueEditor(console, shell, queues, hands)
 
 
 def test_a_move_too_long_is_warned_of_and_can_be_tried(editor: QueueEditor, console: Console) -> None:
@@ -154,11 +154,11 @@ def test_a_refusal_is_told_and_the_cursor_stays(three_lines: QueueEditor, consol
     assert shell.told == [("Not run", ["the machine is at work"])] and "line 2" in text_of(three_lines)
 
 
-def test_a_queue_is_saved_and_opened(editor: QueueEditor, shell: Shell, desk: Queues) -> None:
+def test_a_queue_is_saved_and_opened(editor: QueueEditor, shell: Shell, queues: Queues) -> None:
     press(editor, *"KMD_RUCH x=1", "f2")
-    assert desk.files == {"q.kmd": "KMD_RUCH x=1"} and not editor.changed
+    assert queues.files == {"q.kmd": "KMD_RUCH x=1"} and not editor.changed
     assert "Queue of commands: q.kmd" in text_of(editor)
-    desk.files["q.kmd"] = "KMD_CZEKAJ 5"
+    queues.files["q.kmd"] = "KMD_CZEKAJ 5"
     press(editor, "f3")
     assert editor.text == "KMD_CZEKAJ 5" and not editor.changed
 

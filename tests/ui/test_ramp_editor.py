@@ -18,13 +18,13 @@ def shell() -> Shell:
 
 
 @pytest.fixture
-def desk() -> Tables:
+def tables() -> Tables:
     return Tables(ramp=TABLE)
 
 
 @pytest.fixture
-def editor(shell: Shell, desk: Tables) -> RampEditor:
-    return RampEditor(Console(), shell, desk, "one")
+def editor(shell: Shell, tables: Tables) -> RampEditor:
+    return RampEditor(Console(), shell, tables, "one")
 
 
 def states(editor: RampEditor) -> list[list[str]]:
@@ -82,9 +82,9 @@ def test_an_unsound_ramp_is_not_drawn(editor: RampEditor) -> None:
     assert attributes_of(editor, "no profile") == {"warning"}
 
 
-def test_a_sound_ramp_is_saved(editor: RampEditor, desk: Tables) -> None:
+def test_a_sound_ramp_is_saved(editor: RampEditor, tables: Tables) -> None:
     press(editor, "5", "f2")
-    assert desk.own["ramp"] == "-1 5 -2 4\n0 0 0 7\n1 1 2 4" and "your own copy" in text_of(editor)
+    assert tables.own["ramp"] == "-1 5 -2 4\n0 0 0 7\n1 1 2 4" and "your own copy" in text_of(editor)
 
 
 def test_a_pair_of_states_comes_and_goes_and_the_cursor_stays_on_its_state(editor: RampEditor) -> None:
@@ -111,7 +111,7 @@ def test_a_ramp_of_many_states_shows_the_cursor_the_profile_and_the_verdict(
 
 
 class Unread(Tables):
-    """A desk that can't read the rows of a ramp."""
+    """Tables of which no ramp's rows can be read."""
 
     def ramp(self, text: str) -> Any:
         return type(super().ramp(TABLE))(())

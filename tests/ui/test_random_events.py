@@ -1,7 +1,7 @@
 """Keys, clicks and new sizes at random on the whole program, with a machine that runs free behind it.
 
 Nothing is raised, nothing moves but by the few actions that the operator knows to move something, and the emergency
-stop is live in every state that comes up. Spied on is the station: whatever goes down to the machine goes through it.
+stop is live in every state that comes up. Spied on is the console: whatever goes down to the machine goes through it.
 """
 
 import random
@@ -79,22 +79,22 @@ class Chance(Whole):
 
 def check_moves(chance: Chance) -> None:
     """What moved since the last look was asked for; what bores or goes on with a job, in answer to a question."""
-    for what, by in chance.station.moved:
+    for what, by in chance.console.moved:
         chance.waiting += {"jog": 1, "run_queue": -int(CARRIED_ON in by and not by & MOVING)}.get(what, 0)
         assert chance.waiting >= 0, "more steps were made than keys pressed"
         assert by & MOVING or ANSWERED in by or CARRIED_ON in by, (what, by)
         assert what not in ("start", "go_on", "tool_changed") or ANSWERED in by, (what, by)
         assert "App._beat" not in by and "App.turn" not in by, (what, by)
-    chance.station.moved.clear()
+    chance.console.moved.clear()
 
 
 def check_stop(chance: Chance) -> None:
     """F10 reaches the machine from here."""
-    before = chance.station.stops
+    before = chance.console.stops
     chance.press("f10")
     chance.go_on(100)
-    assert chance.station.stops == before + 1, chance.state()
-    view = chance.station.view()
+    assert chance.console.stops == before + 1, chance.state()
+    view = chance.console.view()
     assert view.condition == "latched" and not view.moving, chance.state()
 
 
@@ -117,4 +117,4 @@ def test_random_events_raise_nothing_move_nothing_unasked_and_leave_the_stop_ali
         tops, screens = {top for top, _screen in chance.seen}, {screen for _top, screen in chance.seen}
         assert {"NoneType", "Dialog", "PullDown"} <= tops and len(screens) >= 6, chance.seen
     finally:
-        chance.station.close()
+        chance.console.close()

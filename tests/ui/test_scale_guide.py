@@ -57,34 +57,34 @@ class Rig:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> TableFiles:
+def tables(tmp_path: Path) -> TableFiles:
     library = Library((tmp_path, shipped_tables()))
     return TableFiles(library, tmp_path, lambda: library.machine("pcb-drill"))
 
 
-def measure(rig: Rig, desk: TableFiles, *typed: str, yes: bool = True) -> tuple[Answers, ConfigurationScreen]:
+def measure(rig: Rig, tables: TableFiles, *typed: str, yes: bool = True) -> tuple[Answers, ConfigurationScreen]:
     """With the cursor on the scale of X."""
     shell = Answers(says_yes=yes, typed=list(typed))
-    screen = ConfigurationScreen(rig, shell, desk, "pcb-drill")
+    screen = ConfigurationScreen(rig, shell, tables, "pcb-drill")
     press(screen, "down", "down", "down", "f12")
     return shell, screen
 
 
-def test_a_measured_scale_is_shown_beside_the_old_one_and_saved_on_a_yes(desk: TableFiles) -> None:
+def test_a_measured_scale_is_shown_beside_the_old_one_and_saved_on_a_yes(tables: TableFiles) -> None:
     rig = Rig()
-    shell, screen = measure(rig, desk, "2400", "51,3")
+    shell, screen = measure(rig, tables, "2400", "51,3")
     told = "2400 steps, 51.3 mm: 1188 columns/inch instead of 1200 (-1.00 %). A reading wrong by 0.1 mm makes 0.19 %."
     assert shell.told == [] and told in shell.asked[2] and "X: scale" in text_of(screen)
-    text = desk.read("machines", "pcb-drill")
+    text = tables.read("machines", "pcb-drill")
     assert "columns_per_inch = 1188" in text and "[[axis]] # moves the head" in text, "comments stay"
     assert text.count("columns_per_inch = 1200") == 2, "of X alone"
     assert rig.chosen == ["pcb-drill"]
 
 
-def test_a_no_saves_nothing(desk: TableFiles) -> None:
-    before = desk.read("machines", "pcb-drill")
-    measure(Rig(), desk, "2400", "51.3", yes=False)
-    assert desk.read("machines", "pcb-drill") == before
+def test_a_no_saves_nothing(tables: TableFiles) -> None:
+    before = tables.read("machines", "pcb-drill")
+    measure(Rig(), tables, "2400", "51.3", yes=False)
+    assert tables.read("machines", "pcb-drill") == before
 
 
 @pytest.mark.parametrize(
@@ -100,24 +100,24 @@ def test_a_no_saves_nothing(desk: TableFiles) -> None:
         (["2.5"], "'2.5' is not a whole number"),
     ],
 )
-def test_what_can_not_be_is_refused_and_nothing_is_saved(typed: list[str], why: str, desk: TableFiles) -> None:
-    before = desk.read("machines", "pcb-drill")
-    shell, _screen = measure(Rig(), desk, *typed)
+def test_what_can_not_be_is_refused_and_nothing_is_saved(typed: list[str], why: str, tables: TableFiles) -> None:
+    before = tables.read("machines", "pcb-drill")
+    shell, _screen = measure(Rig(), tables, *typed)
     assert shell.told[0][0] == "Not measured" and why in shell.told[0][1][0]
-    assert desk.read("machines", "pcb-drill") == before
+    assert tables.read("machines", "pcb-drill") == before
 
 
-def test_the_steps_that_were_made_count_and_not_those_asked_for(desk: TableFiles) -> None:
+def test_the_steps_that_were_made_count_and_not_those_asked_for(tables: TableFiles) -> None:
     rig = Rig()
     rig.slip = 1200
-    shell, _screen = measure(rig, desk, "2400", "25.4")
+    shell, _screen = measure(rig, tables, "2400", "25.4")
     assert shell.asked[2].startswith("1200 steps, 25.4 mm: 1200 columns/inch instead of 1200 (+0.00 %)")
 
 
-def test_a_reading_while_it_moves_is_asked_for_again(desk: TableFiles) -> None:
+def test_a_reading_while_it_moves_is_asked_for_again(tables: TableFiles) -> None:
     rig = Rig()
     shell = Answers(typed=["2400"])
-    screen = ConfigurationScreen(rig, shell, desk, "pcb-drill")
+    screen = ConfigurationScreen(rig, shell, tables, "pcb-drill")
     press(screen, "down", "down", "down")
     rig.jog = lambda axis, steps: setattr(rig, "moving", True) or ()
     shell.typed.append("51.3")
@@ -135,18 +135,18 @@ def test_a_reading_while_it_moves_is_asked_for_again(desk: TableFiles) -> None:
     ],
 )
 def test_where_a_measurement_would_mean_nothing_it_is_not_begun(
-    change: dict[str, Any], why: str, desk: TableFiles
+    change: dict[str, Any], why: str, tables: TableFiles
 ) -> None:
     rig = Rig()
     for name, value in change.items():
         setattr(rig, name, value)
-    shell, _screen = measure(rig, desk, "2400", "51.3")
+    shell, _screen = measure(rig, tables, "2400", "51.3")
     assert shell.told[0][0] == "Not measured" and why in shell.told[0][1][0]
 
 
-def test_only_an_axis_has_a_scale_and_nothing_typed_may_be_saved_with_it(desk: TableFiles) -> None:
+def test_only_an_axis_has_a_scale_and_nothing_typed_may_be_saved_with_it(tables: TableFiles) -> None:
     shell = Answers(typed=["2400", "51.3"])
-    screen = ConfigurationScreen(Rig(), shell, desk, "pcb-drill")
+    screen = ConfigurationScreen(Rig(), shell, tables, "pcb-drill")
     press(screen, "f12")
     press(screen, "down", "down", "down", "end", "5", "f12")
     assert [lines for _title, lines in shell.told] == [
@@ -166,11 +166,11 @@ def test_a_measurement_is_plausible_or_gives_a_reason(steps: int, per_step: int,
 
 
 @pytest.fixture
-def locked(desk: TableFiles, tmp_path: Path) -> TableFiles:
+def locked(tables: TableFiles, tmp_path: Path) -> TableFiles:
     """With a file that an instructor has locked two settings in."""
-    text = desk.read("machines", "pcb-drill").replace("tick_hz = 500\n", f"tick_hz = 500\n{LOCKED}")
-    assert desk.save("machines", "pcb-drill", text) == ()
-    return desk
+    text = tables.read("machines", "pcb-drill").replace("tick_hz = 500\n", f"tick_hz = 500\n{LOCKED}")
+    assert tables.save("machines", "pcb-drill", text) == ()
+    return tables
 
 
 def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: TableFiles) -> None:
@@ -185,7 +185,7 @@ def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Ta
     assert screen.changed, "of Y it is not"
 
 
-def test_a_lock_holds_at_the_desk_too_and_a_copy_keeps_it(locked: TableFiles) -> None:
+def test_a_lock_holds_on_the_screens_too_and_a_copy_keeps_it(locked: TableFiles) -> None:
     text = locked.read("machines", "pcb-drill")
     assert locked.with_field(text, ("tick_hz",), "600") == (
         text, ("tick_hz is locked in line 6 of the machine's file; whoever keeps the file opens it there",)
@@ -208,30 +208,30 @@ def test_a_lock_changes_nothing_that_a_trace_knows_the_machine_by(locked: TableF
     assert library.machine("pcb-drill").digest == Library((shipped_tables(),)).machine("pcb-drill").digest
 
 
-def test_machines_are_compared_field_by_field_and_others_line_by_line(desk: TableFiles) -> None:
-    told = differences(desk, "machines", "pcb-drill", "pcb-drill-ramp-lab")
+def test_machines_are_compared_field_by_field_and_others_line_by_line(tables: TableFiles) -> None:
+    told = differences(tables, "machines", "pcb-drill", "pcb-drill-ramp-lab")
     assert told[0].split() == ["pcb-drill", "pcb-drill-ramp-lab"]
     assert ["X:", "scale", "1200", "1200"] not in [row.split() for row in told]
     assert ["X:", "columns", "of", "a", "step", "1", "6"] in [row.split() for row in told]
     assert ["X:", "highest", "position", "16535", "2588"] in [row.split() for row in told]
-    assert differences(desk, "machines", "pcb-drill", "pcb-drill") == []
-    assert "+interval = 9" in differences(desk, "ramp", "seven-state", "even-interval")
+    assert differences(tables, "machines", "pcb-drill", "pcb-drill") == []
+    assert "+interval = 9" in differences(tables, "ramp", "seven-state", "even-interval")
 
 
-def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(desk: TableFiles, tmp_path: Path) -> None:
-    assert desk.copy("machines", "pcb-drill", "mine") == ()
-    assert [entry.ships for entry in desk.tables("machines") if entry.name in ("mine", "pcb-drill")] == [False, True]
-    assert "comes with the program" in desk.delete("machines", "pcb-drill")[0]
-    assert desk.delete("machines", "mine") == () and not (tmp_path / "machines" / "mine.toml").exists()
-    assert desk.delete("machines", "mine") != ()
+def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(tables: TableFiles, tmp_path: Path) -> None:
+    assert tables.copy("machines", "pcb-drill", "mine") == ()
+    assert [entry.ships for entry in tables.tables("machines") if entry.name in ("mine", "pcb-drill")] == [False, True]
+    assert "comes with the program" in tables.delete("machines", "pcb-drill")[0]
+    assert tables.delete("machines", "mine") == () and not (tmp_path / "machines" / "mine.toml").exists()
+    assert tables.delete("machines", "mine") != ()
 
 
-def test_a_higher_ramp_is_proposed_that_lands_and_three_states_stay(desk: TableFiles) -> None:
-    text = desk.read("ramp", "seven-state")
-    higher = desk.with_top(text, higher=True)
-    assert desk.check("ramp", higher).problems == () and desk.ramp(higher).states[-1].state == 4
-    assert desk.with_top(higher, higher=False) == text
+def test_a_higher_ramp_is_proposed_that_lands_and_three_states_stay(tables: TableFiles) -> None:
+    text = tables.read("ramp", "seven-state")
+    higher = tables.with_top(text, higher=True)
+    assert tables.check("ramp", higher).problems == () and tables.ramp(higher).states[-1].state == 4
+    assert tables.with_top(higher, higher=False) == text
     for _ in range(5):
-        text = desk.with_top(text, higher=False)
-    assert [row.state for row in desk.ramp(text).states] == [-1, 0, 1]
-    assert desk.with_top("no ramp", higher=True) == "no ramp"
+        text = tables.with_top(text, higher=False)
+    assert [row.state for row in tables.ramp(text).states] == [-1, 0, 1]
+    assert tables.with_top("no ramp", higher=True) == "no ramp"

@@ -14,7 +14,7 @@ from drillctl.ui.screens.scope_keys import SCOPE_KEYS, SEARCHES
 from drillctl.ui.screens.scope_view import LACKS
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.scope import ScopeSource
-from tests.ui.desk import FakeConsole, Program
+from tests.ui.fake_console import FakeConsole, Program
 
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
 SIZES = [(80, 24), (160, 50)]
@@ -35,7 +35,7 @@ def square(tmp_path_factory: pytest.TempPathFactory) -> TraceFile:
 
 
 class Runs:
-    """A desk with one run, and a file that can be opened."""
+    """A RunReading with one run, and a file that can be opened."""
 
     def __init__(self, source: TraceFile, answer: Problems = ()):
         self.source, self.answer, self.opened = source, answer, [""]

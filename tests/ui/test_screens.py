@@ -17,7 +17,7 @@ from drillctl.ui.screens.jog_controls import JOG_SIZES, MM, STEPS
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import Asked, MachineView, ToolWanted
 from drillctl.viewmodel.records import Progress
-from tests.ui.desk import BOARD, VIEW, WIRES, FakeConsole, Program
+from tests.ui.fake_console import BOARD, VIEW, WIRES, FakeConsole, Program
 
 MIDDLE = Progress(2, 4, 1, 2500, 5.0, 5.0)
 

@@ -9,8 +9,8 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.ui.models.signal_grid import grid_lines, grid_rows, moved
 from drillctl.ui.screens.signals import Signals
 from drillctl.viewmodel.signals import SignalView
-from tests.ui.desk import VIEW
 from tests.ui.editor_fakes import Console, Hands, Shell, attributes_of, press, text_of
+from tests.ui.fake_console import VIEW
 
 LIBRARY = Library((shipped_tables(),))
 SOME = (

@@ -1,6 +1,6 @@
-"""The whole program in one process: every screen on paper, and a station whose machine runs free behind them.
+"""The whole program in one process: every screen on paper, and a console whose machine runs free behind them.
 
-Rule: only the terminal is a stand-in; the station notes what sets its machine going, and by which actions of the
+Rule: only the terminal is a stand-in; the console notes what sets its machine going, and by which actions of the
 screens. Used by the tests that try everything on every screen.
 """
 
@@ -20,7 +20,7 @@ from drillctl.ticker.launch import RunSettings
 from drillctl.ui import app
 from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.jobs import Asked
-from tests.ui.desk import Paper
+from tests.ui.fake_console import Paper
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 SCREENS = (
@@ -42,7 +42,7 @@ def at_home(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def actions() -> set[str]:
-    """The functions of screens and station that are on their way just now."""
+    """The functions of screens and console that are on their way just now."""
     found, frame = set(), sys._getframe(1)
     while frame.f_back is not None:
         frame = frame.f_back
@@ -110,11 +110,11 @@ class Whole:
     """The program at a size, in the language that is spoken. To be closed."""
 
     def __init__(self, size: tuple[int, int] = (80, 24)):
-        self.station = Watched()
+        self.console = Watched()
         self.paper = Paper()
         self.paper.size = size
-        makers = EditorScreens(Library((shipped_tables(),)), self.station, plain=False).makers()
-        self.app = app.App(self.station, makers=makers, terminal=self.paper)
+        makers = EditorScreens(Library((shipped_tables(),)), self.console, plain=False).makers()
+        self.app = app.App(self.console, makers=makers, terminal=self.paper)
 
     def press(self, *events: Event) -> None:
         """As the loop does it: filter, widgets, and what is left."""
@@ -125,7 +125,7 @@ class Whole:
     def go_on(self, turns: int) -> None:
         """The machine works, and the screen shows it."""
         for _ in range(turns):
-            self.station.turn()
+            self.console.turn()
         self.app.turn()
 
     def text(self) -> str:

@@ -72,7 +72,7 @@ class Digits:
 
     @property
     def count(self) -> int:
-        """How many numbers."""
+        """How many numbers were counted, of any length."""
         return int(self.counts.sum())
 
     @property

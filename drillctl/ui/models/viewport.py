@@ -147,7 +147,7 @@ class SignalRows:
         return replace(self, hidden=frozenset(range(self.count)) - {*rows, self.at})
 
     def all(self) -> "SignalRows":
-        """No row hidden."""
+        """The same rows with every hidden one shown again."""
         return replace(self, hidden=frozenset())
 
     def put(self, line: int, room: int) -> "SignalRows":

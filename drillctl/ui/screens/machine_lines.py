@@ -12,7 +12,7 @@ class Phases(Protocol):
 
     @property
     def name(self) -> str:
-        """The axis's name."""
+        """The axis as the machine's file names it, such as x."""
 
     @property
     def column(self) -> int:
