@@ -17,8 +17,9 @@ from drillctl.kmd import to_text
 from drillctl.machine import AxisTable, Machine
 from drillctl.ticker.sampler import EVERY_LANE, signals
 from drillctl.trace import Signal
-from drillctl.trace.lanes import Lanes
+from drillctl.trace.lanes import Column, Lanes
 from drillctl.trace.ring import CHANGE, RingRecorder
+from drillctl.trace.tape_lanes import TapeColumn
 from drillctl.trace.values import OPCODES
 from drillctl.viewmodel.scope import AxisMoment, Changes, Find, Ints, Moment, Notice, ScopeSignal, Strip
 
@@ -56,7 +57,7 @@ class RunScope:
         """Notices of what was forgotten, and of the first tick at another tick rate."""
         forgotten = [Notice("forgotten", self.first_tick)] if self.first_tick else []
         pace = self._index.get((RUN, "pace"))
-        changed = None if pace is None else self.lanes.columns[pace].find(self.first_tick - 1, 1, onset=True)
+        changed = None if pace is None else self._column(pace).find(self.first_tick - 1, 1, onset=True)
         return (*forgotten, *([] if changed is None else [Notice("other rate", changed)]))
 
     def signals(self) -> tuple[ScopeSignal, ...]:
@@ -75,11 +76,11 @@ class RunScope:
 
     def window(self, signal: int, from_tick: int, to_tick: int) -> Changes:
         """The changes of a signal between two ticks; views into the lane, but for the first row."""
-        return Changes(*self.lanes.columns[signal].window(from_tick, to_tick))
+        return Changes(*self._column(signal).window(from_tick, to_tick))
 
     def strip(self, signal: int, edges: Ints) -> Strip:
         """What a signal does between each two neighbouring edges (n,) in ticks, by two binary searches each."""
-        return Strip(*self.lanes.columns[signal].strip(edges))
+        return Strip(*self._column(signal).strip(edges))
 
     def at(self, tick: int) -> Moment:
         """All values, the command and the axes in one tick, by a binary search in each lane."""
@@ -92,14 +93,18 @@ class RunScope:
     def find(self, what: Find, tick: int, direction: int, signal: int) -> int | None:
         """The nearest tick with an event in a direction (+1, -1), from any lane that can show it; None for none."""
         onset = what != "change" and LANDMARKS[what].onset
-        lanes = (self.lanes.columns[number] for number in lanes_with(what, signal, self._signals))
+        lanes = (self._column(number) for number in lanes_with(what, signal, self._signals))
         found = [place for lane in lanes if (place := lane.find(tick, direction, onset)) is not None]
         within = [place for place in found if place <= self.last_tick]
         return (min(within) if direction > 0 else max(within)) if within else None
 
     def _value(self, signal: int, tick: int) -> int | None:
         known = self.first_tick <= tick < self.known_to(signal)
-        return self.lanes.columns[signal].at(tick) if known else None
+        return self._column(signal).at(tick) if known else None
+
+    def _column(self, signal: int) -> Column | TapeColumn:
+        """What answers for a signal."""
+        return self.lanes.columns[signal]
 
     def _named(self, group: str, values: tuple[int | None, ...]) -> dict[str, int | None]:
         pairs = zip(self._signals, values, strict=True)

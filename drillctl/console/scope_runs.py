@@ -16,11 +16,15 @@ from drillctl.console.scope import RunRecording, RunScope
 from drillctl.machine import Library, Machine, TableError
 from drillctl.plant import Plant, PlantRefused
 from drillctl.plant.choice import DYNAMIC
+from drillctl.ports import CARD_BITS
 from drillctl.replay.derived_signals import AxisState, Jumps, rerun
 from drillctl.replay.header import check_tick, choice_of, machine_of, same_tables
 from drillctl.ticker.sampler import signals
-from drillctl.trace import Signal, Trace, TraceError
-from drillctl.trace.files import read_trace
+from drillctl.trace import Segments, Signal, Trace, TraceError
+from drillctl.trace.files import read_record
+from drillctl.trace.lanes import Column
+from drillctl.trace.segments import OUTPUT
+from drillctl.trace.tape_lanes import TapeColumn, TapeView
 from drillctl.trace.values import IDLE, Values
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.scope import Notice
@@ -35,7 +39,8 @@ class TraceFile(RunScope):
     """
 
     def __init__(self, file: Path, library: Library, from_tick: int = 0):
-        recorded = read_trace(file)
+        record = read_record(file)
+        recorded = record.rest if isinstance(record, Segments) else record
         machine = machine_of(recorded, file, library)
         check_tick(recorded, file, from_tick)
         plant = _dynamic(recorded, machine)
@@ -43,7 +48,10 @@ class TraceFile(RunScope):
         derived = [signal for signal in sampled if signal.derived]
         missing = [signal for signal in derived if not recorded.has(signal.name)]
         own, values = _idle_first(recorded)
+        if isinstance(record, Segments):  # its outputs are looked at in the segments, and have no rows
+            own += [signal for signal in record.signals if not recorded.has(signal.name)]
         super().__init__(f"{file.name} ({machine.name})", machine, (*own, *missing), MOST_ROWS)
+        self._outputs = self._taped(record) if isinstance(record, Segments) else {}
         self.lanes.append(recorded.ticks, recorded.signal, values)
         self.last_tick, self.opening_tick = recorded.end - 1, from_tick
         self._commands = dict(value.split(" ", 1) for value in recorded.header_values("command") if " " in value)
@@ -75,6 +83,19 @@ class TraceFile(RunScope):
         if self._missing and self._other_tables:
             found.append(Notice("other tables"))
         return tuple(found)
+
+    def _column(self, signal: int) -> Column | TapeColumn:
+        """As of any run; an output of a run in segments is looked at there."""
+        return self._outputs.get(signal) or super()._column(signal)
+
+    def _taped(self, segments: Segments) -> dict[int, TapeColumn]:
+        """What answers for each lane that is a bit of the outputs."""
+        view, found = TapeView(segments), {}
+        for number, (_shown, lane) in enumerate(self._laid):
+            card = OUTPUT.fullmatch(self._recorded[lane.signal].name)
+            if card and lane.bit is not None:
+                found[number] = TapeColumn(view, CARD_BITS * int(card[1]) + lane.bit, lane.invert)
+        return found
 
     def _value(self, signal: int, tick: int) -> int | None:
         """As of any run; of an axis also in a tick that the run has not reached yet."""

@@ -15,6 +15,7 @@ host is ever written.
     shape      a signal as a dense array, one value a tick
     ring       a recorder in memory that two processes share
     lanes      the changes of a run that goes on, one lane for each signal or bit: what the scope draws
+    tape_lanes the same for the outputs of a run in segments, which are not made into changes
     target     a path or an open file, for all that write
 """
 

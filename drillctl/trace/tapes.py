@@ -7,6 +7,7 @@ once for every column that it may begin at.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -108,7 +109,16 @@ class Tape:
 
     def ends(self) -> Count:
         """Returns the tick behind each slice, (k,)."""
+        return self._ends
+
+    @cached_property
+    def _ends(self) -> Count:
         return np.cumsum(self.ticks)
+
+    def at(self, ticks: Count) -> Count:
+        """Returns where in the pool the image of each of these ticks (n,) is."""
+        row = np.searchsorted(self._ends, ticks, side="right")
+        return self.start[row] + self.ticks[row] - (self._ends[row] - ticks)
 
 
 def images(pool: Images, tapes: Sequence[Tape], out: Images, first: int = 0) -> Images:

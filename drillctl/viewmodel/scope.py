@@ -41,7 +41,7 @@ class Changes:
 @dataclass(frozen=True, eq=False, slots=True)
 class Strip:
     """A signal in n stretches of ticks, as many as there are columns to draw: the value at the end of each, and how
-    often it changed in it, (n,) each. A pulse is counted however short it is."""
+    often it changed in it, (n,) each. A pulse is counted however short it is; two changes may stand for more."""
 
     values: Ints
     changes: Ints

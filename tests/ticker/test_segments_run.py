@@ -113,7 +113,7 @@ def test_more_changes_than_there_is_room_for_are_refused_and_a_part_is_made(
     file, whole, part = tmp_path / "a.seg", tmp_path / "a.trace", tmp_path / "part.trace"
     run(SQUARE, "--trace", str(file))
     monkeypatch.setattr("drillctl.trace.files.MOST_CHANGES", 1000)
-    assert main(["convert", str(file), "--to", str(whole)]) == main(["scope", str(file)]) == 2
+    assert main(["convert", str(file), "--to", str(whole)]) == 2
     told = capsys.readouterr().err
     assert not whole.exists() and "changes in" in told and "there is room for 1000" in told
     to_tick = told.partition("--to-tick ")[2].split()[0]
