@@ -45,7 +45,6 @@ def call(arguments: argparse.Namespace) -> int:
     running = options.running(arguments, port, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
     if arguments.trace is not None:
         machine_named(machine, arguments.trace)  # raises where it could not be written afterwards
-    if arguments.trace is not None:
         taped = takes_segments(arguments.trace, machine.cards)
     else:
         taped = machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
@@ -81,11 +80,15 @@ def _tell(session: "Session") -> None:
 
 
 def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:
+    from drillctl.replay.compare import in_form_of
     from drillctl.replay.header import machine_named
+    from drillctl.trace import Trace
     from drillctl.trace.files import write_record
 
     record = done.trace
     if trace is not None and record is not None:
+        if isinstance(record, Trace):  # of a run that was ticked; what can be derived is left out of both forms
+            record = in_form_of(trace.path, record.only(lambda signal: not signal.derived), job.machine)
         named = machine_named(job.machine, trace.path)
         write_record(record.with_header([("machine", named), *record.header[1:]]), trace)
 

@@ -6,7 +6,7 @@ fills a Recorder after each tick; everything else only reads the Trace made from
 """
 
 from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -135,6 +135,15 @@ class Trace:
     def with_header(self, header: Header) -> "Trace":
         """Returns the same run with another header."""
         return replace(self, header=tuple(header))
+
+    def only(self, wanted: Callable[[Signal], bool]) -> "Trace":
+        """Returns the same run with the signals that are wanted."""
+        kept = [number for number, signal in enumerate(self.signals) if wanted(signal)]
+        rows = np.isin(self.signal, kept)
+        renumbered = np.searchsorted(kept, self.signal[rows]).astype(np.int32)
+        signals = tuple(self.signals[number] for number in kept)
+        columns = self.ticks[rows], renumbered, self.values[rows]
+        return Trace(self.header, signals, *columns, self.end, self.trailer)
 
     def header_values(self, key: str) -> tuple[str, ...]:
         """Returns all values of a header key, in order; none if it is absent."""

@@ -65,6 +65,11 @@ class Segments:
         """Returns the images of ticks first..end-1."""
         return images(self.pool, self.tapes, np.empty(end - first, self.pool.dtype), first)
 
+    def images_at(self, ticks: Values) -> Images:
+        """Returns the images of these ticks, (n,) each."""
+        found: Images = np.bitwise_or.reduce([self.pool[tape.at(ticks)] for tape in self.tapes])
+        return found
+
     @cached_property
     def checksum(self) -> int:
         """CRC-32 of the array of images, little-endian, one a tick."""
@@ -131,8 +136,4 @@ class Segments:
 
 def without_outputs(trace: Trace) -> Trace:
     """Returns the trace without its output signals."""
-    others = [number for number, signal in enumerate(trace.signals) if not OUTPUT.fullmatch(signal.name)]
-    rows = np.isin(trace.signal, others)
-    renumbered = np.searchsorted(others, trace.signal[rows]).astype(np.int32)
-    signals = tuple(trace.signals[number] for number in others)
-    return Trace(trace.header, signals, trace.ticks[rows], renumbered, trace.values[rows], trace.end, trace.trailer)
+    return trace.only(lambda signal: not OUTPUT.fullmatch(signal.name))

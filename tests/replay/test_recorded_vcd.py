@@ -25,6 +25,17 @@ def test_both_engines_write_the_same_bytes(
     assert files[0].read_bytes() == files[1].read_bytes()
 
 
+@pytest.mark.parametrize("more", [(), ("--vcd", "a.vcd")])
+def test_both_engines_write_the_same_segments(
+    more: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for engine in ("tick", "fast"):
+        call = ["run", str(JOBS / "square.kmd"), "--engine", engine, "--trace", f"{engine}.seg", *more]
+        assert main(call) == 0
+    assert Path("tick.seg").read_bytes() == Path("fast.seg").read_bytes()
+
+
 @pytest.mark.parametrize("kept", ["a.trace", "a.seg"])
 def test_a_trace_beside_it_is_the_one_without_it(kept: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     alone, beside, vcd = tmp_path / kept, tmp_path / f"b{kept}", tmp_path / "a.vcd"
