@@ -1,11 +1,13 @@
-"""Writes docs/KMD.md, FAULTS.md and STATES.md from the tables in the code. A test holds that they are up to date."""
+"""Writes docs/KMD.md, FAULTS.md, STATES.md and GEARS.md from the tables in the code. A test compares."""
 
 from pathlib import Path
 
 from drillctl.execution.conditions import TABLE, Event
 from drillctl.execution.controller import CONDITIONS, Stage
+from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, LETTERS, MM_PER_M, GearRow, gear_rows
 from drillctl.kmd import COMMANDS, FAULTS, Reaction
 from drillctl.kmd.commands import Spec
+from drillctl.machine import Library, shipped_tables
 from drillctl.viewmodel import FAULT_WORDS
 
 ROW = "| {} | `{}` | {} |"
@@ -23,6 +25,12 @@ What execution does on each event at each stage of a controller. The page is the
 `drillctl/execution/conditions.py`, whose first lines explain stages and events; in brackets stands the condition that
 the status record shows. An empty cell changes nothing. A cell names what is done, and the next stage if it
 is another.
+"""
+GEARS_INTRO = """
+The sixteen gears of `boiler-drum`: preferred numbers R10, as the paper gives no figures. A gear is the slowest allowed
+interval of a move. *Ticks*: whole ticks between steps; *error*: of the speed that they give. *Ramp*: travel from rest
+until the gear is reached; *peak*: the most by which the speed grows from one interval to the next, over the time of the
+former.
 """
 REACTIONS = {
     Reaction.STOP: "brakes down the ramp and stops",
@@ -103,7 +111,24 @@ def _first_paragraph(text: str | None) -> str:
     return " ".join((text or "").strip().split("\n\n")[0].split())
 
 
-PAGES = {"KMD.md": commands_page, "FAULTS.md": faults_page, "STATES.md": states_page}
+def gears_page() -> str:
+    machine = Library((shipped_tables(),)).machine("boiler-drum")
+    parts = [MADE.format("drillctl/generation/boiler_drum/gears.py and tables/machines/boiler-drum.toml"), ""]
+    parts += ["# Gears", "", GEARS_INTRO.strip(), f"At {machine.tick_hz} ticks a second:", ""]
+    for axis in machine.axes:
+        parts += [f"## Axis {axis.name}", ""]
+        parts += ["| gear | m/min | steps/s | ticks | error | ramp, mm | peak, m/s2 |", "|---|---|---|---|---|---|---|"]
+        parts += [_gear(row) for row in gear_rows(axis, machine)] + [""]
+    return "\n".join(parts)
+
+
+def _gear(row: GearRow) -> str:
+    speed = f"{GEARS_MM_MIN[row.gear] / MM_PER_M:g}"
+    cells = (LETTERS[row.gear], speed, f"{row.hz:.1f}", row.ticks, f"{row.error:+.2%}", f"{row.ramp_mm:.2f}")
+    return f"| {' | '.join(map(str, cells))} | {row.peak_m_s2:.2f} |"
+
+
+PAGES = {"KMD.md": commands_page, "FAULTS.md": faults_page, "STATES.md": states_page, "GEARS.md": gears_page}
 
 if __name__ == "__main__":
     for name, page in PAGES.items():

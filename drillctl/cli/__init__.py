@@ -10,9 +10,11 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
     latency.py    how punctual ticks are               screen.py    the screen; drillctl without a verb
     scope.py      a trace on the screen                plot.py      pictures of a run
     sweep.py      thousands of variants of a machine   tune.py      the fastest ramp that loses no steps
+    store.py      stores of workpieces by number
 
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
-tool changes while a job runs), number_lists.py (440:640:20), drawing.py (a picture to a file or the terminal),
+tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), drawing.py (a
+picture to a file or the terminal),
 parsing.py (argparse with hints), refusals.py (errors as lines and JSON), streams.py (stdout and stderr), examples.py
 (for --help).
 """
@@ -33,6 +35,7 @@ from drillctl.cli import (
     run,
     scope,
     screen,
+    store,
     streams,
     sweep,
     tables,
@@ -44,7 +47,9 @@ from drillctl.cli.refusals import REFUSED, refuse
 from drillctl.jobs.interrupts import caught, exit_code, leave
 
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
-VERBS = (run, resume, estimate, inspect, convert, replay, tables, ports, latency, screen, scope, plot, sweep, tune)
+VERBS = (
+    run, resume, estimate, inspect, convert, store, replay, tables, ports, latency, screen, scope, plot, sweep, tune
+)  # fmt: skip
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
     "exit: 0 done, 1 the machine stopped on a fault (replay: differs), 2 refused before anything moved, "

@@ -1,16 +1,17 @@
-"""``drillctl convert FILE --to OUT``: writes a drill file as clean Excellon or as a ``.kmd`` queue; a trace as text or
-in segments.
+"""``drillctl convert FILE --to OUT``: writes a drill file as clean Excellon or as a ``.kmd`` queue; a pattern as a part
+program; a trace as text or in segments.
 """
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from drillctl.cli import jobs, options, streams
 from drillctl.cli.operating import waiting
 from drillctl.language import Message, known_words, message_of
 
-QUEUE = ".kmd"
+QUEUE, PART = ".kmd", ".sentences"
+PATTERN = ".toml"
 TRACES = (".trace", ".seg")
 EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD programs name drill files
 
@@ -18,8 +19,11 @@ EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD pr
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("convert", help="write a clean Excellon file or a queue", description=__doc__)
-    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program; a trace")
-    to = f"OUT.kmd: a queue; OUT.trace, OUT.seg: a trace as text, in segments; {' '.join(EXCELLON)}: an Excellon file"
+    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file; a trace; a pattern of holes (.toml)")
+    to = (
+        f"OUT.kmd: a queue; OUT{PART}: a part program; OUT.trace, OUT.seg: a trace as text, in segments; "
+        f"{' '.join(EXCELLON)}: an Excellon file"
+    )
     verb.add_argument("--to", type=Path, required=True, metavar="OUT", help=to)
     verb.add_argument(
         "--style", default="mm,decimal", metavar="F", help="format of the Excellon file; default: %(default)s"
@@ -38,7 +42,7 @@ def call(arguments: argparse.Namespace) -> int:
     ending = _ending(arguments.to)
     if ending in TRACES:
         return _trace(arguments)
-    text, warnings = _queue(arguments) if ending == QUEUE else _excellon(arguments)
+    text, warnings = _WRITERS.get(ending, _excellon)(arguments)
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         for warning in warnings:
             streams.tell(f"warning: {warning}")
@@ -54,7 +58,7 @@ def _ending(out: Path) -> str:
     """
     from drillctl.files.outputs import OutputError
 
-    ending, endings = out.suffix.lower(), (QUEUE, *TRACES, *EXCELLON)
+    ending, endings = out.suffix.lower(), (QUEUE, PART, *TRACES, *EXCELLON)
     if ending and ending not in endings:
         raise OutputError(
             Message(
@@ -94,6 +98,19 @@ def _queue(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     return queue_text(job), job.warnings
 
 
+def _part(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
+    """Returns a part program as text: of a pattern, of another part program, or of a workpiece."""
+    from drillctl.generation.boiler_drum.part import part_of
+    from drillctl.generation.boiler_drum.pattern import read_pattern
+    from drillctl.generation.boiler_drum.text import part_text
+
+    file = arguments.file
+    if file.suffix.lower() == PATTERN:
+        return part_text(read_pattern(file), file.name), ()
+    part = part_of(file, options.machine(arguments), arguments.store)
+    return part_text(part.sentences, file.name), ()
+
+
 def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     """Returns the drill file as text in its own coordinates, with its warnings; placing options don't apply."""
     from drillctl.generation.drillfile import DrillFileError, read
@@ -118,3 +135,6 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     except ValueError as error:
         raise JobError(message_of(error).at(f"--style {arguments.style}")) from error
     return data.decode("ascii"), file_warnings(arguments.file, drill_file)
+
+
+_WRITERS: Mapping[str, Callable[[argparse.Namespace], tuple[str, Sequence[str]]]] = {QUEUE: _queue, PART: _part}

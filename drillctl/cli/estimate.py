@@ -11,7 +11,7 @@ from drillctl.language import json_text
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("estimate", help="say how long a job will take", description=__doc__)
-    verb.add_argument("job", type=Path, metavar="FILE", help="a drill file, or a queue of KMD commands (.kmd)")
+    verb.add_argument("job", type=Path, metavar="FILE", help=jobs.JOB_HELP)
     options.add_machine(verb)
     options.add_engine(verb)
     verb.add_argument("--json", action="store_true", help="print one JSON object")

@@ -70,4 +70,8 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl tune pcb-drill --axis x --out tuned-pcb-drill-x.toml",
         "drillctl tune pcb-drill --margin 1.5 --out careful.toml --name careful",
     ),
+    "store": (
+        "drillctl store put 03 examples/drum-row.sentences --store ram.hex",
+        "drillctl store compare 03 examples/drum-row.sentences --store ram.hex",
+    ),
 }

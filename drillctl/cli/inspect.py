@@ -1,4 +1,4 @@
-"""``drillctl inspect FILE``: what a drill file holds, and which format it was read as."""
+"""``drillctl inspect FILE``: what a drill file holds, and which format it was read as; what a part program does."""
 
 import argparse
 import shutil
@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import jobs
+from drillctl.cli import jobs, options, part_programs
 from drillctl.cli.operating import waiting
 from drillctl.language import json_text
 
@@ -16,15 +16,46 @@ if TYPE_CHECKING:
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
-    verb = verbs.add_parser("inspect", help="say what a drill file holds", description=__doc__)
-    verb.add_argument("file", type=Path, metavar="FILE", help="a drill file of any CAD program")
+    verb = verbs.add_parser("inspect", help="say what a drill file or a part program holds", description=__doc__)
+    kinds = "a drill file of any CAD program, a part program (.sentences), or a workpiece (01..99)"
+    verb.add_argument("file", type=Path, metavar="FILE", help=kinds)
+    options.add_machine(verb)
     jobs.add_reading(verb)
+    jobs.add_store(verb)
+    part_programs.add_language(verb)
     verb.add_argument("--json", action="store_true", help="print one JSON object, also for a refused file")
     verb.set_defaults(call=call)
 
 
 def call(arguments: argparse.Namespace) -> int:
     """Prints the summary; a refused file is an error (exit 2)."""
+    return _part_program(arguments) if _is_part_program(arguments) else _drill_file(arguments)
+
+
+def _is_part_program(arguments: argparse.Namespace) -> bool:
+    """Returns whether it is a part program's file or a workpiece; the machine is read only where that depends on it."""
+    from drillctl.generation.boiler_drum.part import is_workpiece
+    from drillctl.generation.boiler_drum.stores import number_of
+    from drillctl.generation.boiler_drum.text import is_sentences
+
+    if number_of(str(arguments.file)) is None:
+        return is_sentences(arguments.file)
+    return is_workpiece(arguments.file, options.machine(arguments))
+
+
+def _part_program(arguments: argparse.Namespace) -> int:
+    from drillctl.generation.boiler_drum.part import part_of
+
+    part_programs.speak(arguments)
+    part = part_of(arguments.file, options.machine(arguments), arguments.store)
+    if arguments.json:
+        print(json_text(part_programs.as_dict(part), 2))
+    else:
+        print("\n".join(part_programs.lines(part)))
+    return 0
+
+
+def _drill_file(arguments: argparse.Namespace) -> int:
     from drillctl.generation.drillfile import DrillFileError, read, summary
     from drillctl.generation.pcb_drill.board import refusal
     from drillctl.generation.waits import reading

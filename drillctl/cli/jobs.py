@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from drillctl.generation.recipe import Recipe
     from drillctl.machine import Machine
 
+JOB_HELP = "a drill file, a queue of commands (.kmd), a part program (.sentences), or a workpiece (01..99)"
+
 
 def add_job(verb: argparse.ArgumentParser) -> None:
     """Adds all options of a job to a verb, in two groups."""
@@ -40,6 +42,7 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     drilling.add_argument("--peck", type=float, metavar="MM", help="drill in pecks of MM, retracting between them")
     drilling.add_argument("--spot", type=float, metavar="MM", help="first spot every hole of a tool, MM deep")
     add_reading(drilling)
+    add_store(verb)
 
 
 def add_reading(verb: "argparse._ActionsContainer") -> None:
@@ -49,6 +52,12 @@ def add_reading(verb: "argparse._ActionsContainer") -> None:
         "--after-end", choices=AFTER_END, default="refuse",
         help="holes behind the end of the program (M30): refuse the file (default), leave them out, or drill them too",
     )  # fmt: skip
+
+
+def add_store(verb: argparse.ArgumentParser) -> None:
+    """Adds ``--store`` to a verb."""
+    where = "file of the RAM in which workpieces are looked up before the EPROM; default: the machine's own"
+    verb.add_argument("--store", type=Path, metavar="FILE", help=where)
 
 
 def recipe(arguments: argparse.Namespace) -> "Recipe":
@@ -73,6 +82,7 @@ def recipe(arguments: argparse.Namespace) -> "Recipe":
         spot=arguments.spot,
         format=arguments.format,
         after_end=arguments.after_end,
+        store=_absolute(arguments.store),
     )
 
 

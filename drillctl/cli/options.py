@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 DEFAULT_MACHINE = "pcb-drill"
 
 
-def add_machine(verb: argparse.ArgumentParser) -> None:
+def add_machine(verb: argparse.ArgumentParser, default: str = DEFAULT_MACHINE) -> None:
     """Adds ``--machine``, ``--tables`` and ``--tick-hz`` to a verb."""
-    verb.add_argument("--machine", default=DEFAULT_MACHINE, metavar="NAME|FILE", help="machine; default: %(default)s")
+    verb.add_argument("--machine", default=default, metavar="NAME|FILE", help="machine; default: %(default)s")
     add_tables(verb)
     verb.add_argument("--tick-hz", type=_rate, metavar="N", help="interrupt frequency; default: the machine's own")
 

@@ -1,4 +1,4 @@
-"""``drillctl run JOB``: drills a drill file or a ``.kmd`` queue."""
+"""``drillctl run JOB``: drills a drill file, a ``.kmd`` queue, a part program, or a workpiece of a store."""
 
 import argparse
 from dataclasses import replace
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("run", help="drill a file or run a queue", description=__doc__)
-    verb.add_argument("job", type=Path, metavar="JOB", help="a drill file, or a queue of KMD commands (.kmd)")
+    verb.add_argument("job", type=Path, metavar="JOB", help=jobs.JOB_HELP)
     options.add_machine(verb)
     options.add_running(verb)
     options.add_engine(verb)
@@ -56,7 +56,8 @@ def call(arguments: argparse.Namespace) -> int:
     if job.work and (paced or arguments.journal):
         session = session.journalled(arguments.job, arguments.journal, recipe)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
-    inputs = (arguments.job, arguments.align, arguments.drills, *map(Path, machine.files), *session.files)
+    read = (arguments.job, arguments.align, arguments.drills, arguments.store)
+    inputs = (*read, *map(Path, machine.files), *session.files)
     with reserved(wanted, inputs) as (trace, vcd, holes):
         if paced or session.journal:
             _tell(session)

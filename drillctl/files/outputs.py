@@ -21,10 +21,13 @@ class OutputError(Refusal):
 
 
 class Output:
-    """One reserved file; ``write`` fills it and puts it in place, through a link where the path is one."""
+    """One reserved file; ``write`` fills it and puts it in place, through a link where the path is one.
 
-    def __init__(self, path: Path):
-        self.path = path
+    durable  the content is on the disk before it is put in place, and its name before ``write`` returns
+    """
+
+    def __init__(self, path: Path, durable: bool = False):
+        self.path, self.durable = path, durable
         self._place = Path(os.path.realpath(path))
         self._temporary: Path | None = None
         self._handle = -1
@@ -44,9 +47,13 @@ class Output:
             with open(target, "w", encoding="utf-8", newline="\n") as file:
                 fill(file)
                 file.flush()
+                if self.durable and self._temporary:
+                    os.fsync(file.fileno())
             if self._temporary:
                 os.fchmod(self._handle, 0o666 & ~_umask())
                 self._temporary.replace(self._place)
+                if self.durable:
+                    _sync_folder(self._place.parent)
                 self._temporary = None
                 self.drop()
         except OSError as error:
@@ -116,6 +123,15 @@ def write_text(path: Path, text: str) -> tuple[Message, ...]:
         if output is not None:
             output.drop()
     return ()
+
+
+def _sync_folder(folder: Path) -> None:
+    """Writes a folder's names to the disk: a file's new place is among them."""
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
 
 
 def _umask() -> int:

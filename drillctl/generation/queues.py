@@ -15,7 +15,7 @@ LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
 ENDING = ".kmd"
 
 
-def is_queue(path: Path) -> bool:
+def is_queue(path: Path, machine: Machine) -> bool:
     """Whether a file is named as a queue of commands."""
     return path.suffix.lower() == ENDING
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from drillctl.generation.boiler_drum.part import is_part_file, is_workpiece, load_part
 from drillctl.generation.job import Job
 from drillctl.generation.pcb_drill.board import load_board
 from drillctl.generation.queues import is_queue, load_queue
@@ -19,13 +20,15 @@ class Reader(NamedTuple):
     """``load`` raises JobError, PlacingError or AlignmentError, with a line for each problem."""
 
     what: str
-    recognises: Callable[[Path], bool]
+    recognises: Callable[[Path, Machine], bool]
     load: Callable[[Path, Machine, Wishes, str | None, str, Waits], Job]
 
 
 READERS = (
     Reader("a queue of commands", is_queue, load_queue),
-    Reader("a drill file", lambda path: True, load_board),  # of any name: its format is recognised by what is in it
+    Reader("a part program", is_part_file, load_part),
+    Reader("a workpiece", is_workpiece, load_part),
+    Reader("a drill file", lambda path, machine: True, load_board),  # of any name
 )
 
 
@@ -40,5 +43,5 @@ def load_job(
     """The job in a file, by the reader that recognises it. ``fmt`` and ``after_end`` say how a drill file is read;
     ``waits`` is called with how far the work is.
     """
-    reader = next(reader for reader in READERS if reader.recognises(path))
+    reader = next(reader for reader in READERS if reader.recognises(path, machine))
     return reader.load(path, machine, wishes, fmt, after_end, waits)

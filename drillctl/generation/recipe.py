@@ -36,6 +36,7 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     align  an alignment file, or the measured holes themselves
     panel  columns, rows, pitch in X and Y (mm)
     base   the working base, X and Y in steps from machine zero
+    store  the file of a store of workpieces, instead of the machine's own RAM
     """
 
     machine: FilePath
@@ -55,6 +56,7 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     format: str | None = None
     after_end: AfterEnd = "refuse"
     base: tuple[Steps, Steps] = (0, 0)
+    store: FilePath | None = None
 
     @classmethod
     def of_options(cls, told: Mapping[str, Any], journal: Path) -> "Recipe":
@@ -97,7 +99,8 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """Raises JobError, PlacingError or AlignmentError."""
         drills = read_drills(Path(self.drills)) if self.drills else None
         skipped = frozenset(self.skip_tools)
-        return Wishes(self._placing(machine), self.order, skipped, drills, self.peck, self.spot, self.base)
+        store = Path(self.store) if self.store else None
+        return Wishes(self._placing(machine), self.order, skipped, drills, self.peck, self.spot, self.base, store)
 
     def _placing(self, machine: Machine) -> Placing:
         aligned = self.alignment()

@@ -5,6 +5,7 @@ strokes.py. Made by the verbs from options.
 """
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from drillctl.generation.drills import DrillTable
 from drillctl.generation.errors import JobError
@@ -19,6 +20,7 @@ class Wishes:
     """Order is 'file', 'nearest' or 'optimised'; peck and spot are depths below the board's surface, None = none.
 
     base_steps  the working base that the job is drilled from: X and Y from machine zero
+    store       the file of the RAM in which workpieces are looked up; None: the machine's own
 
     Raises JobError for a depth that would never come to an end.
     """
@@ -30,6 +32,7 @@ class Wishes:
     peck_mm: float | None = None
     spot_mm: float | None = None
     base_steps: tuple[int, int] = (0, 0)
+    store: Path | None = None
 
     def __post_init__(self) -> None:
         for name, depth_mm in ((Message("peck depth"), self.peck_mm), (Message("spot depth"), self.spot_mm)):

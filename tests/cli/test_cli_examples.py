@@ -10,7 +10,7 @@ from drillctl.cli import main, parser
 from drillctl.cli.examples import EXAMPLES
 
 ROOT = Path(__file__).resolve().parents[2]
-QUICK = ("drillctl", "run", "estimate", "inspect", "convert", "replay", "machines", "tables", "ports", "plot")
+QUICK = ("drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "ports", "plot")
 BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune"}  # a terminal, a cut-off job, or seconds of work
 
 

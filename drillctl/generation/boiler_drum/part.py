@@ -1,0 +1,43 @@
+"""Part programs as jobs: a ``.sentences`` file, or a workpiece by its number."""
+
+from pathlib import Path
+
+from drillctl.generation.boiler_drum.program import part_program, tool_in_wall
+from drillctl.generation.boiler_drum.stores import find_part, has_stores, number_of
+from drillctl.generation.boiler_drum.text import Part, is_sentences, read_part
+from drillctl.generation.errors import JobError
+from drillctl.generation.job import Job
+from drillctl.generation.waits import Waits
+from drillctl.generation.wishes import Wishes
+from drillctl.language import Message
+from drillctl.machine import Machine
+
+
+def is_part_file(path: Path, machine: Machine) -> bool:
+    """Returns whether a file is named as a part program."""
+    return is_sentences(path)
+
+
+def is_workpiece(path: Path, machine: Machine) -> bool:
+    """Returns whether this is the number of a workpiece, on a machine that has stores of them."""
+    return number_of(str(path)) is not None and has_stores(machine)
+
+
+def part_of(path: Path, machine: Machine, ram: Path | None) -> Part:
+    """Returns the part program of a file or a number; ``ram``: as ``read_ram``. Raises JobError."""
+    number = number_of(str(path)) if is_workpiece(path, machine) else None
+    if number is None:
+        return read_part(path)
+    if path.exists():
+        raise JobError(Message("both a file and the number of a workpiece; give the file another name").at(path))
+    return find_part(number, machine, ram)
+
+
+def load_part(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str, waits: Waits) -> Job:
+    """A part program as a job; nothing of it is placed or ordered. Raises JobError with file and line, or with the
+    store and its cell.
+    """
+    part = part_of(path, machine, wishes.store)
+    program = part_program(part, machine)
+    return Job(path.name if not part.in_store else part.source, program, machine,
+               warnings=tuple(tool_in_wall(part, machine)))  # fmt: skip
