@@ -123,6 +123,10 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
         return LocalLink(
             FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
         )
+    if _goes_in_stretches(running, pace, driver, plant, keeper):
+        from drillctl.ticker.stretch_ticker import StretchTicker
+
+        return LocalLink(StretchTicker(machine, driver, plant, running.traced))
     if pace == FREE:
         traced, derived = running.traced or keeper is not None, running.derived or keeper is not None
         return LocalLink(Ticker(machine, driver, plant, traced, derived, keeper=keeper))
@@ -156,10 +160,18 @@ def _goes_fast(
     """Whether the fast engine may run it. Raises PortRefused where it was asked for and may not."""
     predictable = type(driver) is SimulatedCard and isinstance(plant, IdealPlant)
     may = predictable and pace == FREE and keeper is None
-    if running.engine == FAST and not may:
-        reason = Message("--engine fast foresees the ideal plant on a simulated card, running free")
+    if running.engine == FAST and not (may or _goes_in_stretches(running, pace, driver, plant, keeper)):
+        reason = Message("--engine fast needs a simulated card that runs free; on the dynamic plant it writes no --vcd")
         raise PortRefused(running.port, Message("{reason}; leave --engine out, or say --engine tick", reason=reason))
     return may and running.engine != TICK
+
+
+def _goes_in_stretches(
+    running: RunSettings, pace: str, driver: Driver, plant: Plant | None, keeper: RingRecorder | None
+) -> bool:
+    """Whether stretches of ticks may be run at once on a plant that has time."""
+    has_time = type(driver) is SimulatedCard and plant is not None and not isinstance(plant, IdealPlant)
+    return has_time and pace == FREE and keeper is None and not running.derived and running.engine != TICK
 
 
 def plant_of(machine: Machine, running: RunSettings) -> Plant | None:

@@ -26,6 +26,7 @@ from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
 EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
 QUIET = 5  # signals in which a batch has nothing: request, hand, late, fault, pace
+_OUTPUT, _PACE = int(RequestBit.OUTPUT), int(RequestBit.PACE)  # plain integers: compared in every tick
 _REQUESTS = [request.name for request in Request if request]
 REQUEST_WORDS = tuple(
     "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
@@ -68,12 +69,20 @@ class Sampler:
             index += 2
         put(index, tick, pack_command(m.running, m.command.opcode) if m.running else 0)
         put(index + 1, tick, m.served >> 1)
-        put(index + 2, tick, m.requests.hand if m.served & RequestBit.OUTPUT else 0)
+        put(index + 2, tick, m.requests.hand if m.served & _OUTPUT else 0)
         put(index + 3, tick, m.late)
         put(index + 4, tick, m.fault)
-        put(index + 5, tick, pace_of(m.requests.hand) if m.served & RequestBit.PACE else 0)
+        put(index + 5, tick, pace_of(m.requests.hand) if m.served & _PACE else 0)
         if self._derived:
             self._sample_axes(index + 1 + QUIET, tick)
+
+    def sample_outputs(self, images: NDArray[np.uint64], first: int) -> None:
+        """After ticks from ``first`` on that have these output images (ticks,), in which nothing else has changed."""
+        assert isinstance(self.recorder, Recorder) and not self._derived
+        changes = np.flatnonzero(np.append(True, images[1:] != images[:-1]))
+        for card in self._cards:
+            words = images[changes] >> np.uint64(CARD_BITS * card) & np.uint64(CARD_MASK)
+            self.recorder.extend(2 * card + 1, first + changes, words.astype(np.int64))
 
     def sample_batch(self, batch: Batch, images: NDArray[np.unsignedinteger] | None, first: int,
                      forecast: PlantForecast) -> None:  # fmt: skip

@@ -68,11 +68,17 @@ class Ticker:
             if sampler is not None and m.tick != before:
                 sampler.sample()
             if plant is not None and plant.touches != self._touches:
-                self._touches = plant.touches
-                self.touch(m.tool, m.hole_begun, self.places())
+                self.note_touch()
             if until is not None and until():
                 break
         return m.tick - first
+
+    def note_touch(self) -> None:
+        """Counts a hole if the bit has just met the board. Needs a plant."""
+        assert self.plant is not None
+        if self.plant.touches != self._touches:
+            self._touches = self.plant.touches
+            self.touch(self.controller.tool, self.controller.hole_begun, self.places())
 
     def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:
         """As ``run``, as far as the gate lets; while it is shut only the inputs are read."""

@@ -101,9 +101,9 @@ def test_a_machine_of_three_cards_is_told_before_it_moves(tmp_path: Path, capsys
 
 
 def test_the_fast_engine_says_where_it_may_not(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    dynamic = ["--plant", "dynamic", "--trace", str(tmp_path / "a.trace")]
+    dynamic = ["--plant", "dynamic", "--vcd", str(tmp_path / "a.vcd")]
     assert main(["run", SQUARE, "--engine", "fast", *dynamic]) == 2
-    assert "--engine fast foresees the ideal plant" in capsys.readouterr().err
+    assert "on the dynamic plant it writes no --vcd" in capsys.readouterr().err
 
 
 def test_more_changes_than_there_is_room_for_are_refused_and_a_part_is_made(

@@ -6,6 +6,7 @@
     move_profile.py  moves of one axis in one direction: ticks by distance, and the strips of images
     strokes.py  what ends on a sensor: run by tick once, then known
     plan.py     how many of the commands that wait can be foreseen
+    stretch.py  ticks in the middle of a command, for a plant that can't be foreseen
     world.py    what the engine must know of the plant
 
 Rule: tick is the law. Nothing is decided here: what can't be foreseen to the byte (homing, faults, requests, a sensor

@@ -1,0 +1,106 @@
+"""The dynamic plant in stretches against the law: trace, holes, currents, and all that is remembered, to the bit.
+
+Programs hold every command; faults, scatter and tick rates vary; holds, stops, gaps and looks come at any tick.
+"""
+
+from dataclasses import fields
+
+import pytest
+from hypothesis import given, seed, settings
+from hypothesis import strategies as st
+
+from drillctl.generation.job import names_of
+from drillctl.kmd import Queue, parse_program
+from drillctl.machine import Library, Machine, shipped_tables
+from drillctl.plant import PlantChoice
+from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic.coefficients import Coefficients
+from drillctl.plant.dynamic.kernel import KERNEL
+from drillctl.plant.dynamic.plant import DynamicPlant
+from drillctl.portio.simulated import SimulatedCard
+from drillctl.ticker.stretch_ticker import StretchTicker
+from drillctl.ticker.ticker import Ticker
+from drillctl.trace import first_difference, render
+from tests.execution.test_fastforward import commands, disturbances
+from tests.support.twins import Disturbances, ran, remembered, trace
+
+LIBRARY = Library((shipped_tables(),))
+DYNAMIC = [
+    machine.name
+    for machine in map(LIBRARY.machine, ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis", "boiler-drum", "cnc-shield"])
+    if all(axis.dynamics for axis in machine.axes)
+]
+FAULTS = [
+    "blunt=3", "broken=1", "loose.x=0.4", "jammed.y=3", "bouncing.z_top=7", "bouncing.x_min=40", "dirty.z_bottom=1",
+    "stuck.x_min=1", "stuck.z_top=0",
+]  # fmt: skip
+TICKS = 9000 if KERNEL.compiled else 3000
+BOARD = "KMD_INICJALIZACJA\n" + "KMD_GOTO_X_Y {} {}\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA\n" * 3
+
+
+def twins(machine: Machine, choice: PlantChoice, text: str, asked: Disturbances, ticks: int) -> tuple[Ticker, Ticker]:
+    program = parse_program(text, names_of(machine))
+    program["tag"] = range(len(program))
+    slow = Ticker.simulated(machine, traced=True, plant_choice=choice)
+    plant = choice.build(machine)
+    fast = StretchTicker(machine, SimulatedCard(plant), plant, traced=True, queue=Queue())
+    return ran(slow, program, asked, ticks), ran(fast, program, asked, ticks)
+
+
+def physics(ticker: Ticker) -> list[object]:
+    assert isinstance(ticker.plant, DynamicPlant)
+    rows, wear = list(ticker.plant._rows), list(ticker.plant._bit.columns)
+    for axis in range(len(ticker.plant.motors)):
+        rows[axis * law.ROW + law.MOVED] = 0.0  # of the last tick, which may have been left out
+    return [rows, wear[: law.LEFT], wear[law.HOLE :]]
+
+
+def forgotten(told: dict[str, object]) -> dict[str, object]:
+    """Without the objects that are compared by ``physics``."""
+    return {name: value for name, value in told.items() if not name.endswith((".rotor", ".sensors"))} | {
+        name: [{k: v for k, v in each.items() if k != "_random"} for each in value]  # type: ignore[attr-defined]
+        for name, value in told.items()
+        if name.endswith(".sensors")
+    }
+
+
+def check(machine: Machine, choice: PlantChoice, text: str, asked: Disturbances, ticks: int) -> Ticker:
+    slow, fast = twins(machine, choice, text, asked, ticks)
+    difference = first_difference(trace(slow), trace(fast))
+    assert difference is None, render(difference)
+    assert trace(slow) == trace(fast)
+    assert forgotten(remembered(slow)) == forgotten(remembered(fast))
+    assert physics(slow) == physics(fast)
+    return fast
+
+
+@pytest.mark.parametrize("name", DYNAMIC)
+@seed(720)
+@settings(max_examples=6)
+@given(data=st.data())
+def test_whatever_is_asked_of_it_a_stretch_is_its_ticks(name: str, data: st.DataObject) -> None:
+    tick_hz = data.draw(st.sampled_from([500, 500, 560, 640]))
+    machine = LIBRARY.machine(name).at_rate(tick_hz)
+    faults = tuple(data.draw(st.lists(st.sampled_from(FAULTS), max_size=2, unique_by=lambda f: f.split("=")[0])))
+    known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
+    text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=8)))
+    asked = data.draw(st.one_of(st.just({}), disturbances))
+    choice = PlantChoice("dynamic", faults, data.draw(st.integers(0, 99)))
+    check(machine, choice, text, asked, data.draw(st.integers(TICKS // 2, TICKS)))
+
+
+@pytest.mark.parametrize("faults", [(), ("blunt=3",), ("bouncing.z_top=7", "loose.x=0.4")])
+def test_a_board_goes_in_stretches(faults: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that the test above compares two ways, and not tick with itself."""
+    passed = []
+    run = DynamicPlant.run
+    monkeypatch.setattr(DynamicPlant, "run", lambda self, images: passed.append(run(self, images)) or passed[-1])
+    machine = LIBRARY.machine("pcb-drill")
+    ticks = 12000 if KERNEL.compiled else 3000
+    text = BOARD.format(120, 90, 10, 150, 60, 60)
+    fast = check(machine, PlantChoice("dynamic", faults, 4), text, {}, ticks)
+    assert sum(passed) > 0.6 * fast.controller.tick
+
+
+def test_the_rows_hold_every_coefficient() -> None:
+    assert all(hasattr(law, field.name.upper()) for field in fields(Coefficients))
