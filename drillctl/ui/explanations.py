@@ -10,8 +10,13 @@ from drillctl.language.words import N_
 EXPLAINED: Mapping[str, tuple[str, ...]] = {
     "Drilling": (
         N_("The machine at work. I makes the position known, S drills the board."),
-        N_("Board: the dots are holes to drill, ○ (o) a drilled hole, ◎ (@)"),
-        N_("the hole in work, + the drill."),
+        N_("Board: the dots are holes to drill, as large as they are; bright"),
+        N_("ones are for the tool that is in. ○ (o) drilled, ◎ (@) in work,"),
+        N_("× (x) failed, + the drill and its trail (~), ⊕ (0) the base."),
+        N_("The dotted line is the way to the next 60 holes; the frame (:)"),
+        N_("stands 2.54 mm outside the outermost holes. V shows tool numbers,"),
+        N_("* where several meet. Wheel or Z zooms, drag or Shift-arrows move,"),
+        N_("a click on a hole tells its number, its tool and its place."),
         N_("now mm, steps: where an axis is, from the working base;"),
         N_("to mm, steps: where it goes."),
         N_("12 +0 after an axis: column 12 of its phase table, ramp state 0."),

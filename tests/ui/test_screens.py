@@ -9,6 +9,7 @@ import urwid
 
 from drillctl.language import words
 from drillctl.language.figures import pair_mm
+from drillctl.ui.models.board_work import Work
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import CHOICES, Files
@@ -45,7 +46,8 @@ REQUESTS = [
 ]
 OPENING = {"s": "Drill 4 holes of four.drl?", "f": "../", "h": "Number, 1 to 4:", "t": "X and Y in mm", "+": "step 120",
            "=": "step 120", "-": "step 3", "m": "jog step 1 mm", "c": "no tool is waited for",
-           "e": "board blinker.drl"}  # fmt: skip
+           "e": "board blinker.drl", "z": "zoom 2", "Z": "zoom 1", "w": "the whole board", "v": "tool numbers",
+           **{f"shift {way}": "the whole board is seen" for way in ("left", "right", "up", "down")}}  # fmt: skip
 
 
 @pytest.mark.parametrize(("key", "request_"), REQUESTS)
@@ -187,7 +189,7 @@ def signs_of(picture: BoardPicture, size: tuple[int, int] = (20, 6)) -> str:
 @pytest.mark.parametrize(("plain", "signs"), [(False, "○◎+"), (True, "o@+.")])
 def test_done_current_to_do_and_head_differ_without_colour(plain: bool, signs: str) -> None:
     picture = BoardPicture(plain)
-    picture.show(BOARD, done=2, running=True, head_mm=(20.0, 10.0))
+    picture.show(BOARD, Work(2, current=2), head_mm=(20.0, 10.0))
     text = signs_of(picture)
     assert all(sign in text for sign in signs)
     assert text.count(signs[0]) == 2 and text.count(signs[1]) == 1 and text.count("+") == 1
@@ -197,9 +199,9 @@ def test_done_current_to_do_and_head_differ_without_colour(plain: bool, signs: s
 def test_a_cell_with_holes_to_do_is_not_shown_as_done() -> None:
     crowded = replace(BOARD, xy_mm=np.array([[0.0, 0.0], [0.5, 0.0], [100.0, 0.0], [0.0, 50.0]]))
     picture = BoardPicture()
-    picture.show(crowded, done=1)
+    picture.show(crowded, Work(1))
     assert "○" not in signs_of(picture)
-    picture.show(crowded, done=2)
+    picture.show(crowded, Work(2))
     assert signs_of(picture).count("○") == 1
 
 

@@ -5,5 +5,7 @@
     machine_fields.py  the fields of a machine's file: their words, and what is typed over them
     signal_grid.py     signals as cells, as many a line as there is room for
     events.py          what happened at the machine, from one view to the next
+    board_map.py       where a board lies on the screen: scale, zoom and pan
+    board_work.py      which holes of a board are drilled, in work, failed
     viewport.py        which ticks and which signals of a run are on the screen
 """

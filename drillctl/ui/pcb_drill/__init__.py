@@ -1,6 +1,7 @@
 """The screens and menus of the PCB drill, and of every machine that drills a board.
 
     drilling.py    the machine at work: jog, base, start, hold, stop       board_view.py   the picture of the board
+    board_layers.py what lies in each cell of that picture                 rulers.py       what stands around it
     side_window.py the paper's window at the right of it                   unfinished.py   jobs that were interrupted
     files.py       find a drill file, see what it says, place it           browser.py      its list of files
     typed.py       number formats, and what is typed into its dialogs      board_facts.py  a board in words

@@ -1,30 +1,34 @@
-"""The board on the screen: holes to do, made, and current, and the head where it is.
+"""The board on the screen: a picture to scale with rulers, that can be zoomed, panned and asked about its holes.
 
-Rule: every state has a sign of its own, so that nothing is told by colour alone.
+Rule: board_layers.py says what lies in a cell, rulers.py what stands around; this is the widget of both, and the mouse
+on it: the wheel zooms around the pointer, a drag pans, a click tells of a hole.
 """
 
+from collections import deque
 from collections.abc import Sequence
-from itertools import groupby
 
-import numpy as np
 import urwid
-from numpy.typing import NDArray
 
 from drillctl.language.words import N_, _
-from drillctl.ui.widgets.dots import BRAILLE, Sheet
+from drillctl.ui.models.board_map import BoardMap
+from drillctl.ui.models.board_work import Work
+from drillctl.ui.pcb_drill.board_layers import Head, Layers, PlaceMm
+from drillctl.ui.pcb_drill.rulers import (
+    RULER_COLUMNS,
+    RULER_ROWS,
+    SCALE_ROWS,
+    has_rulers,
+    left_ruler,
+    ruler_below,
+    scale_bar,
+)  # fmt: skip
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import BoardView
 
-PlaceMm = tuple[float, float]
-EMPTY = chr(BRAILLE)
-
-# What a cell shows: its attribute, and its sign with and without UTF-8. Holes to do are braille where there is UTF-8.
-SIGNS = {
-    "to do": ("body", "", "."),
-    "done": ("good", "○", "o"),
-    "current": ("warning", "◎", "@"),
-    "head": ("danger", "+", "+"),
-}
+STEP = 2.0  # of a key or of the wheel
+WHEEL = {4: STEP, 5: 1 / STEP}  # buttons of the mouse
+NOTHING_DONE = Work()
+TRAIL = 60  # places of the head that are kept
 
 
 class BoardPicture(urwid.Widget):
@@ -35,16 +39,51 @@ class BoardPicture(urwid.Widget):
     def __init__(self, plain: bool = False, hint: Sequence[str] = (N_("No board is loaded."),)):
         super().__init__()
         self._plain, self._hint = plain, hint
-        self._state: tuple[BoardView | None, int, bool, PlaceMm | None] = (None, 0, False, None)
+        self._board: BoardView | None = None
+        self._work, self._tool, self._head = Work(), 0, Head()
+        self._trail: deque[PlaceMm] = deque(maxlen=TRAIL)
+        self._numbers = False
+        self._chosen: int | None = None
+        self._map: BoardMap | None = None
+        self._layers: Layers | None = None
+        self._pressed: tuple[int, int] | None = None
 
     def show(
-        self, board: BoardView | None, done: int = 0, running: bool = False, head_mm: PlaceMm | None = None
-    ) -> None:
-        """Draws ``done`` holes as made and, if ``running``, the next as current; only if something is new."""
-        state = (board, done, running, head_mm)
-        if state != self._state:
-            self._state = state
+        self, board: BoardView | None, work: Work = NOTHING_DONE, tool: int = 0, head_mm: PlaceMm | None = None,
+        real_mm: PlaceMm | None = None,
+    ) -> None:  # fmt: skip
+        """Draws a board as far as it is; ``tool``: the number of the one in the spindle. Only if something is new."""
+        if board is not self._board:
+            self._map = BoardMap.of(board.xy_mm, 1, 1) if board and len(board.xy_mm) else None
+            self._chosen = None
+            self._trail.clear()
+        if (board, work, tool) != (self._board, self._work, self._tool):
+            self._board, self._work, self._tool = board, work, tool
+            self._draw_anew()
+        if (head_mm, real_mm) != (self._head.thought_mm, self._head.real_mm):
+            if head_mm:
+                self._trail.append(head_mm)
+            self._head = Head(head_mm, real_mm, tuple(self._trail))
             self._invalidate()
+
+    def zoom(self, factor: float) -> float:
+        """Closer by ``factor``, further below 1; the zoom that is shown then, 1 where there is nothing to be seen."""
+        return self._look_at(self._map.zoomed(factor)) if self._map else 1.0
+
+    def whole(self) -> float:
+        """Shows the whole board again."""
+        return self.zoom(0.0)
+
+    def pan(self, across: float, down: float) -> float:
+        """Looks further by parts of what is seen; the zoom that is shown."""
+        placed = self._map
+        return self._look_at(placed.panned(across * placed.columns, down * placed.rows)) if placed else 1.0
+
+    def turn_numbers(self) -> bool:
+        """Shows the holes to do by the numbers of their tools, or as dots again; whether numbers are shown now."""
+        self._numbers = not self._numbers
+        self._draw_anew()
+        return self._numbers
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws the picture, clipped to the box."""
@@ -52,41 +91,67 @@ class BoardPicture(urwid.Widget):
         columns, rows = size
         return boxed(self._lines(columns, rows), columns, rows)
 
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """Zooms with the wheel, tells of a hole that is clicked, pans with a drag."""
+        assert len(size) == 2
+        column = col - (RULER_COLUMNS if has_rulers(*size) else 0)
+        if self._map is None or self._board is None:
+            return False
+        if event == "mouse press" and button in WHEEL:
+            self._look_at(self._map.zoomed(WHEEL[button], self._map.place_mm(column, row)))
+        elif event == "mouse press" and button == 1:
+            self._pressed, self._chosen = (column, row), self._map.hole_at(column, row, self._board.xy_mm)
+            self._invalidate()
+        elif event == "mouse drag" and self._pressed:
+            from_column, from_row = self._pressed
+            self._pressed = column, row
+            self._look_at(self._map.panned(from_column - column, from_row - row))
+        else:
+            return False
+        return True
+
+    def _look_at(self, placed: BoardMap) -> float:
+        self._map = placed
+        self._draw_anew()
+        return placed.zoom
+
+    def _draw_anew(self) -> None:
+        self._layers = None
+        self._invalidate()
+
     def _lines(self, columns: int, rows: int) -> list[Line]:
-        board, done, running, head_mm = self._state
+        board = self._board
         if board is None or not len(board.xy_mm):
             return [[("dark", f" {_(line)}")] for line in self._hint]
-        sheet = Sheet.fitted(board.xy_mm, columns, rows)
-        signs, states = self._drawn(sheet, board.xy_mm, done, running, head_mm)
-        return [_runs(row, named) for row, named in zip(signs, states, strict=True)]
+        ruled = has_rulers(columns, rows)
+        sheet = (columns - RULER_COLUMNS, rows - RULER_ROWS - SCALE_ROWS) if ruled else (columns, rows - SCALE_ROWS)
+        drawn = self._still(board, *sheet).with_head(self._head)
+        assert self._map is not None
+        below: list[Line] = [[*scale_bar(self._map, self._plain), *self._told(board)]]
+        if not ruled:
+            return [*drawn, *below]
+        left = left_ruler(self._map, self._plain)
+        sides: list[Line] = [[mark, *line] for mark, line in zip(left, drawn, strict=True)]
+        return [*sides, *ruler_below(self._map, self._plain), *below]
 
-    def _drawn(
-        self, sheet: Sheet, xy_mm: NDArray[np.float64], done: int, running: bool, head_mm: PlaceMm | None
-    ) -> tuple[list[list[str]], list[list[str]]]:
-        """Signs and states of the cells, row by row; what is told later lies over what was told before."""
-        signs = [[self._sign(sign) for sign in row] for row in sheet.braille(xy_mm)]
-        states = [["to do"] * len(row) for row in signs]
-        cells = sheet.cells(xy_mm).tolist()
-        left = set(map(tuple, cells[done:]))
-        self._mark(signs, states, "done", [cell for cell in cells[:done] if tuple(cell) not in left])
-        self._mark(signs, states, "current", cells[done : done + 1] if running else [])
-        self._mark(signs, states, "head", sheet.cells(np.array([head_mm])).tolist() if head_mm else [])
-        return signs, states
+    def _still(self, board: BoardView, columns: int, rows: int) -> Layers:
+        """The layers that do not move, laid anew only where board, work, place or size has changed."""
+        placed = self._map
+        assert placed is not None, "show makes one for every board with holes"
+        if (placed.columns, placed.rows) != (max(columns, 1), max(rows, 1)):
+            placed, self._layers = placed.sized(columns, rows), None
+        self._map = placed
+        if self._layers is None:
+            self._layers = Layers.of(board, placed, self._work, self._tool, self._plain, self._numbers)
+        return self._layers
 
-    def _sign(self, braille: str) -> str:
-        """The sign of a cell by its dots: blank for a cell without holes to do."""
-        if braille == EMPTY:
-            return " "
-        return SIGNS["to do"][2] if self._plain else braille
-
-    def _mark(self, signs: list[list[str]], states: list[list[str]], state: str, cells: list[list[int]]) -> None:
-        sign = SIGNS[state][2 if self._plain else 1]
-        for row, column in cells:
-            if 0 <= row < len(signs) and 0 <= column < len(signs[0]):
-                signs[row][column], states[row][column] = sign, state
-
-
-def _runs(signs: list[str], states: list[str]) -> Line:
-    """One line of cells as marked text, neighbours of one state together."""
-    pairs = groupby(zip(signs, states, strict=True), key=lambda pair: pair[1])
-    return [(SIGNS[state][0], "".join(sign for sign, _state in run)) for state, run in pairs]
+    def _told(self, board: BoardView) -> Line:
+        """The hole that was clicked: its number in drilling order, its tool, its place."""
+        if self._chosen is None:
+            return []
+        tool = board.tools[int(board.tool[self._chosen])]
+        x_mm, y_mm = board.xy_mm[self._chosen].tolist()
+        size = f" {tool.diameter_mm:.3f} mm" if tool.diameter_mm else ""
+        text = _("hole {number}, T{tool}{size}, X {x:.3f}, Y {y:.3f}")
+        told = text.format(number=self._chosen + 1, tool=tool.number, size=size, x=x_mm, y=y_mm)
+        return ["  ", ("accent", told)]

@@ -12,7 +12,8 @@ import urwid
 from drillctl.language import Message
 from drillctl.language.figures import clock, pair_mm
 from drillctl.language.words import N_, _
-from drillctl.ui.pcb_drill.board_view import BoardPicture
+from drillctl.ui.models.board_work import BoardWork
+from drillctl.ui.pcb_drill.board_view import STEP, BoardPicture
 from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.next_step import next_step
@@ -38,6 +39,18 @@ FIRST_WORDS = (
     N_("L in Files offers the boards opened last."),
     N_("F1 or ? explains this screen."),
 )
+BOARD_KEYS = (
+    Key(("z",), "Z", "zoom_board", N_("the board closer; so does the mouse wheel"), N_("Zoom"), "closer"),
+    Key(("Z",), "Shift Z", "zoom_board", N_("the board from further away"), argument="further"),
+    Key(("w",), "W", "whole_board", N_("the whole board")),
+    Key(("shift left",), N_("Shift Left"), "pan_board", N_("the board further to the left"), argument="left"),
+    Key(("shift right",), N_("Shift Right"), "pan_board", N_("the board further to the right"), argument="right"),
+    Key(("shift up",), N_("Shift Up"), "pan_board", N_("the board further up"), argument="up"),
+    Key(("shift down",), N_("Shift Down"), "pan_board", N_("the board further down"), argument="down"),
+    Key(("v",), "V", "tool_numbers", N_("holes to do by the numbers of their tools, or as dots")),
+)
+ZOOMS = {"closer": STEP, "further": 1 / STEP}
+PANS = {"left": (-0.25, 0), "right": (0.25, 0), "up": (0, -0.25), "down": (0, 0.25)}  # parts of what is seen
 LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
 
 
@@ -56,6 +69,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key(("f",), "F", "files", N_("opens the files"), N_("Files")),
         Key(("e",), "E", "examples", N_("the example boards and the lab sheets")),
         *JOG_KEYS,
+        *BOARD_KEYS,
         Key(("tab",), "Tab", "turn_page", N_("the next page of the window at the right")),
         Key(("h",), "H", "go_to_hole", N_("goes over a hole, by its number")),
         Key(("t",), "T", "type_place", N_("goes to X and Y in mm, typed")),
@@ -68,7 +82,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._shell = shell
         self._picture = BoardPicture(plain, FIRST_WORDS)
         self._window, self._motors = SideWindow(side_pages), SideWindow(motor_pages)
-        self._events = EventList()
+        self._events, self._work = EventList(), BoardWork()
         self._was_at_work = False
         self._footer = Text("")
         self._parts = {
@@ -119,8 +133,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._events.see(view)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
         head = (view.axes[0].position_mm, view.axes[1].position_mm) if len(view.axes) > 1 else None
-        running = bool(of_board and view.command)
-        self._picture.show(board, of_board.holes_done if of_board else 0, running, head)
+        self._picture.show(board, self._work.see(view, board, progress), view.tool, head)
         if self._was_at_work and not view.at_work and of_board:
             self._note = ("body", _ended(of_board))
         self._was_at_work = view.at_work
@@ -206,6 +219,24 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """Shows the next page of the windows at the right."""
         self._window.turn_page()
         self._motors.turn_page()
+
+    def zoom_board(self, way: str) -> None:
+        """Shows the board closer or from further away."""
+        self._say("body", _("zoom {zoom:g}").format(zoom=round(self._picture.zoom(ZOOMS[way]), 1)))
+
+    def whole_board(self) -> None:
+        """Shows the whole board."""
+        self._picture.whole()
+        self._say("body", _("the whole board"))
+
+    def pan_board(self, way: str) -> None:
+        """Shows another part of the board; of the whole board there is none."""
+        whole = self._picture.pan(*PANS[way]) == 1
+        self._say("body", _("the whole board is seen; Z shows it closer") if whole else "")
+
+    def tool_numbers(self) -> None:
+        """Shows holes to do by the numbers of their tools, or as dots again."""
+        self._say("body", _("tool numbers") if self._picture.turn_numbers() else _("holes as dots"))
 
     def go_to_hole(self) -> None:
         """Asks for the number of a hole, in drilling order, and goes over it."""
