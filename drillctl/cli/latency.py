@@ -1,6 +1,6 @@
 """``drillctl latency``: how punctual ticks are on this computer, whose fault it is when not, and what that is good for.
 
-Nothing is driven: an idle machine on the simulated card is ticked in a process of its own, as a job would be.
+Nothing is driven: a machine on the simulated card, idle or moving, is ticked in a process of its own, as a job is.
 """
 
 import argparse
@@ -20,21 +20,24 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument(
         "--seconds", type=options.up_to(LONGEST_S), default=10, metavar="S", help="duration; default: %(default)s"
     )
+    verb.add_argument("--moving", action="store_true", help="move the machine all the time; without it, it is idle")
     verb.add_argument("--json", action="store_true", help="print one JSON object")
     verb.set_defaults(call=call)
 
 
 def call(arguments: argparse.Namespace) -> int:
     """Measures and prints the report; Ctrl-C ends it early, with what was measured until then (exit 130)."""
+    from drillctl.generation.queues import there_and_back
     from drillctl.lab.latency import LatencyError, a_moment, measure
     from drillctl.ui.terminal.reports import latency_lines
 
     machine = options.library(argparse.Namespace(tables=None)).machine(options.DEFAULT_MACHINE)
     machine = machine.at_rate(arguments.hz or machine.tick_hz)
+    moves = there_and_back(machine) if arguments.moving else None
     signals: list[int] = []
     with caught(lambda number, frame: signals.append(number)):
         try:
-            report = measure(machine, arguments.seconds, lambda: a_moment() or bool(signals))
+            report = measure(machine, arguments.seconds, lambda: a_moment() or bool(signals), moves)
         except LatencyError:
             if signals:
                 return exit_code(signals[0])

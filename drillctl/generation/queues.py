@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drillctl.files.inputs import read_bytes
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, names_of
@@ -13,6 +16,7 @@ from drillctl.machine import Machine
 
 LARGEST_QUEUE_BYTES = 256 * 1024 * 1024
 ENDING = ".kmd"
+MOVED_STEPS = 600  # there, and as many back
 
 
 def is_queue(path: Path, machine: Machine) -> bool:
@@ -33,6 +37,16 @@ def load_queue(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, af
     except KmdError as error:
         raise JobError(error.message) from error
     return Job(path.name, program, machine)
+
+
+def there_and_back(machine: Machine) -> NDArray[np.void]:
+    """Returns a program, dtype kmd.RECORD, that homes the machine and then moves all axes but the drilling ones there
+    and back again. It has no end: from its second command on it can be repeated.
+    """
+    moved = [axis for index, axis in enumerate(machine.axes) if index not in machine.drill_axes]
+    far = " ".join(f"{axis.name}={min(MOVED_STEPS, axis.span_steps // 2)}" for axis in moved)
+    near = " ".join(f"{axis.name}=0" for axis in moved)
+    return parse_program(f"KMD_INICJALIZACJA\nKMD_RUCH {far}\nKMD_RUCH {near}\n", names_of(machine))[:-1]
 
 
 def queue_text(job: Job) -> str:

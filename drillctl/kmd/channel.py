@@ -8,7 +8,9 @@ process uses the plain Queue, Requests and Gate instead.
 
 import mmap
 import os
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +51,10 @@ CHANNEL = np.dtype(
     ]
 )
 
+PLACES: Mapping[str, Any] = CHANNEL.fields or {}
+NUMBERS = tuple(name for name, (kind, *_) in PLACES.items() if kind.kind in "iu")
+STATUS_AT, ASKED_AT = PLACES["status"][1], PLACES["asked"][1]
+
 
 class Channel:
     """One mapped file of dtype CHANNEL. Raises OSError where it can't be made, or where the file is
@@ -73,6 +79,7 @@ class Channel:
         finally:
             os.close(handle)
         self.fields: NDArray[np.void] = np.frombuffer(self.memory, dtype=CHANNEL, count=1)
+        self._numbers = {name: self.fields[name] for name in NUMBERS}  # views: looked up at every tick
         if create:
             self.fields["magic"] = MAGIC
             place.replace(file)
@@ -90,15 +97,17 @@ class Channel:
 
     def publish(self, status: np.void) -> None:
         """Makes this the newest status record. For the ticker only."""
-        self.fields["lock"] += 1
-        self.fields["status"][0] = status
-        self.fields["lock"] += 1
+        lock = self._numbers["lock"]
+        lock[0] += 1
+        self.memory[STATUS_AT : STATUS_AT + STATUS.itemsize] = status.tobytes()
+        lock[0] += 1
 
     def __getitem__(self, name: str) -> int:
-        return int(self.fields[name][0])
+        value: int = self._numbers[name].item()
+        return value
 
     def __setitem__(self, name: str, value: int) -> None:
-        self.fields[name] = value
+        self._numbers[name][0] = value
 
 
 def _fill(handle: int, file: Path) -> None:
@@ -157,12 +166,13 @@ class SharedRequests:
         self._channel = channel
         self._hands = channel.fields["hands"][0]
         self._asked = channel.fields["asked"][0]
-        self._seen = self._asked.copy()
+        self._seen = self._asked.tobytes()
 
     @property
     def waiting(self) -> bool:
         """Whether a request waits to be taken."""
-        return self.own.waiting or bool((self._asked != self._seen).any()) or self._hands_waiting > 0
+        asked = self._channel.memory[ASKED_AT : ASKED_AT + len(self._seen)]
+        return self.own.waiting or asked != self._seen or self._hands_waiting > 0
 
     def post(self, request: Request) -> None:
         """Makes a request. For the desk only."""
@@ -173,8 +183,8 @@ class SharedRequests:
         if not self.waiting:
             return 0
         asked = self._asked.copy()
-        risen = np.flatnonzero(asked != self._seen).tolist()
-        self._seen[:] = asked
+        risen = np.flatnonzero(asked != np.frombuffer(self._seen, asked.dtype)).tolist()
+        self._seen = asked.tobytes()
         return self.own.take() | sum(1 << request for request in risen) | self._take_hand()
 
     def set_output(self, bit: int, value: int) -> bool:

@@ -1,4 +1,4 @@
-"""How punctual the ticks of an idle machine are on this computer, and whose fault it is when they are not.
+"""How punctual the ticks of an idle or a moving machine are on this computer, and whose fault it is when they are not.
 
     ticker   a process that ticks the machine as a paced run does, on the simulated card
     canary   a process on each processor used, with the same rights: sleeps to its deadlines and does nothing else
@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drillctl.execution.clock import PacedClock
 from drillctl.lab.grades import GOOD_SHARE, Finding, carried_hz, grade
@@ -47,8 +48,11 @@ def a_moment() -> bool:
     return False
 
 
-def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_moment) -> LatencyReport:
+def measure(
+    machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_moment, moves: NDArray[np.void] | None = None
+) -> LatencyReport:
     """Ticks ``machine`` for so long and reports. ``meanwhile`` is called over and over; True from it ends that early.
+    ``moves``: commands that it runs all the time, from the second one on again and again; None: it is idle.
 
     Raises LatencyError.
     """
@@ -60,7 +64,7 @@ def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_
     with _children() as start:
         for processor, canary in zip(processors, canaries, strict=True):
             start(canary, partial(run_canary, canary, machine.tick_hz, seconds, processor))
-        ticker = start(log, partial(run_ticker, log, machine, seconds, processors))
+        ticker = start(log, partial(run_ticker, log, machine, seconds, processors, moves))
         for each in (*canaries, log):
             each.record["go"] = 1
         while not ticker.gone and not interrupted:
@@ -69,7 +73,7 @@ def measure(machine: Machine, seconds: float, meanwhile: Callable[[], bool] = a_
         raise LatencyError(
             Message("no figures: the ticker's process was ended, or died, after {wakeups} ticks", wakeups=log.wakeups)
         )
-    return _report(machine, log, canaries, interrupted)
+    return _report(machine, log, canaries, interrupted, moves is not None)
 
 
 @contextmanager
@@ -102,12 +106,22 @@ def _children() -> Iterator[Callable[[WakeupLog, Callable[[], None]], ChildProce
             child.end(LEAVE_S)
 
 
-def run_ticker(log: WakeupLog, machine: Machine, seconds: float, processors: list[int]) -> None:
+def run_ticker(
+    log: WakeupLog, machine: Machine, seconds: float, processors: list[int], moves: NDArray[np.void] | None
+) -> None:
     """The body of the ticker's process."""
     ticker = Ticker.simulated(machine)
     ticker.run(WARM_UP_TICKS)
+    if moves is not None:
+        ticker.queue.put(moves)
+
+    def tick_once() -> None:
+        if moves is not None and not len(ticker.queue):
+            ticker.queue.put(moves[1:])
+        ticker.run(1)
+
     _prepare(log, processors)
-    pace(log, machine.tick_hz, seconds, lambda: ticker.run(1))
+    pace(log, machine.tick_hz, seconds, tick_once)
 
 
 def run_canary(log: WakeupLog, tick_hz: int, seconds: float, processor: int) -> None:
@@ -141,7 +155,9 @@ def pace(log: WakeupLog, tick_hz: int, seconds: float, body: Callable[[], object
     record["to_ns"] = time.monotonic_ns()
 
 
-def _report(machine: Machine, log: WakeupLog, canaries: list[WakeupLog], interrupted: bool) -> LatencyReport:
+def _report(
+    machine: Machine, log: WakeupLog, canaries: list[WakeupLog], interrupted: bool, moving: bool = False
+) -> LatencyReport:
     record, ticks = log.record, lateness([log])
     elapsed_ns, cpu_ns, late = log.elapsed_ns, int(record["cpu_ns"]), int(record["late_wakeups"])
     spans, held = log.late_spans(), np.concatenate([canary.late_spans() for canary in canaries])
@@ -173,4 +189,5 @@ def _report(machine: Machine, log: WakeupLog, canaries: list[WakeupLog], interru
         carries_hz=carries_hz,
         grade=grade(finding),
         interrupted=interrupted,
+        moving=moving,
     )

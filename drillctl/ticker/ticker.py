@@ -43,7 +43,10 @@ class Ticker:
 
     def __post_init__(self) -> None:
         self.controller = Controller(self.machine, self.queue, self.requests, self.port)
-        self.status: np.void = np.zeros(1, dtype=STATUS)[0]
+        record = np.zeros(1, dtype=STATUS)
+        self.status: np.void = record[0]
+        self._lateness = 0, 0
+        self._status_bytes = record.view(np.uint8).data
         self.touched: list[tuple[int, int, tuple[float, ...]]] = []
         self._touches = 0
         self._tags: set[int] = set()
@@ -129,7 +132,7 @@ class Ticker:
 
     def report(self) -> np.void:
         """The status record, written anew; the lost steps of the plant are measured only while everything rests."""
-        report(self.controller, self.status)
+        report(self.controller, self._status_bytes)
         if self.plant is not None and not self.controller.moving:
             lost = self.lost_steps()
             self.status["lost"][: len(lost)] = np.rint(lost)
@@ -137,7 +140,9 @@ class Ticker:
 
     def late(self, count: int, worst_ns: int) -> None:
         """Notes for the status record how many ticks were late so far, and the worst."""
-        self.status["late"], self.status["late_worst_ns"] = count, worst_ns
+        if (count, worst_ns) != self._lateness:
+            self._lateness = count, worst_ns
+            self.status["late"], self.status["late_worst_ns"] = count, worst_ns
 
     def record(self, header: Iterable[tuple[str, str]]) -> Trace | Segments | None:
         """The record of the run so far, in the form in which it is kept."""

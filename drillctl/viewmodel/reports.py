@@ -48,7 +48,8 @@ class LatencyReport:
     process was late at the same moment), ``ours``, and ``unlabelled`` (there were more than were kept).
     ``canary_late_share`` is the share of time in which a canary was late: so many meet by chance.
     ``refused`` has a sentence for each real-time measure that was not allowed; none means real-time.
-    ``carries_hz`` is the greatest usual rate that the lateness measured would allow, 0 for none.
+    ``carries_hz`` is the greatest usual rate that the lateness measured would allow, 0 for none. ``moving``: axes moved
+    all the time; else the machine was idle.
     """
 
     machine: str
@@ -67,6 +68,7 @@ class LatencyReport:
     carries_hz: int
     grade: Grade
     interrupted: bool
+    moving: bool = False
 
     @property
     def period_us(self) -> float:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.generation.queues import MOVED_STEPS, there_and_back
 from drillctl.lab import latency
 from drillctl.lab.latency import MOST_PROCESSORS, LatencyError, measure
 from drillctl.lab.wakeups import WakeupLog
@@ -152,6 +153,25 @@ def test_json() -> None:
 def test_text() -> None:
     done = run("--seconds", "1")
     assert done.returncode == 0 and "ticks at 500 Hz" in done.stdout and "\ngrade " in done.stdout
+
+
+def test_a_moving_machine_is_measured_too() -> None:
+    """And the report says so, in both forms."""
+    told = json.loads(run("--hz", "200", "--seconds", "1", "--moving", "--json").stdout)
+    assert told["moving"] and told["ticker"]["wakes"] > 0
+    assert ", moving: " in run("--hz", "200", "--seconds", "1", "--moving").stdout
+
+
+def test_the_moves_of_the_measurement_go_on(machine: Machine) -> None:
+    """Homed, and then there and back without a fault, for as long as it takes."""
+    moves, ticker = there_and_back(machine), Ticker.simulated(machine)
+    ticker.queue.put(moves)
+    ticker.run(20_000, lambda: ticker.controller.done == len(moves))
+    for _ in range(3):
+        ticker.queue.put(moves[1:])
+        ticker.run(1)
+        ticker.run(5_000, lambda: not len(ticker.queue) and not ticker.controller.busy)
+    assert not ticker.controller.fault and ticker.controller.axes[0].made >= 3 * 2 * MOVED_STEPS
 
 
 @pytest.mark.parametrize(

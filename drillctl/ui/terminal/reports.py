@@ -42,7 +42,8 @@ def latency_lines(report: LatencyReport) -> list[str]:
     """The lines that ``drillctl latency`` prints."""
     ended = ", ended early" if report.interrupted else ""
     ticks = report.ticker.wakes
-    lines = [f"{report.machine}, idle: {ticks} ticks at {report.tick_hz} Hz in {report.seconds:.1f} s{ended}"]
+    doing = "moving" if report.moving else "idle"
+    lines = [f"{report.machine}, {doing}: {ticks} ticks at {report.tick_hz} Hz in {report.seconds:.1f} s{ended}"]
     lines += _scheduling(report)
     lines += ["", HEADING, _row("ticker", report.ticker), _row("canaries", report.canary), ""]
     late = f"{report.late} of {ticks} = {report.late / ticks:.3%}"
