@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from drillctl.cli import options, screen
+from drillctl.cli.operating import waiting
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -20,5 +21,6 @@ def call(arguments: argparse.Namespace) -> int:
     screen.check_terminal()
     from drillctl.console.scope_runs import TraceFile
 
-    run = TraceFile(arguments.trace, options.library(arguments), arguments.from_tick)
+    with waiting() as wait:
+        run = TraceFile(arguments.trace, options.library(arguments), arguments.from_tick, wait)
     return screen.work(arguments, run)

@@ -13,6 +13,8 @@ import numpy as np
 
 from drillctl.console.machine_console import BUSY, MachineConsole
 from drillctl.console.scope import RunRecording, RunScope
+from drillctl.generation.waits import Waits, reading, unwatched
+from drillctl.language import Message
 from drillctl.machine import Library, Machine, TableError
 from drillctl.plant import Plant, PlantRefused
 from drillctl.plant.choice import DYNAMIC
@@ -26,20 +28,22 @@ from drillctl.trace.lanes import Column
 from drillctl.trace.segments import OUTPUT
 from drillctl.trace.tape_lanes import TapeColumn, TapeView
 from drillctl.trace.values import IDLE, Values
-from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.scope import Notice
 
 TURN_S = 0.025  # of the screen's beat of 50 ms, while there is something left to run
 MOST_ROWS = 20_000_000  # 16 bytes each
+LAYING_OUT = Message("laying out the waves")
 
 
 class TraceFile(RunScope):
-    """A ScopeSource, opened at a tick. Raises TraceError for a file that is no trace or has no such tick, TableError
-    for its machine.
+    """A ScopeSource, opened at a tick; ``waits`` is called with how far the work is. Raises TraceError for a file that
+    is no trace or has no such tick, TableError for its machine.
     """
 
-    def __init__(self, file: Path, library: Library, from_tick: int = 0):
-        record = read_record(file)
+    def __init__(self, file: Path, library: Library, from_tick: int = 0, waits: Waits = unwatched):
+        record = read_record(file, waits(reading(file.name)))
+        waits(LAYING_OUT)
         recorded = record.rest if isinstance(record, Segments) else record
         machine = machine_of(recorded, file, library)
         check_tick(recorded, file, from_tick)
@@ -177,11 +181,11 @@ class ScopeRuns:
         """The run of the machine in use; another one once another machine was chosen."""
         return self._console.recording
 
-    def open_trace(self, file: str) -> tuple[TraceFile | None, Problems]:
+    def open_trace(self, file: str, watch: Watch = unwatched) -> tuple[TraceFile | None, Problems]:
         """Opens a trace file. Refused while the machine is at work: a long file takes longer than a ticker waits."""
         if self._console.at_work:
             return None, (BUSY,)
         try:
-            return TraceFile(Path(file), self._library), ()
+            return TraceFile(Path(file), self._library, waits=watch), ()
         except (TraceError, TableError) as error:
             return None, error.messages

@@ -73,8 +73,7 @@ def replay(
     the ticks before are run in whole commands by either engine. ``waits`` is called with how far the work is. Raises
     TraceError for a file that is no trace, can't be run or is shorter; TableError for its machine.
     """
-    waits(reading(file.name))
-    kept = read_record(file)
+    kept = read_record(file, waits(reading(file.name)))
     head = kept.rest if isinstance(kept, Segments) else kept
     machine = machine_of(head, file, library)
     check_tick(head, file, from_tick)

@@ -17,9 +17,13 @@ MOST_CARDS = 2  # 64 bits
 Read = TypeVar("Read")
 
 
-def read_record(file: Path) -> Trace | Segments:
-    """The record in a file, in the form in which it is kept. Raises TraceError, also where the file can't be read."""
-    return _read(file, read_segments) if _read(file, is_segments) else _read(file, read_text)
+def read_record(file: Path, advance: Callable[[int, int], None] = lambda done, total: None) -> Trace | Segments:
+    """The record in a file, in the form in which it is kept. ``advance`` is called with how many bytes of a text are
+    read, and of how many. Raises TraceError, also where the file can't be read.
+    """
+    if _read(file, is_segments):
+        return _read(file, read_segments)
+    return _read(file, lambda path: read_text(path, advance=advance))
 
 
 def read_trace(file: Path, to_tick: int | None = None) -> Trace:

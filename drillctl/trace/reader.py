@@ -5,8 +5,9 @@ and everything is bounded, since a golden file may come from anyone. Kinds follo
 a name or command are taken as they are.
 """
 
+import os
 from array import array
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from typing import NoReturn, TextIO
 
@@ -23,6 +24,7 @@ COMMANDS_LIMIT = 1_000_000  # lines of a long job
 CHANGES_REMEMBERED = 1 << 14
 SIGNALS_LIMIT = 1024
 REMARKS_LIMIT = 10_000  # lines behind the end
+TOLD_EVERY = 20_000  # lines: some tenths of a second
 CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
 
 
@@ -40,13 +42,18 @@ class TraceError(Refusal):
         return self.reason.at(place)
 
 
-def read_text(source: Target, name: str | None = None) -> Trace:
+def read_text(
+    source: Target, name: str | None = None, advance: Callable[[int, int], None] = lambda done, total: None
+) -> Trace:
     """Returns the trace in a path or an open text file; errors call it `name` (by default the path).
+
+    `advance` is called with how many bytes of a path are read, and of how many; what it raises ends the reading.
 
     Raises TraceError for a file that is not a whole, canonical trace, OSError as `open`.
     """
     with opened(source, "r") as file:
-        lines = _Lines(file, name or (str(source) if file is not source else "<trace>"))
+        read = _bytes_read(file, advance) if file is not source else _nothing
+        lines = _Lines(file, name or (str(source) if file is not source else "<trace>"), read)
         header, signals = _read_head(lines)
         changes = _Changes(lines, signals)
         end = changes.read()
@@ -57,18 +64,30 @@ def read_text(source: Target, name: str | None = None) -> Trace:
 class _Lines:
     """The lines of one file, counted and bounded. Every refusal names the line it was met in."""
 
-    def __init__(self, file: TextIO, name: str) -> None:
-        self._file, self._name, self.number = file, name, 0
+    def __init__(self, file: TextIO, name: str, tell: Callable[[], None]) -> None:
+        self._file, self._name, self._tell, self.number = file, name, tell, 0
 
     def __iter__(self) -> Iterator[str]:
         while line := self._file.readline(LINE_LIMIT):
             self.number += 1
             if line[-1] != "\n":
                 self.refuse(_bad_ending(line))
+            if self.number % TOLD_EVERY == 0:
+                self._tell()
             yield line[:-1]
 
     def refuse(self, reason: Message) -> NoReturn:
         raise TraceError(self._name, max(self.number, 1), reason)
+
+
+def _bytes_read(file: TextIO, advance: Callable[[int, int], None]) -> Callable[[], None]:
+    """Returns what tells how much of a file is read; one that grows meanwhile is never more than read."""
+    size = os.fstat(file.fileno()).st_size
+    return lambda: advance(min(file.buffer.tell(), size), size)
+
+
+def _nothing() -> None:
+    """Tells nobody."""
 
 
 def _bad_ending(line: str) -> Message:

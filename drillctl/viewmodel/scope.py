@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import Message
-from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.console import Problems, Watch
 
 Ints = NDArray[np.int64]
 Shape = Literal["wire", "count", "words"]
@@ -136,5 +136,5 @@ class RunOpening(Protocol):
     def running(self) -> ScopeSource:
         """The run of the machine at hand, since it was chosen."""
 
-    def open_trace(self, file: str) -> tuple[ScopeSource | None, Problems]:
-        """The run in a trace file; None and the reason where it can't be read."""
+    def open_trace(self, file: str, watch: Watch) -> tuple[ScopeSource | None, Problems]:
+        """The run in a trace file; None and the reason where it can't be read. ``watch``: as Console.load has it."""

@@ -16,6 +16,7 @@ from drillctl.console.scope import RunScope
 from drillctl.console.scope_layout import lanes_of
 from drillctl.console.scope_runs import ScopeRuns, TraceFile
 from drillctl.generation.job import names_of
+from drillctl.generation.waits import Advance, ignored
 from drillctl.kmd import parse_program
 from drillctl.kmd.queue import CAPACITY
 from drillctl.machine import Library
@@ -330,6 +331,17 @@ def test_a_file_is_refused_with_the_reason_and_not_while_the_machine_works(conso
     assert "can't be read" in bench.open_trace("/nowhere.trace")[1][0]
     console.jog("x", 300)
     assert bench.open_trace(str(file)) == (None, (BUSY,))
+
+
+def test_what_is_done_while_a_file_is_opened_is_told(file: Path) -> None:
+    told: list[str] = []
+
+    def waits(what: str) -> Advance:
+        told.append(what)
+        return ignored
+
+    TraceFile(file, LIBRARY, waits=waits)
+    assert told == ["reading job.trace", "laying out the waves"]
 
 
 def test_a_shipped_queue_is_the_same_in_file_and_machine(console: MachineConsole, tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drillctl.trace import Signal, Trace, is_trace, named_signal_kind, read_text, write_text
+from drillctl.trace import Signal, Trace, is_trace, named_signal_kind, read_text, reader, write_text
 
 GOLDEN = """\
 drillctl-trace 1
@@ -125,6 +125,26 @@ VALUES = {
     "name": st.integers(0, len(NAMES) - 1),
     "command": st.one_of(st.just(0), st.integers(0, 10**9 - 1).map(lambda sequence: sequence * 64 + 1)),
 }
+def test_how_much_of_a_file_is_read_is_told_and_may_end_the_reading(
+    trace: Trace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class GivenUp(Exception):
+        pass
+
+    def give_up(done: int, total: int) -> None:
+        raise GivenUp
+
+    monkeypatch.setattr(reader, "TOLD_EVERY", 3)
+    write_text(trace, tmp_path / "golden")
+    size, told = (tmp_path / "golden").stat().st_size, []
+    assert read_text(tmp_path / "golden", advance=lambda done, total: told.append((done, total))) == read_text(
+        tmp_path / "golden"
+    )
+    assert len(told) > 3 and told == sorted(told) and {total for _, total in told} == {size} and told[-1][0] <= size
+    with pytest.raises(GivenUp):
+        read_text(tmp_path / "golden", advance=give_up)
+
+
 PLAIN = st.text(max_size=20).map(str.strip).filter(str.isprintable)
 KEYS = st.from_regex(r"[a-z][a-z0-9_-]{0,8}", fullmatch=True).filter(lambda key: key not in ("signal", "end"))
 SIGNAL_NAMES = ("kmd", "in.0", "in.12", "out.0", "request", "fault", "late", "x.column", "plant.z", "other")

@@ -1,18 +1,20 @@
 """The scope on a canvas, upon the run of a real queue."""
 
 from pathlib import Path
+from threading import Event
 
 import pytest
 
 from drillctl.cli import main
 from drillctl.console.scope_runs import TraceFile
-from drillctl.language import words
+from drillctl.language import Message, words
 from drillctl.machine import Library, shipped_tables
+from drillctl.ui import background
 from drillctl.ui.app import App
 from drillctl.ui.screens.scope import Scope
 from drillctl.ui.screens.scope_keys import SCOPE_KEYS, SEARCHES
 from drillctl.ui.screens.scope_view import LACKS
-from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.scope import ScopeSource
 from tests.ui.fake_console import FakeConsole, Program
 
@@ -43,7 +45,8 @@ class Runs:
     def running(self) -> ScopeSource:
         return self.source
 
-    def open_trace(self, file: str) -> tuple[ScopeSource | None, Problems]:
+    def open_trace(self, file: str, watch: Watch) -> tuple[ScopeSource | None, Problems]:
+        watch(Message("reading {name}", name=file))
         self.opened.append(file)
         return (None, self.answer) if self.answer else (self.source, ())
 
@@ -253,7 +256,11 @@ def test_a_run_is_opened_at_the_tick_that_was_asked_for(square: TraceFile, monke
     assert program.cursor() == 4321
 
 
-def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile) -> None:
+PATIENCE_S = 60.0
+
+
+def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(background, "SHOWN_AFTER_S", PATIENCE_S)
     program = Scoped(square, live=True)
     program.press("o", *"a.trace", "enter")
     assert program.runs.opened[-1] == "a.trace" and "following" not in program.text() and program.cursor() == 0
@@ -264,6 +271,37 @@ def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile) ->
     assert program.cursor() == 1
     program.press("m")
     assert "following" in program.text()
+
+
+@pytest.mark.parametrize("wanted", [True, False], ids=["waited for", "given up"])
+def test_a_long_file_is_read_beside_the_screen(
+    square: TraceFile, monkeypatch: pytest.MonkeyPatch, wanted: bool
+) -> None:
+    """Until it is read, and where it is given up, the scope shows the run of before."""
+    monkeypatch.setattr(background, "SHOWN_AFTER_S", 0.0)
+    program, half, go_on = Scoped(square, live=True), Event(), Event()
+
+    def read(file: str, watch: Watch) -> tuple[ScopeSource | None, Problems]:
+        advance = watch(Message("reading {name}", name=file))
+        advance(1, 2)
+        half.set()
+        assert go_on.wait(PATIENCE_S)
+        advance(2, 2)
+        return square, ()
+
+    monkeypatch.setattr(program.runs, "open_trace", read)
+    program.press("o", *"long.trace", "enter")
+    assert half.wait(PATIENCE_S)
+    program.app.turn()
+    assert "reading long.trace: 50%" in program.text()
+    if not wanted:
+        program.press("esc")
+    go_on.set()
+    task = program.app._background._task
+    assert task is not None
+    task.join(PATIENCE_S)
+    program.app.turn()
+    assert "reading" not in program.text() and ("following" in program.text()) is not wanted
 
 
 def test_it_is_opened_from_the_menu(square: TraceFile) -> None:

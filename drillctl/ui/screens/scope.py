@@ -6,14 +6,14 @@ machine is shown as it was then.
 
 import urwid
 
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS, SEARCH_OF
 from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import called
 from drillctl.ui.widgets.texts import Size, boxed
-from drillctl.viewmodel.console import Console, MachineView
+from drillctl.viewmodel.console import Console, MachineView, Problems, Watch
 from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, RunOpening, ScopeSource
 
 WHEEL = {4: CLOSER, 5: FURTHER}  # buttons of the mouse
@@ -176,12 +176,23 @@ class Scope(urwid.Widget):
         return ScopeLook(self._view, self._rows, marks, self._following, self._said, self._plain)
 
     def _open(self, file: str) -> None:
-        source, problems = self._runs.open_trace(file)
-        if source is None:
-            self._shell.message(_("Refused"), [_(problem) for problem in problems])
-            return
-        self._file, self._live = file, False
-        self._look_at(source)
+        """Reads a trace beside the screen; the run of before stays until then."""
+        found: list[ScopeSource | None] = []
+
+        def read(watch: Watch) -> Problems:
+            source, problems = self._runs.open_trace(file, watch)
+            found.append(source)
+            return problems
+
+        def opened(problems: Problems) -> None:
+            source = found[0]
+            if source is None:
+                self._shell.message(_("Refused"), [translated(problem) for problem in problems])
+                return
+            self._file, self._live = file, False
+            self._look_at(source)
+
+        self._shell.work(read, opened)
 
     def _find(self, what: Find, direction: int) -> None:
         tick = self._source.find(what, self._view.cursor, direction, self._rows.at)
