@@ -55,7 +55,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (["inspect", "job.drl"], {READ}),
         (["estimate", "job.drl", "--order", "optimised"], {READ, ORDERED, FORECAST}),
         (["estimate", "job.drl", "--order", "nearest", "--engine", "tick"], {READ, ORDERED, FORECAST}),
-        (["run", "job.drl", "--order", "optimised", "--pace", "real", "--tick-hz", "4000"], {READ, ORDERED, FORECAST}),
+        (["run", "job.drl", "--order", "optimised", "--pace", "real", "--tick-hz", "1500"], {READ, ORDERED, FORECAST}),
         (["replay", "t.trace"], {RUN_AGAIN}),
         (["replay", "t.trace", "--engine", "tick"], {RUN_AGAIN}),
         (["convert", "t.trace", "--to", "t.seg"], {RUN_AGAIN}),
@@ -74,7 +74,7 @@ def test_how_far_each_part_is(call: list[str], parts: set[str], folder: Path) ->
 
 
 def test_a_resumed_job_is_read_ordered_and_forecast(folder: Path) -> None:
-    assert journalled.run("--order", "optimised", "--pace", "real", "--tick-hz", "4000") == 0
+    assert journalled.run("--order", "optimised", "--pace", "real", "--tick-hz", "1500") == 0
     journalled.keep_lines(folder, 5)
     Watched.parts.clear()
     assert journalled.resume() == 0
