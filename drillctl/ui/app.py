@@ -8,21 +8,26 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 import urwid
 
 from drillctl.language.words import _, translated
 from drillctl.ui.alerts import Alerts
 from drillctl.ui.background import Background
+from drillctl.ui.dropping import Dropping
 from drillctl.ui.explanations import EXPLAINED
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
 from drillctl.ui.next_step import step_line
+from drillctl.ui.palette import actions
+from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
-from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, TYPED_STOP, called, help_lines
-from drillctl.ui.widgets.menus import Item, PullDown
+from drillctl.ui.widgets.finder import Finder
+from drillctl.ui.widgets.keys import COPY, EMERGENCY, FRAME_KEYS, TYPED_STOP, Key, called, help_lines
+from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
 
@@ -53,7 +58,7 @@ class App(Boxes):
         keep_theme: Callable[[str], object] = lambda theme: None,
     ):  # fmt: skip
         borders.use(plain)
-        self._keep_theme = keep_theme
+        self._theme, self._keep_theme = theme, keep_theme
         self._console, self._plain, self._makers = console, plain, makers or {}
         self._made: dict[str, urwid.Widget] = {}
         self._at_work = False
@@ -61,6 +66,7 @@ class App(Boxes):
         self._use(screens_of(console.view()))
         terminal = terminal or _terminal()
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows), self.frame.say)
+        self._menus = Dropping(self.frame.bar, self.layers, self._choose)
         self._alerts = Alerts(console, self.layers)
         self._background = Background(self.layers, self.frame.say)
         self.loop = urwid.MainLoop(
@@ -99,16 +105,23 @@ class App(Boxes):
         if any(isinstance(key, str) and key != "window resize" for key in keys):
             self.frame.say("")
         if not stops.intersection(keys):
-            return keys
+            return self._without_copies(keys)
         self.emergency_stop()  # nothing typed with it may still reach the machine, an acknowledgement least of all
         return [key for key in keys if key == "window resize"]
+
+    def _without_copies(self, keys: list[Pressed]) -> list[Pressed]:
+        """Keeps a copy of the screen for the key that asks for it, over dialogs too; returns the other keys."""
+        if COPY.names[0] in keys:
+            self.copy_screen()
+        return [key for key in keys if key not in COPY.names]
 
     def unhandled(self, pressed: Pressed) -> bool:
         """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""
         if not isinstance(pressed, str):
-            return self._clicked(*pressed)
+            event, _button, column, row = pressed
+            return self._menus.clicked(event, column, row)
         if pressed.startswith("meta "):
-            return self._drop(self.frame.bar.lettered(pressed.removeprefix("meta ")))
+            return self._menus.drop(self.frame.bar.lettered(pressed.removeprefix("meta ")))
         return called(self, FRAME_KEYS, pressed)
 
     def open(self, screen: urwid.Widget) -> None:
@@ -150,7 +163,7 @@ class App(Boxes):
 
     def menu(self) -> None:
         """Opens the first menu of the bar."""
-        self._drop(0)
+        self._menus.drop(0)
 
     def help(self) -> None:
         """Explains the screen on top and the signs on it, then lists the keys that work there."""
@@ -158,6 +171,28 @@ class App(Boxes):
         keys = help_lines([*screen_keys(screen), *FRAME_KEYS])
         title = getattr(screen, "title", "")
         self.message(_(title) or _("Keys"), [*map(_, EXPLAINED.get(title, ())), "", *keys])
+
+    def find_action(self) -> None:
+        """Opens a box that finds any action by its words."""
+        found = actions(self.frame.bar.menus, self.screens[-1], [*self.screens, *self._made.values()])
+
+        def chosen(index: int) -> None:
+            _found, does, screen = found[index]
+            if isinstance(does, Item):
+                self._choose(does)
+                return
+            if screen is not None:
+                self.open(screen)
+            self._perform(screen or self, does)
+
+        lines = [action.found for action in found]
+        self.layers.push_finder(Finder(_("Find an action"), lines, chosen, self.layers.pop))
+
+    def copy_screen(self) -> None:
+        """Keeps the screen as a picture, in a new file of the current folder, and says its name."""
+        canvas = self.layers.render(self.loop.screen.get_cols_rows(), focus=True)
+        file, problems = keep_copy(canvas, self._theme, Path.cwd())
+        self.frame.say(" ".join(map(translated, problems)) or _("the screen is kept as {file}").format(file=file.name))
 
     def notices(self) -> None:
         """Shows all notices of the machine; the line on the machine has room for the last one only."""
@@ -184,12 +219,13 @@ class App(Boxes):
         """Changes the colours to those of another theme."""
         self.loop.screen.register_palette(palette(theme))
         self.loop.screen.clear()
+        self._theme = theme
         self._keep_theme(theme)
 
     def choose_machine(self) -> None:
         """Opens a menu of the machines that can be chosen."""
         items = [Item(name, "", "take_machine", name) for name, _description in self._console.machines()]
-        self._pull(items, len(_("Machine")), 2)
+        self._menus.pull(items, len(_("Machine")), 2)
 
     def take_machine(self, name: str) -> None:
         """Changes to another machine, at its start position, and to the screens of its family."""
@@ -234,46 +270,14 @@ class App(Boxes):
         self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)
         self.turn()
 
-    def _clicked(self, event: str, _button: int, column: int, row: int) -> bool:
-        if event != "mouse press" or not isinstance(self.layers.top, PullDown | None):
-            return False
-        self.layers.close_menus()
-        return row == 0 and self._drop(self.frame.bar.at(column))
-
-    def _drop(self, index: int | None) -> bool:
-        """Opens a menu of the bar in place of any that is open; False for no menu."""
-        if index is None:
-            return False
-        self.layers.close_menus()
-        menus = self.frame.bar.menus
-        index %= len(menus)
-
-        def sideways(by: int) -> None:
-            self._drop(index + by)
-
-        self._pull(menus[index].items, self.frame.bar.left_of(index), 1, sideways)
-        return True
-
-    def _pull(
-        self, items: Sequence[Item], left: int, top: int, sideways: Callable[[int], None] = lambda by: None
-    ) -> None:
-        """Opens a box of entries at a place; a further box lies a little below it and to the right."""
-
-        def chosen(item: Item) -> None:
-            if item.items:
-                self._pull(item.items, left + 4, top + 2, lambda by: self.layers.pop() if by < 0 else None)
-            else:
-                self._choose(item)
-
-        box = PullDown(items, chosen, sideways, self.layers.pop)
-        self.layers.push_menu(box, left, top)
-
     def _choose(self, item: Item) -> None:
-        self.layers.close_menus()
-        target = self.show(item.screen) if item.screen else self
-        if target is not None and item.method:
-            method = getattr(target, item.method)
-            method() if item.argument is None else method(item.argument)
+        self._perform(self.show(item.screen) if item.screen else self, item)
+
+    def _perform(self, target: object, does: Item | Key) -> None:
+        """Calls the method of an entry or a key; only opens the screen for an entry without one."""
+        if target is not None and does.method:
+            method = getattr(target, does.method)
+            method() if does.argument is None else method(does.argument)
 
 
 def _leave() -> None:

@@ -12,8 +12,12 @@ import urwid
 from drillctl.language.words import _
 from drillctl.ui.widgets import dialogs
 from drillctl.ui.widgets.dialogs import ChoiceDialog, Field, FieldsDialog, offer
+from drillctl.ui.widgets.finder import COLUMNS, ROWS, Finder
 from drillctl.ui.widgets.menus import PullDown
+from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import Problems
+
+LEAST = (50, 15)  # columns and rows below which the screen can't be used
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,29 @@ class Layer:
     over: Callable[[urwid.Widget, int, int], urwid.Widget]
 
 
+class TooSmall(urwid.WidgetWrap[urwid.Widget]):
+    """What a terminal of too few columns or rows shows in place of everything. It takes keys, and does nothing."""
+
+    def __init__(self, columns: int, rows: int):
+        told = _(
+            "This terminal has {columns} columns and {rows} rows. The screen needs {least_columns} and {least_rows}, "
+            "and is made for 80 and 24. The machine goes on as it was; F10 is the emergency stop."
+        )
+        text = told.format(columns=columns, rows=rows, least_columns=LEAST[0], least_rows=LEAST[1])
+        super().__init__(urwid.AttrMap(urwid.Filler(Text(text), "top"), "body"))
+
+    def selectable(self) -> bool:
+        """True: no key goes elsewhere."""
+        return True
+
+    def keypress(self, size: Size, key: str) -> None:
+        """Does nothing: what a key would do can't be seen."""
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """Does nothing."""
+        return True
+
+
 class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
     """The widget of the whole terminal. ``size`` gives the terminal's columns and rows."""
 
@@ -31,6 +58,7 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         super().__init__(base)
         self._base, self._size = base, size
         self._layers: list[Layer] = []
+        self.restack()
 
     @property
     def top(self) -> urwid.Widget | None:
@@ -53,6 +81,10 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         """Lays a menu over everything, its corner at this place as far as the terminal has room."""
         self._push(Layer(box, lambda below, columns, rows: _placed(box, below, left, top, columns, rows)))
 
+    def push_finder(self, finder: Finder) -> None:
+        """Lays a box that finds lines over everything, in the middle of the terminal."""
+        self._push(Layer(finder, lambda below, columns, rows: _middle(finder, below, columns, rows)))
+
     def pop(self) -> None:
         """Takes the topmost box away."""
         del self._layers[-1:]
@@ -70,9 +102,13 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
 
     def restack(self) -> None:
         """Lays every box over the ones below it anew, for the present size of the terminal."""
+        columns, rows = self._size()
+        if columns < LEAST[0] or rows < LEAST[1]:
+            self.original_widget = TooSmall(columns, rows)
+            return
         widget = self._base
         for layer in self._layers:
-            widget = layer.over(widget, *self._size())
+            widget = layer.over(widget, columns, rows)
         self.original_widget = widget
 
     def _push(self, layer: Layer) -> None:
@@ -94,6 +130,10 @@ def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: in
     width, height = min(box.columns, columns), min(box.rows_wanted, rows - top)
     shifted = max(0, min(left, columns - width))
     return urwid.Overlay(box, below, "left", width, "top", height, left=shifted, top=top)
+
+
+def _middle(finder: Finder, below: urwid.Widget, columns: int, rows: int) -> urwid.Widget:
+    return urwid.Overlay(finder, below, "center", min(COLUMNS, columns - 2), "middle", min(ROWS, rows - 2))
 
 
 class Boxes:

@@ -10,7 +10,7 @@ import pytest
 
 from drillctl import console
 from drillctl.kmd import Fault
-from drillctl.language import words
+from drillctl.language import Message, words
 from drillctl.ui import app
 from drillctl.ui.frame import CONDITIONS, screen_keys
 from drillctl.ui.pcb_drill.menus import MENUS
@@ -23,6 +23,7 @@ from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 from tests.ui.whole import SCREENS, Whole, at_home
 
 COLUMNS = 80
+FIELD = re.compile(r"\{(\w+)(?:![rs])?(:[^}]*)?\}")  # of a message: its name, and its format if it is a figure
 FRAMES = re.compile(r"[│┌┐└┘─\s]+")  # of boxes, and where lines were broken
 
 
@@ -67,9 +68,10 @@ def refusals() -> list[str]:
 
 @pytest.mark.parametrize("refusal", refusals())
 def test_a_refusal_is_read_whole(language: str, refusal: str) -> None:
-    program = Program(FakeConsole(loaded=BOARD, answer=(refusal,)))
+    fields = {name: 1 if form else name for name, form in FIELD.findall(refusal)}
+    program = Program(FakeConsole(loaded=BOARD, answer=(Message(refusal, **fields),)))
     program.press("i")
-    assert words._(refusal) in told(program.text())
+    assert words._(refusal).format(**fields) in told(program.text())
 
 
 def test_a_notice_is_read_whole(language: str) -> None:

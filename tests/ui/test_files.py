@@ -56,13 +56,13 @@ def typed(program: Program, *texts: str, wiped: int = 10) -> None:
 @pytest.mark.parametrize("index", range(len(FORMATS)))
 def test_a_format_is_chosen_by_its_name(folder: Path, index: int) -> None:
     program = opened()
-    program.press("f", str(index + 1))
+    program.press("n", str(index + 1))
     assert asked(program).format == (FORMATS[index].option or None)
 
 
 def test_the_papers_four_formats_are_named_and_any_other_can_be_typed(folder: Path) -> None:
     program = opened()
-    program.press("f")
+    program.press("n")
     for name in ("ASCII drill format", "EXCELLON decimal", "EXCELLON adding zero", "EXCELLON metric"):
         assert name in program.text()
     program.press(*["down"] * len(FORMATS), "enter")
@@ -99,14 +99,14 @@ def test_a_panel_is_asked_checked_and_shown(folder: Path) -> None:
 
 def test_how_to_drill_is_asked_and_shown(folder: Path) -> None:
     program = opened(size=(100, 40))
-    program.press("d")
+    program.press("w")
     typed(program, "0.5", "0,2", "T3 2", "drills.toml")
     program.press("enter")
     wanted = Asked(peck_mm=0.5, spot_mm=0.2, skip_tools=(2, 3), drills=str(folder / "drills.toml"))
     assert asked(program) == wanted
     for told in ("In pecks of 0.5 mm", "A spot of 0.2 mm first", "Without tools T2 T3", "Drills at hand: "):
         assert told in program.text()
-    program.press("d")
+    program.press("w")
     typed(program, "", "", "", "", wiped=120)
     program.press("enter")
     assert asked(program) == Asked()
@@ -116,7 +116,7 @@ def test_how_to_drill_is_asked_and_shown(folder: Path) -> None:
 def test_what_cannot_be_read_is_said_in_the_form(folder: Path, field: int, text: str) -> None:
     program = opened()
     before = len(program.console.asked)
-    program.press("d", *["down"] * field)
+    program.press("w", *["down"] * field)
     typed(program, text)
     program.press("enter")
     assert f"{text!r} is not a l" in program.text() and len(program.console.asked) == before
@@ -142,7 +142,7 @@ def test_holes_behind_the_end_can_be_asked_for(folder: Path) -> None:
     program = opened(size=(130, 40))
     assert "Behind M30: refuse holes" in program.text()
     for choice, word in (("ignore", "leave out"), ("drill", "drill too"), ("refuse", "refuse holes")):
-        program.press("b")
+        program.press("k")
         assert asked(program).after_end == choice and f"Behind M30: {word}" in program.text()
 
 
@@ -252,7 +252,7 @@ STANDING = replace(VIEW, axes=tuple(replace(axis, position_steps=480, position_m
 
 def aligning(folder: Path, size: tuple[int, int] = (80, 24)) -> Program:
     program = opened(FakeConsole(now=STANDING), size)
-    program.press("a")
+    program.press("j")
     return program
 
 
@@ -335,11 +335,11 @@ def test_a_machine_that_moves_or_is_lost_finds_no_hole(folder: Path, change: dic
 
 def test_a_panel_or_no_board_is_not_measured(folder: Path) -> None:
     program = Program(FakeConsole())
-    program.press("f", "a")
+    program.press("f", "j")
     assert "no board is loaded" in program.text()
     program.press("enter", "p")
     typed(program, "2", "1", "40")
-    program.press("enter", "down", "enter", "a")
+    program.press("enter", "down", "enter", "j")
     assert "Measure a single board first" in program.text()
 
 
@@ -370,7 +370,7 @@ def test_an_exclamation_mark_is_typed_at_rest_and_stops_otherwise(folder: Path) 
 
 def test_f10_stops_in_a_field_at_rest_too(folder: Path) -> None:
     program = opened()
-    program.press("d", "f10")
+    program.press("w", "f10")
     assert program.console.asked[-1] == ("emergency_stop",)
 
 

@@ -17,11 +17,11 @@ from tests.ui.whole import Event, Whole, at_home
 EVENTS = 2000
 MANY_EVENTS = 10_000
 LONG = (pytest.mark.long, pytest.mark.timeout(900))  # a minute on an idle computer
-SIZES = [(80, 24), (160, 50), (60, 18)]
+SIZES = [(80, 24), (160, 50), (60, 18), (40, 12)]
 KEYS = [
     *"abcdefghijklmnopqrstuvwxyzABX0123456789 +-=.,", "enter", "enter", "esc", "esc", "tab", "up", "down", "left",
     "right", "page up", "page down", "home", "end", "backspace", "delete", "insert", *(f"f{n}" for n in range(1, 10)),
-    "f11", "f12", "meta f", "meta d", "meta t", "meta c", "meta h", "window resize",
+    "f11", "f12", "ctrl p", "ctrl g", "meta f", "meta d", "meta t", "meta c", "meta h", "window resize",
 ]  # fmt: skip
 # Now and then somebody knows the way: closes what is open, acknowledges, goes where things happen.
 CLOSED = (*("esc",) * 4, "meta d", "a")

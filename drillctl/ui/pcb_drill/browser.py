@@ -4,7 +4,6 @@ Rule: what can't be read shows as what it is, and never stops the browser: the r
 """
 
 from collections.abc import Callable, Iterator
-from fnmatch import fnmatch
 from pathlib import Path
 
 import urwid
@@ -12,6 +11,7 @@ import urwid
 from drillctl.files.inputs import read_start, real_path
 from drillctl.language import one_line
 from drillctl.language.words import _
+from drillctl.ui.widgets.finder import fits
 from drillctl.ui.widgets.texts import Pick
 
 DRILL_FILES = "*.drl *.drd *.xln *.xnc *.exc *.cnc *.nc *.txt *.tap *.ncd *.rou"
@@ -47,7 +47,7 @@ class Browser(urwid.ListBox[int]):
             self._rows.set_focus(self._paths.index(file))
 
     def filter(self, pattern: str) -> None:
-        """Lists only files that match one of these patterns, separated by spaces; every file for none."""
+        """Lists only files that have one of these parts in their names, or fit one with ``*``; every file for none."""
         self.pattern = pattern.strip() or "*"
         self.go_to(self.folder)
 
@@ -74,7 +74,7 @@ class Browser(urwid.ListBox[int]):
         return Pick(one_line(name), lambda: self._choose(path))
 
     def _matches(self, name: str) -> bool:
-        return any(fnmatch(name.lower(), pattern.lower()) for pattern in self.pattern.split())
+        return fits(name, self.pattern)
 
     def _choose(self, path: Path) -> None:
         if path.is_dir():

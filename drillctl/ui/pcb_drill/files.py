@@ -39,21 +39,21 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     title = N_("Files")
     keys = (
         Key(("enter",), "Enter", "choose", N_("opens a folder, or loads a file"), N_("Load")),
-        Key(("/",), "/", "filter", N_("which files are listed"), N_("Filter")),
+        Key(("/",), "/", "filter", N_("which files are listed: part of a name, or with *"), N_("Filter")),
         Key(("e",), "E", "examples", N_("the example boards and the lab sheets")),
         Key(("l",), "L", "recent", N_("the files opened last, as they were placed"), N_("Last")),
         Key(("u",), "U", "unfinished", N_("jobs that were cut off, to be gone on with")),
         Key(("tab",), "Tab", "other_side", N_("between the list and the facts")),
-        Key(("f",), "F", "choose_format", N_("the format of the numbers, or to recognise it"), N_("Format")),
+        Key(("n",), "N", "choose_format", N_("the format of the numbers, or to recognise it"), N_("Format")),
         Key(("m",), "M", "cycle", N_("mirrors the board"), N_("Mirror"), "mirror"),
         Key(("t",), "T", "cycle", N_("turns the board by a quarter"), N_("Turn"), "rotate_deg"),
         Key(("o",), "O", "cycle", N_("what comes to lie at the base"), argument="origin"),
         Key(("v",), "V", "offset", N_("moves the board by X and Y")),
-        Key(("a",), "A", "align", N_("places the board by holes measured on it"), N_("Align")),
+        Key(("j",), "J", "align", N_("places the board by holes measured on it"), N_("Align")),
         Key(("p",), "P", "panel", N_("repeats the board in columns and rows"), N_("Panel")),
         Key(("r",), "R", "cycle", N_("the order of the holes"), N_("Order"), "order"),
-        Key(("b",), "B", "cycle", N_("what becomes of holes behind the end, M30 (--after-end)"), argument="after_end"),
-        Key(("d",), "D", "how_to_drill", N_("pecks, spots, tools left out, drills at hand"), N_("How")),
+        Key(("k",), "K", "cycle", N_("what becomes of holes behind the end, M30 (--after-end)"), argument="after_end"),
+        Key(("w",), "W", "how_to_drill", N_("pecks, spots, tools left out, drills at hand"), N_("How")),
     )
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False, folder: Path | None = None):
@@ -85,7 +85,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._right.focus_position = 1
 
     def filter(self) -> None:
-        """Asks for the patterns of the files to be listed, such as ``*.drl``."""
+        """Asks for parts of the names of the files to be listed, or patterns such as ``*.drl``."""
         self._shell.ask_text(_("Filter"), _("Files:"), self._browser.pattern, self._browser.filter)
 
     def recent(self) -> None:

@@ -18,6 +18,8 @@ TESTS = Item(N_("&Tests"), items=(
 ))  # fmt: skip
 HELP = Item(N_("&Help"), items=(
     Item(N_("&Keys"), "", "help"),
+    Item(N_("&Find an action..."), "", "find_action"),
+    Item(N_("&Copy of the screen"), "", "copy_screen"),
     Item(N_("&Notices"), "", "notices"),
     Item(N_("&About"), "", "about"),
 ))  # fmt: skip

@@ -32,12 +32,17 @@ EMERGENCY = Key(
     N_("emergency stop, always; ! is typed in fields at rest"), N_("E-STOP"),
 )  # fmt: skip
 
+# Looked at before anything else too, so that a dialog can be copied.
+COPY = Key(("ctrl g",), "Ctrl-G", "copy_screen", N_("keeps a picture of the screen (SVG) in this folder"))
+
 FRAME_KEYS = (
     EMERGENCY,
     Key(("f1", "?"), "F1 ?", "help", N_("explains the screen and lists its keys"), N_("Help")),
     Key(("f9",), "F9", "menu", N_("the menu; or Alt with a letter of it"), N_("Menu")),
     Key(("esc",), "Esc", "back", N_("closes what is on top"), N_("Back")),
     Key(("q",), "Q", "leave_top", N_("as Esc; on the first screen it ends the program")),
+    Key(("ctrl p",), "Ctrl-P", "find_action", N_("finds any action by its words, English or your own")),
+    COPY,
     Key(("f4",), "F4", "leave", N_("ends the program; the outputs are made safe"), N_("Quit")),
 )
 

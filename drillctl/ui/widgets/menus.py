@@ -19,7 +19,7 @@ class Item(NamedTuple):
     label: str
     screen: str = ""
     method: str = ""
-    argument: str | None = None
+    argument: str | int | None = None
     items: tuple["Item", ...] = ()
 
 

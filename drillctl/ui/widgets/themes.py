@@ -86,6 +86,17 @@ def palette(theme: str) -> list[Entry]:
     return [_entry(name, role, THEMES[theme]) for name, role in ROLES.items()]
 
 
+PAPER, INK = "#1b1f24", "#d5dae1"  # of a picture in a theme without colours
+
+
+def shades(theme: str, role: object) -> tuple[str, str]:
+    """Letters and ground of a role in a theme as ``#rrggbb``; those of ``body`` for what is no role."""
+    wanted = ROLES.get(str(role), ROLES["body"])
+    if colours := THEMES[theme]:
+        return colours[wanted.foreground][1], colours[wanted.background][1]
+    return (PAPER, INK) if "standout" in wanted.mono else (INK, PAPER)
+
+
 def depth_of(environment: Mapping[str, str]) -> Depth:
     """How many colours the terminal has, by COLORTERM and TERM; 1 where NO_COLOR is set to anything."""
     terminal = environment.get("TERM", "")
