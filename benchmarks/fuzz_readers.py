@@ -30,9 +30,8 @@ from drillctl.generation import alignment, measured
 from drillctl.generation.drillfile import DrillFileError, read, summary
 from drillctl.generation.drills import read_drills
 from drillctl.generation.errors import JobError
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.readers import load_job
-from drillctl.generation.recipe import Recipe
-from drillctl.generation.wishes import Wishes
 from drillctl.jobs.journal import Journal, JournalError, head_of, read_journal
 from drillctl.machine import Library, TableError, shipped_tables
 from drillctl.machine.source import Source
@@ -120,7 +119,7 @@ def _trace(file: Path) -> object:
 
 
 def _job(file: Path) -> object:
-    return load_job(file, MACHINE, Wishes())
+    return load_job(file, MACHINE, JobOptions("pcb-drill"))
 
 
 def _measured(file: Path) -> object:
@@ -133,7 +132,7 @@ def _line_map(file: Path) -> object:
 
 def _journal(file: Path) -> object:
     account = read_journal(file)
-    return account.holes_begun, Recipe.of_options(account.head.options, file)
+    return account.holes_begun, JobOptions.of_journal(account.head.options, file)
 
 
 def _segments(rng: Random, material: Material) -> bytes:
@@ -158,11 +157,11 @@ def _segment_seeds() -> list[bytes]:
 
 def _journal_seed() -> bytes:
     """Of a board that was stopped after its first hole, gone on with, and cut off at its third."""
-    recipe = Recipe(machine="pcb-drill")
-    job = load_job(EXAMPLES / "blinker.drl", MACHINE, recipe.wishes(MACHINE))
+    options = JobOptions(machine="pcb-drill")
+    job = load_job(EXAMPLES / "blinker.drl", MACHINE, options)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "journal"
-        with closing(Journal(file, head_of(EXAMPLES / "blinker.drl", job, recipe.options()), SITE)) as journal:
+        with closing(Journal(file, head_of(EXAMPLES / "blinker.drl", job, options.as_journalled()), SITE)) as journal:
             journal.begun(1)
             journal.done([1])
             journal.ended("stopped")

@@ -15,7 +15,7 @@ from drillctl.generation.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
     from drillctl.generation.job import Job
-    from drillctl.generation.recipe import Recipe
+    from drillctl.generation.job_options import JobOptions
     from drillctl.machine import Machine
 
 JOB_HELP = "a drill file, a queue of commands (.kmd), a part program (.sentences), or a workpiece (01..99)"
@@ -60,12 +60,12 @@ def add_store(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--store", type=Path, metavar="FILE", help=where)
 
 
-def recipe(arguments: argparse.Namespace) -> "Recipe":
-    """Returns the job's options as a Recipe, with absolute paths."""
-    from drillctl.generation.recipe import Recipe
+def job_options(arguments: argparse.Namespace) -> "JobOptions":
+    """Returns the job's options as a journal keeps them, with absolute paths."""
+    from drillctl.generation.job_options import JobOptions
 
     machine = arguments.machine
-    return Recipe(
+    return JobOptions(
         machine=str(real_path(machine)) if machine.endswith(".toml") else machine,
         tables=_absolute(arguments.tables),
         tick_hz=arguments.tick_hz,
@@ -90,17 +90,16 @@ def _absolute(path: Path | None) -> str | None:
     return None if path is None else str(real_path(path))
 
 
-def load(file: Path, made: "Recipe", machine: "Machine") -> "Job":
-    """Returns the job of a recipe, and prints what its measured holes say. Raises JobError, PlacingError or
-    AlignmentError.
+def load(file: Path, chosen: "JobOptions", machine: "Machine") -> "Job":
+    """Returns the job in a file, made by these options, and prints what the measured holes say. Raises JobError,
+    PlacingError or AlignmentError.
     """
     from drillctl.generation.readers import load_job
 
-    wishes = made.wishes(machine)
-    if aligned := made.alignment():
+    if aligned := chosen.alignment():
         _show_alignment(aligned)
     with waiting() as wait:
-        return load_job(file, machine, wishes, *made.reading(), wait)
+        return load_job(file, machine, chosen, wait)
 
 
 def _show_alignment(alignment: "Alignment") -> None:

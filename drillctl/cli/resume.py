@@ -48,12 +48,12 @@ def call(arguments: argparse.Namespace) -> int:
 
 
 def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
-    from drillctl.generation.recipe import Recipe
+    from drillctl.generation.job_options import JobOptions
     from drillctl.jobs.session import Session, rest_of
 
-    recipe = Recipe.of_options(account.head.options, file)
-    tables = recipe.tables and Path(recipe.tables)
-    machine = options.machine(argparse.Namespace(machine=recipe.machine, tables=tables, tick_hz=recipe.tick_hz))
+    chosen = JobOptions.of_journal(account.head.options, file)
+    tables = chosen.tables and Path(chosen.tables)
+    machine = options.machine(argparse.Namespace(machine=chosen.machine, tables=tables, tick_hz=chosen.tick_hz))
     with operating.waiting() as wait:
         left = rest_of(file, account, machine, wait).left
     return Session(left, _running(file, account, arguments), file, account)

@@ -50,11 +50,11 @@ def call(arguments: argparse.Namespace) -> int:
         taped = machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
     running = replace(running, engine=arguments.engine, taped=taped)
     paced = pace_of(running) == "real"
-    recipe = jobs.recipe(arguments)
-    job = jobs.load(arguments.job, recipe, machine)
+    chosen = jobs.job_options(arguments)
+    job = jobs.load(arguments.job, chosen, machine)
     session = Session(job, running)
     if job.work and (paced or arguments.journal):
-        session = session.journalled(arguments.job, arguments.journal, recipe)
+        session = session.journalled(arguments.job, arguments.journal, chosen)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)
     read = (arguments.job, arguments.align, arguments.drills, arguments.store)
     inputs = (*read, *map(Path, machine.files), *session.files)

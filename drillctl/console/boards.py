@@ -19,10 +19,10 @@ from drillctl.generation import alignment
 from drillctl.generation.alignment import decompose
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
+from drillctl.generation.job_options import JobOptions, MeasuredRow
 from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.readers import load_job
-from drillctl.generation.recipe import MeasuredRow, Recipe
 from drillctl.generation.waits import PLANNED, unwatched
 from drillctl.jobs.estimate import estimate_with_ticks
 from drillctl.jobs.journal import Account, Head, Journal, JournalError, head_of, read_journal
@@ -48,7 +48,7 @@ class Plan:
     """
 
     file: Path
-    recipe: Recipe
+    options: JobOptions
     view: BoardView
     left: Job
     ticks: NDArray[np.int64]
@@ -76,20 +76,20 @@ class Boards:
     def load(self, file: Path, asked: Asked, machine: Machine, base: Base, watch: Watch) -> Problems:
         """Plans the board of a drill file, from this working base; it becomes the newest of the recent jobs."""
         try:
-            recipe = recipe_of(asked, machine, base)
+            options = options_of(asked, machine, base)
         except msgspec.ValidationError as error:
             return (Message("it can't be opened with these settings: {why}", why=message_of(error)).at(file),)
-        if problems := self._planned(file, recipe, machine, watch):
+        if problems := self._planned(file, options, machine, watch):
             return problems
         self._recent.add(file, asked)
         return ()
 
     def plan_again(self, machine: Machine, base: Base) -> Problems:
         """Plans the loaded board again where its working base or the machine's tick rate is another one now."""
-        if self.plan is None or (self.plan.recipe.base, self.plan.recipe.tick_hz) == (base, machine.tick_hz):
+        if self.plan is None or (self.plan.options.base, self.plan.options.tick_hz) == (base, machine.tick_hz):
             return ()
-        recipe = msgspec.structs.replace(self.plan.recipe, base=base, tick_hz=machine.tick_hz)
-        return self._planned(self.plan.file, recipe, machine)
+        options = msgspec.structs.replace(self.plan.options, base=base, tick_hz=machine.tick_hz)
+        return self._planned(self.plan.file, options, machine)
 
     def forget(self) -> None:
         """From now on no board is loaded."""
@@ -119,10 +119,10 @@ class Boards:
                 return (reason.at(journal),)
             rest = rest_of(journal, account, machine)
             estimate, ticks = estimate_with_ticks(rest.left)
-            view = board_view(Path(account.head.job), rest.whole, estimate, *rest.recipe.reading())
+            view = board_view(Path(account.head.job), rest.whole, estimate, *rest.options.reading())
         except REFUSALS as error:
             return _problems(error)
-        self.plan = Plan(Path(account.head.job), rest.recipe, view, rest.left, ticks, journal, account)
+        self.plan = Plan(Path(account.head.job), rest.options, view, rest.left, ticks, journal, account)
         return ()
 
     def give_up(self, journal: Path) -> Problems:
@@ -150,7 +150,7 @@ class Boards:
         runner.settle()
         self.close()
         if self.plan is not None and isinstance(self.plan.start_from, Account):
-            self._planned(self.plan.file, self.plan.recipe, machine)
+            self._planned(self.plan.file, self.plan.options, machine)
 
     def close(self) -> None:
         """Closes the journal; of a job that still runs, as where it was cut off."""
@@ -158,27 +158,27 @@ class Boards:
             self.journal.close()
             self.journal = None
 
-    def _planned(self, file: Path, recipe: Recipe, machine: Machine, watch: Watch = unwatched) -> Problems:
+    def _planned(self, file: Path, options: JobOptions, machine: Machine, watch: Watch = unwatched) -> Problems:
         try:
-            job = load_job(file, machine, recipe.wishes(machine), *recipe.reading(), watch)
+            job = load_job(file, machine, options, watch)
             if job.work is None:
                 return (Message("a queue of commands; it is run from the queue editor").at(file),)
             estimate, ticks = estimate_with_ticks(job, waits=watch)
             watch(PLANNED)
-            view = board_view(file, job, estimate, *recipe.reading())
-            head = head_of(file, job, recipe.options())
+            view = board_view(file, job, estimate, *options.reading())
+            head = head_of(file, job, options.as_journalled())
         except REFUSALS as error:
             return _problems(error)
-        self.plan = Plan(file, recipe, view, job, ticks, default_journal(file), head)
+        self.plan = Plan(file, options, view, job, ticks, default_journal(file), head)
         return ()
 
 
-def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
+def options_of(asked: Asked, machine: Machine, base: Base) -> JobOptions:
     """The options of the screen as the command line has them, checked as it checks them: a list of recent jobs may hold
     anything. A board with measured holes is placed by these alone. Raises msgspec.ValidationError.
     """
     panel = asked.panel
-    options = {
+    fields = {
         "machine": _reference(machine),
         "tick_hz": machine.tick_hz,
         "origin": None if asked.origin == "base" else asked.origin,
@@ -196,7 +196,7 @@ def recipe_of(asked: Asked, machine: Machine, base: Base) -> Recipe:
         "after_end": asked.after_end,
         "base": base,
     }
-    return Recipe.checked(options)
+    return JobOptions.checked(fields)
 
 
 def _reference(machine: Machine) -> str:

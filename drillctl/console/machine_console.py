@@ -270,6 +270,6 @@ class MachineConsole:
             return problems
         plan = self._boards.plan
         assert plan is not None
-        self._base.move(*plan.recipe.base)
+        self._base.move(*plan.options.base)
         self._job.begin(plan.left, self._boards.journal, plan.ticks, plan.done_before)
         return ()

@@ -8,7 +8,7 @@
     pcb_drill/    a board's program, hole by hole
     job.py        what is run: a program with its names and holes
     readers.py    the readers of jobs, by what they recognise           queues.py  ``.kmd`` queues
-    recipe.py     the options from which a job can be made again      wishes.py  what may be asked for
+    job_options.py  the options of a job, as a journal keeps them       wishes.py  what generation makes of them
     drills.py     the drills that a workshop owns                       choices.py what options may be, by name
     feeder.py     puts a program into the queue as room is made
     errors.py     JobError: the operator's input, refused before anything moves

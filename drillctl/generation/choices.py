@@ -1,6 +1,6 @@
 """What options of a job may be, by name: one table for the command line, for a journal, and for whoever acts on them.
 
-Rule: nothing heavy is imported here. Used by cli/jobs.py, recipe.py, placing.py and order/plan.py.
+Rule: nothing heavy is imported here. Used by cli/jobs.py, job_options.py, placing.py and order/plan.py.
 """
 
 from typing import Literal, get_args

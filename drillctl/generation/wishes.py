@@ -1,7 +1,7 @@
-"""What the operator may ask for beside the file and the machine: where the board lies, how it is drilled.
+"""What generation works with, made of a job's options: where the board lies, how it is drilled, the drills at hand.
 
 Rule: plain values, checked here against themselves; against file and machine they are checked by worklist.py and
-strokes.py. Made by the verbs from options.
+strokes.py. Made by ``JobOptions.wishes`` alone.
 """
 
 from dataclasses import dataclass, field

@@ -17,9 +17,9 @@ from drillctl.files.inputs import real_path
 from drillctl.files.scratch import KEPT_IN_FOLDERS, Folder, sweep
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.pcb_drill.board import without_holes
 from drillctl.generation.readers import load_job
-from drillctl.generation.recipe import Recipe
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
 from drillctl.jobs.operator import Operator, ToolChange
@@ -45,9 +45,9 @@ class Session:
     has_forecast: bool = False
     ticks: NDArray[np.int64] | None = None  # of each command, where the time left is worth showing
 
-    def journalled(self, file: Path, journal: Path | None, recipe: Recipe) -> "Session":
+    def journalled(self, file: Path, journal: Path | None, options: JobOptions) -> "Session":
         """The same with a journal for a job made from ``file``; in the user's state folder where no place is given."""
-        head = head_of(file, self.job, recipe.options())
+        head = head_of(file, self.job, options.as_journalled())
         return replace(self, journal=journal or default_journal(file), start_from=head)
 
     @property
@@ -100,9 +100,9 @@ class Session:
 
 @dataclass(frozen=True, eq=False)
 class RemainingJob:
-    """A job made again from its journal: the recipe, the whole job, and the job that drills what is left."""
+    """A job made again from its journal: its options, the whole job, and the job that drills what is left."""
 
-    recipe: Recipe
+    options: JobOptions
     whole: Job
     left: Job
 
@@ -111,10 +111,9 @@ def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = un
     """Makes the job of a journal again and leaves out what is drilled. Raises JournalError unless it is the same job as
     then; JobError, PlacingError or AlignmentError where it can't be made, or nothing is left.
     """
-    recipe = Recipe.of_options(account.head.options, journal)
+    options = JobOptions.of_journal(account.head.options, journal)
     file = Path(account.head.job)
-    wishes = recipe.wishes(machine)
-    job = load_job(file, machine, wishes, *recipe.reading(), waits)
+    job = load_job(file, machine, options, waits)
     check_same(journal, account.head, head_of(file, job, account.head.options))
     if account.complete:
         raise JobError(
@@ -122,7 +121,7 @@ def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = un
                 "all {total} holes of {file} are drilled; nothing is left", total=job.holes_total, file=file.name
             ).at(journal)
         )
-    return RemainingJob(recipe, job, without_holes(job, account.done, wishes))
+    return RemainingJob(options, job, without_holes(job, account.done, options))
 
 
 def default_journal(file: Path) -> Path:

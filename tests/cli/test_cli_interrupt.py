@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.readers import load_job
-from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobResult, JobRunner
 from drillctl.machine import Library, shipped_tables
 from drillctl.ports import SAFE_IMAGE
@@ -86,7 +86,7 @@ def tickers(monkeypatch: pytest.MonkeyPatch) -> list[Ticker]:
 def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> JobResult:
     (folder / "q.kmd").write_text(text)
     machine = Library((shipped_tables(),)).machine("pcb-drill")
-    job = load_job(folder / "q.kmd", machine, Wishes())
+    job = load_job(folder / "q.kmd", machine, JobOptions("pcb-drill"))
     with closing(LocalLink(Ticker.simulated(machine))) as link:
         return JobRunner(job, link, watcher).run()
 

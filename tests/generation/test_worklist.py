@@ -11,6 +11,7 @@ from drillctl.generation.drillfile import DrillFile, decode
 from drillctl.generation.drills import DrillTable, read_drills
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.placing import Panel, Placing
 from drillctl.generation.queues import queue_text
@@ -191,9 +192,9 @@ def test_a_tool_without_a_drill_is_refused_by_name(tmp_path: Path) -> None:
 
 def test_a_worn_drill_is_warned_about(tmp_path: Path) -> None:
     worn = "[[drill]]\ndiameter_mm = 0.8\nlife_hits = 12\nused_hits = 10\n"
-    table = drills(tmp_path, worn + "[[drill]]\ndiameter_mm = 1\n")
+    drills(tmp_path, worn + "[[drill]]\ndiameter_mm = 1\n")
     (tmp_path / "board.drl").write_text(HEADER + SQUARE.replace("0", "0.0") + "\nM30\n")
-    job = load_job(tmp_path / "board.drl", PCB, Wishes(drills=table))
+    job = load_job(tmp_path / "board.drl", PCB, JobOptions("pcb-drill", drills=str(tmp_path / "drills.toml")))
     assert any("T1 makes 3 holes; its drill is good for 2 more" in warning for warning in job.warnings)
 
 
@@ -213,8 +214,8 @@ def test_a_bad_drill_table_is_refused(tmp_path: Path, text: str, reason: str) ->
 
 def test_a_queue_text_is_the_program(tmp_path: Path) -> None:
     (tmp_path / "board.drl").write_text(HEADER + SQUARE.replace("0", "0.0") + "\nM30\n")
-    job = load_job(tmp_path / "board.drl", PCB, Wishes())
+    job = load_job(tmp_path / "board.drl", PCB, JobOptions("pcb-drill"))
     (tmp_path / "board.kmd").write_text(queue_text(job))
-    again = load_job(tmp_path / "board.kmd", PCB, Wishes())
+    again = load_job(tmp_path / "board.kmd", PCB, JobOptions("pcb-drill"))
     for field in ("opcode", "axes", "flags", "args"):
         assert np.array_equal(again.program[field], job.program[field])

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.readers import load_job
-from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library, shipped_tables
 from drillctl.plant import PlantChoice
@@ -23,7 +23,7 @@ def drilled(file: Path, tick_hz: int) -> Outcome:
     """On pcb-drill with its nominal figures."""
     machine = Library((shipped_tables(),)).machine("pcb-drill").at_rate(tick_hz)
     link = LocalLink(Ticker.simulated(machine, plant_choice=PlantChoice("dynamic")))
-    return JobRunner(load_job(file, machine, Wishes()), link, lambda progress: None).run().outcome
+    return JobRunner(load_job(file, machine, JobOptions("pcb-drill")), link, lambda progress: None).run().outcome
 
 
 def loses(outcome: Outcome) -> bool:

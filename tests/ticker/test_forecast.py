@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from drillctl.generation.drillfile import decode
 from drillctl.generation.job import Job, names_of
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.placing import Panel, Placing
 from drillctl.generation.readers import load_job
@@ -81,7 +82,7 @@ def check_forecast(machine: str, holes_mm: list[tuple[float, float]], wish: Wish
 @pytest.mark.parametrize("machine", ["pcb-drill", "pcb-drill-ramp-lab", "boiler-drum", "eight-axis"])
 @pytest.mark.parametrize("name", ["short-moves.kmd"])
 def test_a_queues_forecast_is_its_run(machine: str, name: str) -> None:
-    job = load_job(EXAMPLES / name, LIBRARY.machine(machine), Wishes())
+    job = load_job(EXAMPLES / name, LIBRARY.machine(machine), JobOptions("pcb-drill"))
     assert estimate(job).ticks == JobRunner(job, LocalLink(Ticker.simulated(job.machine)), silent).run().outcome.ticks
 
 

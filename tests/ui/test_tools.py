@@ -8,8 +8,8 @@ import pytest
 
 from drillctl.cli import main
 from drillctl.generation.job import Job
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.readers import load_job
-from drillctl.generation.wishes import Wishes
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library
 from drillctl.ticker.link import LocalLink
@@ -36,7 +36,7 @@ def silent(progress: Progress) -> None:
 
 
 def board() -> Job:
-    return load_job(BLINKER, Library.standard().machine("pcb-drill"), Wishes())
+    return load_job(BLINKER, Library.standard().machine("pcb-drill"), JobOptions("pcb-drill"))
 
 
 def test_each_tool_is_asked_for_before_its_first_hole() -> None:

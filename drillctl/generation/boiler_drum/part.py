@@ -7,6 +7,7 @@ from drillctl.generation.boiler_drum.stores import find_part, has_stores, number
 from drillctl.generation.boiler_drum.text import Part, is_sentences, read_part
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
+from drillctl.generation.job_options import JobOptions
 from drillctl.generation.waits import Waits
 from drillctl.generation.wishes import Wishes
 from drillctl.language import Message
@@ -33,7 +34,7 @@ def part_of(path: Path, machine: Machine, ram: Path | None) -> Part:
     return find_part(number, machine, ram)
 
 
-def load_part(path: Path, machine: Machine, wishes: Wishes, fmt: str | None, after_end: str, waits: Waits) -> Job:
+def load_part(path: Path, machine: Machine, options: JobOptions, wishes: Wishes, waits: Waits) -> Job:
     """A part program as a job; nothing of it is placed or ordered. Raises JobError with file and line, or with the
     store and its cell.
     """

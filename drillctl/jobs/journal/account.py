@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from drillctl.generation.recipe import BAD_VALUES, FilePath
+from drillctl.generation.job_options import BAD_VALUES, FilePath
 from drillctl.jobs.journal.chain import NO_SEAL
 from drillctl.language import Message, Refusal, message_of
 from drillctl.viewmodel.jobs import Site

@@ -1,7 +1,7 @@
-"""A job's recipe: the plain options from which the same job can be made again, on the command line or on the screen.
+"""The options of a job: one record, made by the verbs and by the console, from which the same job can be made again.
 
-Rule: nothing but what JSON can hold; a journal keeps it, and whoever resumes reads it back. Options are named as on
-the command line. Made by the verbs and the station.
+Rule: nothing but what JSON can hold; a journal keeps it as it is, and whoever resumes reads it back. Options are named
+as on the command line. What generation works with (placing, drills) is made from it by ``wishes``.
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
 MeasuredRow = tuple[Millimetres, Millimetres, Millimetres, Millimetres]  # file_x, file_y, machine_x, machine_y
 
 
-class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """What a job is made by, beside its drill file. Paths are absolute. The types are what the command line takes.
 
     align  an alignment file, or the measured holes themselves
@@ -59,7 +59,7 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     store: FilePath | None = None
 
     @classmethod
-    def of_options(cls, told: Mapping[str, Any], journal: Path) -> "Recipe":
+    def of_journal(cls, told: Mapping[str, Any], journal: Path) -> "JobOptions":
         """From the first line of a journal. Raises JobError for what the command line would not take."""
         try:
             return cls.checked(told)
@@ -70,12 +70,12 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             raise JobError(reason.at(journal, 1)) from error
 
     @classmethod
-    def checked(cls, told: Mapping[str, Any]) -> "Recipe":
+    def checked(cls, told: Mapping[str, Any]) -> "JobOptions":
         """From its fields by name. Raises msgspec.ValidationError for what the command line would not take."""
         return msgspec.convert(told, cls)
 
-    def options(self) -> dict[str, Any]:
-        """As it stands in a journal."""
+    def as_journalled(self) -> dict[str, Any]:
+        """The fields by name, as a journal keeps them and ``of_journal`` reads them."""
         return msgspec.to_builtins(self)
 
     def reading(self) -> tuple[str | None, str]:
@@ -96,7 +96,9 @@ class Recipe(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return alignment.fit(rows[:, :2], rows[:, 2:], mirrored=face_down)
 
     def wishes(self, machine: Machine) -> Wishes:
-        """Raises JobError, PlacingError or AlignmentError."""
+        """What generation works with: the placing, the drills read from their file. Raises JobError, PlacingError or
+        AlignmentError.
+        """
         drills = read_drills(Path(self.drills)) if self.drills else None
         skipped = frozenset(self.skip_tools)
         store = Path(self.store) if self.store else None
