@@ -2,6 +2,7 @@
 
 import importlib.util
 from pathlib import Path
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -78,11 +79,29 @@ def test_a_kernel_of_another_text_is_not_taken(monkeypatch: pytest.MonkeyPatch) 
     assert kernel.compiled_law() is None
 
 
-def test_the_build_and_the_program_tell_texts_apart_alike() -> None:
+def build_hook() -> ModuleType:
     path = Path(__file__).parents[2] / "hatch_build.py"
     spec = importlib.util.spec_from_file_location("hatch_build", path)
     assert spec is not None and spec.loader is not None
     hook = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(hook)
+    return hook
+
+
+def test_the_build_and_the_program_tell_texts_apart_alike() -> None:
     folder = Path(law.__file__).parent
-    assert hook._digest(folder) == digest(lambda name: (folder / name).read_bytes())
+    assert build_hook()._digest(folder) == digest(lambda name: (folder / name).read_bytes())
+
+
+def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def no_compiler(folder: Path) -> Path:
+        raise SystemExit("command 'cc' failed")
+
+    module = build_hook()
+    monkeypatch.setattr(module, "build", no_compiler)
+    hook, build_data = SimpleNamespace(target_name="wheel", root=str(tmp_path)), {"force_include": {}}
+    module.KernelHook.initialize(hook, "editable", build_data)
+    assert build_data == {"force_include": {}}
+    assert "runs uncompiled: command 'cc' failed" in capsys.readouterr().err
