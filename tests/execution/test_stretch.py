@@ -10,7 +10,7 @@ from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
 from drillctl.generation.job import names_of
-from drillctl.kmd import Queue, parse_program
+from drillctl.kmd import Fault, Queue, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.plant import PlantChoice
 from drillctl.plant.dynamic import law
@@ -100,6 +100,13 @@ def test_a_board_goes_in_stretches(faults: tuple[str, ...], monkeypatch: pytest.
     text = BOARD.format(120, 90, 10, 150, 60, 60)
     fast = check(machine, PlantChoice("dynamic", faults, 4), text, {}, ticks)
     assert sum(passed) > 0.6 * fast.controller.tick
+
+
+def test_drilling_ends_in_time_within_a_stretch() -> None:
+    """At 100 Hz and 3 ticks a step the way down takes longer than a hole may."""
+    text = "KMD_INICJALIZACJA\nKMD_PREDKOSC 3\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA"
+    fast = check(LIBRARY.machine("pcb-drill").at_rate(100), PlantChoice("dynamic"), text, {}, 14000)
+    assert fast.controller.fault == Fault.DRILLING_TIME
 
 
 def test_the_rows_hold_every_coefficient() -> None:
