@@ -27,6 +27,8 @@ from benchmarks.fuzz_journal import resealed_input
 from benchmarks.fuzz_makers import EXTREMES, Material, Random, packed_input, text_input
 from drillctl.console.recent_jobs import RecentJobs
 from drillctl.generation import alignment, measured
+from drillctl.generation.boiler_drum.pattern import read_pattern
+from drillctl.generation.boiler_drum.stores import read_ram
 from drillctl.generation.drillfile import DrillFileError, read, summary
 from drillctl.generation.drills import read_drills
 from drillctl.generation.errors import JobError
@@ -52,6 +54,7 @@ MOST_SHOWN = 500  # bytes of an input that is printed
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 LIBRARY = Library((shipped_tables(),))
 MACHINE = LIBRARY.machine("pcb-drill")
+DRUM = LIBRARY.machine("boiler-drum")
 SITE = Site("simulated", "free", "ideal")
 WIRING = PortLayout(580, 0x2A0, (0b111,), 0, 0b11)
 
@@ -83,6 +86,8 @@ TABLE_WORDS = (
     b"[", b"]", b"[[wire]]", b"[[state]]", b"[[axis]]", b"[[drill]]", b"=", b'"', b"'''", b"{", b"}", b"true",
     b"1979-05-27T07:32:00Z", b"name = 'a'", b"x.", b",", *EXTREMES,
 )  # fmt: skip
+SENTENCE_WORDS = (b"6F0100", b"8A9999", b"2", b"0000", b"#", b"\n", b"\xff", *EXTREMES)
+STORE_WORDS = (b":00000001FF", b":10", b"FF", b"00C6", b"\n", b"drillctl-store 1 crc32 00000000", *EXTREMES)
 JSON_WORDS = (b'{"begun": 1}', b'{"done": 1}', b'{"ended": "done"}', b"null", b"[]", b"{}", b'"', b"true", *EXTREMES)
 DRILLS_SEED = b"""tolerance_mm = 0.05
 [[drill]]
@@ -185,6 +190,20 @@ def readers() -> dict[str, Reader]:
         "drill": Reader(lambda file: summary(read(file)), (DrillFileError,), boards),
         "board": Reader(_job, (JobError,), boards),
         "kmd": Reader(_job, (JobError,), Material(_files(EXAMPLES, "*.kmd"), KMD_WORDS), ".kmd"),
+        "sentences": Reader(
+            lambda file: load_job(file, DRUM, JobOptions("boiler-drum")),
+            (JobError,),
+            Material(_files(EXAMPLES, "*.sentences"), SENTENCE_WORDS),
+            ".sentences",
+        ),
+        "pattern": Reader(
+            read_pattern, (JobError, TableError), Material(_files(EXAMPLES, "drum-row.toml"), TABLE_WORDS), ".toml"
+        ),
+        "store": Reader(
+            lambda file: read_ram(DRUM, file).damages(),
+            (JobError,),
+            Material(_files(shipped_tables() / "eprom", "*.hex"), STORE_WORDS),
+        ),
         "trace": Reader(_trace, traces, Material(_short_traces(), TRACE_WORDS)),
         "segments": Reader(_trace, traces, Material(_segment_seeds(), TRACE_WORDS), make=_segments),
         "journal": Reader(

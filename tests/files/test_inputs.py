@@ -161,6 +161,7 @@ ELSEWHERE = {
     "files.scratch": "temporary files that it makes, and the folders they lie in",
     "trace.target": "what it writes",
     "files.outputs": "what it writes",
+    "files.kept": "the folder of a file, to lock it",
 }
 OPENING = r"""(?<![\w.])(?<!def )open\(|\bos\.(?:open|fdopen)\(|\.open\("|\.read_(?:text|bytes)\("""
 PARSING = r"\b(?:tomllib|json)\.loads?\("
