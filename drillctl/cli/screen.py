@@ -69,7 +69,7 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
     words.use(arguments.lang or words.language_of(), plain)
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
     library = replace(options.library(arguments), tell=tell_nobody)  # the second line says it
-    running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace)
+    running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace, sliced=not arguments.pace)
     console = MachineConsole(
         library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)
     )

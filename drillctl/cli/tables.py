@@ -61,14 +61,16 @@ def _as_dict(machine: "Machine") -> dict[str, object]:
 
 
 def check_tables(arguments: argparse.Namespace) -> int:
-    """Checks all files; returns 2 where one can't be used."""
+    """Checks all files and prints what their ramps ask of the carriages; returns 2 where one can't be used."""
     from drillctl.machine import TableError
+    from drillctl.machine.source import Source
 
     library = options.library(arguments)
     refused = 0
     for file in arguments.files:
         try:
             hazards = library.check(file)
+            figures = library.figures(Source.read(file))
         except TableError as error:
             refused = 2
             streams.tell(str(error))
@@ -76,4 +78,6 @@ def check_tables(arguments: argparse.Namespace) -> int:
         print(f"{file}: {'ok' if not hazards else 'usable, but'}")
         for hazard in hazards:
             print(f"  warning: {hazard}")
+        for line in figures:
+            print(f"  {line}")
     return refused

@@ -16,12 +16,14 @@ from drillctl.machine.edit import (
     set_reverse,
     set_state_row,
     set_value,
+    with_rows,
     with_states,
     without_states,
 )
 from drillctl.machine.phase import NAME, parse_phase, phase_rows
 from drillctl.machine.positions import Place
-from drillctl.machine.ramp import MOST_STATES, parse_ramp, proposals, ramp_rows
+from drillctl.machine.ramp_file import is_computed, parse_ramp, proposals, ramp_rows
+from drillctl.machine.ramp_formula import MOST_STATES
 from drillctl.machine.settings import Setting, settings, wire_settings
 from drillctl.machine.source import Source
 from drillctl.machine.travel import stopping
@@ -40,7 +42,7 @@ from drillctl.viewmodel.tables import (
 # What makes a text a table of its kind: a key that only this kind has.
 KEY_OF: dict[TableKind, tuple[str, ...]] = {
     "phase": ("wire",),
-    "ramp": ("state",),
+    "ramp": ("state", "computed"),
     "motor": ("windings", "pulse"),
     "machines": ("axis",),
 }
@@ -160,7 +162,7 @@ class TableFiles:
 
     def with_state(self, text: str, state: int, field: str, value: int) -> str:
         """The text with a field of a state changed; comments and layout stay."""
-        return set_state_row(text, state, field, value)
+        return set_state_row(_in_rows(text), state, field, value)
 
     def with_top(self, text: str, higher: bool) -> str:
         """The text with a state more on top, or a state less. For a new state numbers are tried until every move lands
@@ -170,6 +172,7 @@ class TableFiles:
             rows = ramp_rows(_source(text))
         except TableError:
             return text
+        text = _in_rows(text)
         top = rows[-1][0]
         if not higher:
             return without_states(text, top) if top > 1 else text
@@ -259,6 +262,15 @@ def _used(kind: TableKind, machine: Machine) -> set[str]:
 
 def _source(text: str) -> Source:
     return Source(Path(UNSAVED), text)
+
+
+def _in_rows(text: str) -> str:
+    """The text with the rows of a computed ramp written out, so that single ones can be changed."""
+    source = _source(text)
+    try:
+        return with_rows(text, ramp_rows(source)) if is_computed(source) else text
+    except TableError:
+        return text  # figures that make no ramp: nothing to write out
 
 
 def _unlinked(own: Path) -> Problems:

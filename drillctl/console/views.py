@@ -65,6 +65,7 @@ def machine_view(
         notices=tuple(link.notices()),
         hot_s=int(status["hot_ticks"]) / machine.tick_hz,
         cut_off=bool(status["cut_off"]),
+        pace=int(status["pace_percent"]) / 100,
         paused=link.gate.paused,
     )
     return _without_ticker(view) if link.lost() else view

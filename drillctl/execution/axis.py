@@ -20,6 +20,7 @@ from typing import Protocol
 
 from drillctl.machine import AxisTable
 from drillctl.machine.hazards import opposite_halves
+from drillctl.machine.landing import strokes_of
 from drillctl.ports import with_bits
 
 
@@ -58,12 +59,15 @@ class Axis:
         "base", "bits", "clear_mask", "column", "column_in_step", "columns_per_step", "count", "direction",
         "direction_sign", "drive", "drive_patterns", "followers", "forcing", "halves", "high", "hold_bits",
         "hold_patterns", "interval", "least", "length", "limits", "low", "made", "min_interval", "most", "motion",
-        "position", "ramp", "reach", "seek_mask", "span", "state", "target", "travelled", "up", "wait", "wires",
+        "position", "ramp", "ramped_from", "reach", "seek_mask", "span", "state", "strokes", "target", "travelled",
+        "up", "wait", "wires",
     )  # fmt: skip
 
     def __init__(self, table: AxisTable, limits: tuple[int, int, int], reach: tuple[int, int] | None = None):
         self.ramp = table.ramp
         self.interval = table.ramp.interval
+        self.strokes = strokes_of(table.ramp)
+        self.ramped_from = 0  # steps to go in state 0 from which the state rises
         self.columns_per_step = table.columns_per_step
         self.length = table.phase.columns
         self.direction_sign = -1 if table.invert else 1
@@ -101,6 +105,7 @@ class Axis:
         """A new target, with the shortest interval allowed. In state 0 the count restarts; in motion it goes on."""
         self.target = target
         self.min_interval = min_interval
+        self.ramped_from = self.strokes.ramped_from(self.direction, min_interval)
         if self.motion == BRAKING:
             self.motion = MOVING
         if self.state == 0 and self.column_in_step == 0:
@@ -118,6 +123,7 @@ class Axis:
         self.motion = MOVING
         self.count = 0
         self.wait = max(self.interval[0], self.min_interval)
+        self.ramped_from = self.strokes.ramped_from(self.direction, self.min_interval)
 
     def follow(self, direction: int) -> None:
         """From rest: steps in this direction whenever its leader's line says so."""
@@ -246,6 +252,7 @@ class Axis:
             after = state - direction if state else 0
         else:
             may_rise = motion == MOVING and self.interval[state] > self.min_interval
+            may_rise = may_rise and (state != 0 or to_go >= self.ramped_from)
             after = self.ramp.after_step(state, direction, to_go, may_rise)
         self.state = after
         if after:

@@ -27,6 +27,7 @@ STATUS = np.dtype(
         ("tick_hz", "<u4"),  # the rate in force; 0 before the first record
         ("late", "<u4"),  # ticks that began more than a period late
         ("late_worst_ns", "<i8"),
+        ("pace_percent", "<u2"),  # machine time over wall time, by the simulated clock of a screen; else 0
         ("underruns", "<u4"),  # underruns: wakes without a command in mid-job, which are no ticks
         ("epoch", "<u4"),
         ("sequence", "<u4"),  # of the current command, 0 = none
@@ -49,7 +50,7 @@ STATUS = np.dtype(
         ("base", "<i8", (MOST_AXES,)),  # of the working base: where absolute commands count from
         ("steps", "<i8", (MOST_AXES,)),  # made so far, both directions added
         ("lost", "<i4", (MOST_AXES,)),  # steps that the plant is behind; 0 where there is no plant to ask
-        ("state", "i1", (MOST_AXES,)),
+        ("state", "<i2", (MOST_AXES,)),
         ("column", "u1", (MOST_AXES,)),  # from 1
         ("sensors", "<u8"),  # by input bit, 1 = reached; of the first two cards
         ("image", "<u8"),  # outputs as flushed; of the first two cards

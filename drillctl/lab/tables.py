@@ -11,7 +11,8 @@ from drillctl.lab.errors import LabError
 from drillctl.language import Message, known_words
 from drillctl.machine import AxisTable, Library, Machine
 from drillctl.machine.phase import NAME, PhaseTable, Wire, parse_phase
-from drillctl.machine.ramp import RampTable, read_ramp
+from drillctl.machine.ramp import RampTable
+from drillctl.machine.ramp_file import read_ramp
 from drillctl.machine.source import Source
 
 ALL_BROKEN = "broken"

@@ -15,7 +15,8 @@ from drillctl.lab.ramp_trials import PROOF_LOADS, Bench, Proof
 from drillctl.lab.retargeting import first_missed, targets_tried
 from drillctl.language import Message
 from drillctl.machine import Machine
-from drillctl.machine.ramp import RampTable, parse_ramp
+from drillctl.machine.ramp import RampTable
+from drillctl.machine.ramp_file import parse_ramp
 from drillctl.machine.source import Source
 
 RATIO = 1.25  # of the speeds of neighbouring states in a gentle ramp

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from drillctl.language import Message, known_words, nearest
-from drillctl.machine.model import AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
+from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
 from drillctl.machine.settings import settings_of, wire_settings_of
@@ -74,7 +74,8 @@ def _check_names(source: Source, raw: MachineFile) -> None:
 def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int], parts: Parts) -> AxisTable:
     row = raw.axis[index]
     phase = parts.phase(row.phase, source, ("axis", index, "phase"))
-    ramp = parts.ramp(row.ramp, source, ("axis", index, "ramp"))
+    scale = raw.tick_hz, MM_PER_INCH / row.columns_per_inch
+    ramp = parts.ramp(row.ramp, scale, source, ("axis", index, "ramp"))
     motor = parts.motor(row.motor, phase, source, ("axis", index, "motor"))
     dynamics = parts.dynamics(row.dynamics, motor, phase, source, ("axis", index, "dynamics"))
     low, high = row.range

@@ -4,7 +4,7 @@ Rule: only whether the place exists is checked here. What the result means is ch
 Library.check_source before it saves.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import tomlkit
@@ -128,6 +128,18 @@ def _row(state: int, accelerate: int, brake: int, interval: int) -> Table:
     row = tomlkit.table()
     row.update({"state": state, "accelerate": accelerate, "brake": brake, "interval": interval})
     return row
+
+
+def with_rows(text: str, rows: Iterable[tuple[int, int, int, int]]) -> str:
+    """Writes a computed ramp's rows out in place of its figures. Raises TableError for a text that is not TOML."""
+    document = opened(text)
+    document.pop("computed", None)
+    written = (_row_text(*row) for row in rows)
+    return tomlkit.dumps(document).rstrip() + "\n" + "".join(written)
+
+
+def _row_text(state: int, accelerate: int, brake: int, interval: int) -> str:
+    return f"\n[[state]]\nstate = {state}\naccelerate = {accelerate}\nbrake = {brake}\ninterval = {interval}\n"
 
 
 def without_states(text: str, state: int) -> str:

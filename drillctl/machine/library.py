@@ -4,7 +4,8 @@ Rule: the first folder that has the file wins; a name never leaves its folder. A
 that is not the shipped one (from ``./tables``, or the user's own folder) is reported to ``tell``.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,7 +20,8 @@ from drillctl.machine.model import Machine
 from drillctl.machine.motor import parse_motor
 from drillctl.machine.parts import Parts, find_table
 from drillctl.machine.phase import parse_phase
-from drillctl.machine.ramp import parse_ramp
+from drillctl.machine.ramp_figures import machine_figures, ramp_figures, told
+from drillctl.machine.ramp_file import computed_figures, parse_ramp
 from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
 
 
@@ -102,6 +104,25 @@ class Library:
         """Reads any table; returns its hazards as sentences. Raises TableError where it can't be used."""
         return self.check_source(Source.read(file))
 
+    def figures(self, source: Source) -> list[Message]:
+        """Returns what the ramps of a machine's or a ramp's text ask of their carriages, a sentence each; of other
+        tables none. A ramp in rows of ticks is told for each axis that has it. Raises TableError.
+        """
+        written = source.tree()
+        if "axis" in written:
+            return list(machine_figures(self._machine_of(source)))
+        if not {"state", "computed"} & written.keys():
+            return []
+        ramp, figures = parse_ramp(source), computed_figures(source)
+        if figures is not None:
+            return [ramp_figures(ramp, figures.tick_hz, figures.pulse_mm).told()]
+        return [
+            Message("{axis}: {figures}", axis=f"{name}.{axis.name}", figures=told(replace(axis, ramp=ramp), machine))
+            for name, machine in self._readable_machines()
+            for axis in machine.axes
+            if axis.ramp.name == ramp.name
+        ]
+
     def check_source(self, source: Source) -> list[Message]:
         """As ``check``, for a text that need not be in its file yet."""
         written = source.tree()
@@ -112,6 +133,11 @@ class Library:
         raise TableError(
             source.file, Message("no table of this program: {kinds}, dynamics have inertia_kgm2", kinds=kinds)
         )
+
+    def _readable_machines(self) -> Iterator[tuple[str, Machine]]:
+        for name in self.machine_names():
+            with suppress(TableError):  # a machine that is wrong is told where it is asked for
+                yield name, self.machine(name)
 
     def _machine_of(self, source: Source) -> Machine:
         """Returns a machine given by its file, with the tables beside it searched first."""
@@ -150,6 +176,7 @@ class Library:
 _KINDS: Mapping[str, Callable[[Library, Source], list[Message]]] = {
     "wire": Library._phase_hazards,
     "state": Library._ramp_hazards,
+    "computed": Library._ramp_hazards,
     "axis": Library._machine_hazards,
     "windings": Library._motor_hazards,
     "pulse": Library._motor_hazards,

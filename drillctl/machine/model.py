@@ -174,4 +174,8 @@ class Machine:
     def digest(self) -> str:
         """16 hex digits over everything that decides a run. Tick rate and file names are left out."""
         decisive = replace(self, files=(), shipped=False, description="", tick_hz=0)
-        return hashlib.sha256(repr(decisive).encode()).hexdigest()[:16]
+        return hashlib.sha256((repr(decisive) + self._unusual()).encode()).hexdigest()[:16]
+
+    def _unusual(self) -> str:
+        """What decides a run and came later than the first digests, where it is not as it was before."""
+        return "".join(f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)

@@ -11,7 +11,8 @@ from drillctl.language import Message, known_words
 from drillctl.machine.dynamics import Dynamics, misfit, parse_dynamics
 from drillctl.machine.motor import Motor, parse_motor
 from drillctl.machine.phase import PhaseTable, parse_phase
-from drillctl.machine.ramp import RampTable, parse_ramp
+from drillctl.machine.ramp import RampTable
+from drillctl.machine.ramp_file import parse_ramp, scale_misfit
 from drillctl.machine.source import Source
 
 Place = tuple[str | int, ...]
@@ -39,9 +40,13 @@ class Parts:
         """Returns the phase table of this name."""
         return parse_phase(self._open("phase", name, source, place))
 
-    def ramp(self, name: str, source: Source, place: Place) -> RampTable:
-        """Returns the ramp of this name."""
-        return parse_ramp(self._open("ramp", name, source, place))
+    def ramp(self, name: str, scale: tuple[int, float], source: Source, place: Place) -> RampTable:
+        """Returns the ramp of this name. One that is computed must be computed for the machine's own scale."""
+        found = self._open("ramp", name, source, place)
+        ramp = parse_ramp(found)
+        if reason := scale_misfit(found, *scale):
+            raise source.error(reason, *place)
+        return ramp
 
     def motor(self, name: str | None, table: PhaseTable, source: Source, place: Place) -> Motor:
         """Returns the motor of this name; without a name the one whose windings are just the wires of the phase table,

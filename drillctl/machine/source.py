@@ -18,7 +18,7 @@ from drillctl.language.words import N_
 from drillctl.machine.errors import TableError
 from drillctl.machine.positions import key_lines
 
-LARGEST_TABLE_BYTES = 256 * 1024
+LARGEST_TABLE_BYTES = 1024 * 1024  # a ramp of 4096 states, each both ways in rows of its own, has 0.7 MB
 Value = str | int | float
 RecordT = TypeVar("RecordT", bound=msgspec.Struct)
 

@@ -37,6 +37,7 @@ class RunSettings:
     plant   what stands behind a simulated card
     engine  ``tick`` or ``fast``; None: fast where possible
     kept    by a screen, from job to job: its desk may be silent for longer between jobs
+    sliced  a simulated card at real pace runs by the simulated clock (sliced_clock.py), which is never late
     """
 
     port: str = SIMULATED
@@ -47,6 +48,7 @@ class RunSettings:
     engine: str | None = None
     taped: bool = False
     kept: bool = False
+    sliced: bool = False
 
 
 def port_of_mode(machine: Machine) -> str:
@@ -135,7 +137,9 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
 
     idle_ns = DESK_IDLE_NS if running.kept else DESK_SAFE_NS
     try:
-        return PacedLink(machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns)
+        return PacedLink(
+            machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns, _is_sliced(running)
+        )
     except OSError as error:
         why = message_of(error).at(error.filename) if error.filename else message_of(error)
         raise PortRefused(
@@ -147,11 +151,18 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
 def check_rate(machine: Machine, running: RunSettings) -> None:
     """Raises PortRefused for a machine at a tick rate that its port, or this computer, does not carry."""
     check_port_rate(running.port, port_layout(machine))
-    if pace_of(running) == REAL and (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
+    if _is_sliced(running) or pace_of(running) != REAL:
+        return
+    if (most_hz := most_ticks_hz(machine)) < machine.tick_hz:
         reason = Message(
             "{hz} ticks a second of {machine} are too many for this computer", hz=machine.tick_hz, machine=machine.name
         )
         raise PortRefused(running.port, Message("{reason}; --tick-hz {most} is the most", reason=reason, most=most_hz))
+
+
+def _is_sliced(running: RunSettings) -> bool:
+    """Whether it runs by the simulated clock, which stretches time where the computer can't carry the rate."""
+    return running.sliced and not select(running.port)[0].real and pace_of(running) == REAL
 
 
 def _goes_fast(

@@ -42,11 +42,12 @@ class PacedLink:
     file     the mapped file between the processes, made here
     keeper   a ring that takes the changes of all signals in place of ``trace``; whoever made it empties it
     idle_ns  how long the ticker tolerates the desk's silence at rest, without a job
+    sliced   by the simulated clock, in slices of ticks; of a simulated machine
     """
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, file: Path,
                  traced: bool, derived: bool, keeper: RingRecorder | None = None,
-                 idle_ns: int = DESK_IDLE_NS):  # fmt: skip
+                 idle_ns: int = DESK_IDLE_NS, sliced: bool = False):  # fmt: skip
         self.measured = plant is not None
         self.plant_lanes = plant.lanes if plant else ()
         self.plant_header = header_of(plant)
@@ -73,7 +74,7 @@ class PacedLink:
             os.set_blocking(end, False)
         ring, derived = keeper or self._ring, derived or keeper is not None
         body = TickerProcess(
-            machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end, idle_ns
+            machine, port, plant, self._channel, self._slot, ring, derived, touch_end, notice_end, idle_ns, sliced
         )
         self._ticker = ChildProcess(body.run)
         self._channel["ticker_pid"] = self._ticker.pid

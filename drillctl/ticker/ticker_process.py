@@ -25,11 +25,13 @@ from drillctl.ticker.confirmed_status import ConfirmedStatus
 from drillctl.ticker.edited_tables import TableSlot, take_tables
 from drillctl.ticker.message_text import message_text
 from drillctl.ticker.realtime import become_punctual
+from drillctl.ticker.sliced_clock import SlicedClock
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace.ring import RingRecorder
 
 DESK_HOLD_NS = 400_000_000  # the desk's silence after which a moving machine is held
 DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
+SLICE_NS = 60_000_000  # a slice of ticks takes no longer, so that heartbeat and status go on
 LOOK_NS = 20_000_000  # at rest the sensors are read so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
 TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
@@ -41,13 +43,15 @@ class TickerProcess:
 
     touches, notices  file descriptors: ends of pipes to the desk
     idle_ns           how long the desk may be silent at rest, without a job
+    sliced            by the simulated clock (sliced_clock.py): of a simulated machine on a screen
     """
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, channel: Channel, slot: TableSlot,
-                 ring: RingRecorder | None, derived: bool, touches: int, notices: int, idle_ns: int):  # fmt: skip
+                 ring: RingRecorder | None, derived: bool, touches: int, notices: int, idle_ns: int,
+                 sliced: bool = False):  # fmt: skip
         self.channel, self.port, self.slot = channel, port, slot
         self.touch_end, self.notice_end = touches, notices
-        self.idle_ns = idle_ns
+        self.idle_ns, self.sliced = idle_ns, sliced
         self.queue, self.requests = SharedQueue(channel), SharedRequests(channel)
         self.gate = SharedGate(channel)
         self.ticker = Ticker(
@@ -73,7 +77,7 @@ class TickerProcess:
                 self.channel["ended"] = 1
 
     def _tick_on(self) -> None:
-        clock = PacedClock(self.ticker.machine.tick_hz)
+        clock = self._clock()
         while not self.channel["leave"] and not self._desk_is_lost():
             gap = clock.wait()
             try:
@@ -87,7 +91,7 @@ class TickerProcess:
                         self.requests.own.post(Request.PAUSE)  # real motors have stood still for so long
                     self.ticker.late(clock.late, clock.worst_ns)
                     self._go_on()
-                    self.ticker.advance(1)
+                    self._advance(clock)
                     self._follow_rate(clock)
                 else:
                     self._stand(clock.begun_ns)
@@ -96,6 +100,23 @@ class TickerProcess:
                 self._end_by(Fault.PORT_SLOW if isinstance(error, PortSlow) else Fault.PORT_LOST)
                 return
             self._publish()
+
+    def _clock(self) -> PacedClock | SlicedClock:
+        return (SlicedClock if self.sliced else PacedClock)(self.ticker.machine.tick_hz)
+
+    def _advance(self, clock: PacedClock | SlicedClock) -> None:
+        """One tick; by the simulated clock a slice of them, as long as they are wanted and the rate stays."""
+        self.ticker.advance(1)
+        if isinstance(clock, SlicedClock):
+            self.ticker.status["pace_percent"] = clock.pace
+            until_ns, tick_hz = time.monotonic_ns() + SLICE_NS, self.ticker.machine.tick_hz
+            ran = 1
+            while ran < clock.ticks and time.monotonic_ns() < until_ns:
+                if not self._is_wanted() or self.ticker.machine.tick_hz != tick_hz:
+                    return
+                self.ticker.advance(1)
+                ran += 1
+            clock.ran(ran)
 
     def _notice(self, *messages: Message) -> None:
         """Sends messages for the operator, a line each."""
@@ -121,7 +142,7 @@ class TickerProcess:
         asked = self.requests.waiting or self.gate.left > 0 or self.ticker.controller.hot_until > 0
         return not self.ticker.over() or asked or (takes and len(self.queue) > 0)
 
-    def _follow_rate(self, clock: PacedClock) -> None:
+    def _follow_rate(self, clock: PacedClock | SlicedClock) -> None:
         """Paces by the rate in force after a PACE. The period is published, as the guard's patience depends on it."""
         period_ns = clock.period_ns
         clock.set_rate(self.ticker.machine.tick_hz)

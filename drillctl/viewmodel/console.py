@@ -71,6 +71,7 @@ class MachineView:
     local: bool = False  # some of its tables are neither the shipped ones nor named by the operator
     hot_s: float = 0.0  # after which what was switched on by hand and would burn a winding goes off; 0: nothing is
     cut_off: bool = False  # that has happened, and no output was set since
+    pace: float = 0.0  # machine time over wall time, of a simulated machine by the simulated clock; 0: of another
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 

@@ -16,6 +16,7 @@ from drillctl.viewmodel.signals import SignalView
 from tests.support.operator import until
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+BY_SIMULATED_CLOCK = RunSettings(pace="real", sliced=True)
 QUEUE = "KMD_RUCHd x=30\n"
 REAL_CARD = "firmata:/dev/no-such-line"
 
@@ -27,7 +28,7 @@ def library(tmp_path: Path) -> Library:
 
 @pytest.fixture
 def console(library: Library) -> Iterator[MachineConsole]:
-    made = MachineConsole(library, library.machine("cnc-shield").at_rate(1000), RunSettings(pace="real"), tick_hz=1000)
+    made = MachineConsole(library, library.machine("cnc-shield").at_rate(1000), BY_SIMULATED_CLOCK, tick_hz=1000)
     yield made
     made.close()
 

@@ -14,6 +14,7 @@ from drillctl.ticker.launch import RunSettings
 from drillctl.viewmodel.console import Problems
 from tests.support.operator import settle
 
+BY_SIMULATED_CLOCK = RunSettings(pace="real", sliced=True)
 WAY = 5000
 REPEATED_S = 0.03
 
@@ -173,7 +174,7 @@ def test_a_jog_longer_than_the_axis_is_refused_before_its_place_is_known() -> No
 
 def test_the_rate_asked_for_stays_with_its_machine() -> None:
     library = Library.standard()
-    made = MachineConsole(library, library.machine("pcb-drill").at_rate(400), RunSettings(pace="real"), tick_hz=400)
+    made = MachineConsole(library, library.machine("pcb-drill").at_rate(400), BY_SIMULATED_CLOCK, tick_hz=400)
     try:
         assert made.choose_machine("pcb-drill") == () and made.view().tick_hz == 400
         assert "in force" in made.view().notices[0]

@@ -47,6 +47,7 @@ def place(axis: Axis, node: Node, case: Case) -> None:
     axis.state = node.state * case.direction
     axis.direction, axis.min_interval, axis.count = case.direction, case.floor, 0
     axis.wait = max(axis.interval[axis.state], case.floor)
+    axis.ramped_from = axis.strokes.ramped_from(case.direction, case.floor)
     axis.motion = AxisMotion.BRAKING if node.braked else AxisMotion.MOVING
 
 

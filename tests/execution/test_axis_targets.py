@@ -7,7 +7,8 @@ import pytest
 from drillctl.execution.axis import Axis, AxisMotion
 from tests.support.axes import RAMPS, lone_axis, next_step, steps_to_rest
 
-MOVE_STEPS = {"seven-state": 12, "even-interval": 20, "drive-servo": 24}  # through every state and down again
+# Through every state and down again.
+MOVE_STEPS = {"seven-state": 12, "even-steps": 20, "whole-strokes": 20, "drive-servo": 24}
 PLACES = ("ahead", "passed", "behind", "equal")
 HELD_TICKS = (0, 1, 2, 5, 9, 30, 200)
 EVERY_RAMP_BOTH_WAYS = pytest.mark.parametrize("way", [1, -1]), pytest.mark.parametrize("ramp", RAMPS)

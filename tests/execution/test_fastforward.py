@@ -19,6 +19,7 @@ from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import first_difference, render
+from tests.support.bench import shipped
 from tests.support.twins import remembered, trace, twins
 
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
@@ -68,7 +69,7 @@ def check(machine: Machine, text: str, asked: dict[int, int], ticks: int) -> Fas
 @settings(max_examples=20, deadline=None)
 @given(data=st.data())
 def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.DataObject) -> None:
-    machine = LIBRARY.machine(name)
+    machine = shipped(name)
     known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
     text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=12)))
     asked = data.draw(st.one_of(st.just({}), disturbances))
@@ -83,7 +84,7 @@ BOARD = "KMD_INICJALIZACJA\n" + "\n".join(f"KMD_GOTO_X_Y {x} {y}\nKMD_WIERTLO_DO
 @pytest.mark.parametrize("name", MACHINES)
 def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
     """So that the tests above compare two engines, and not tick with itself."""
-    machine = LIBRARY.machine(name)
+    machine = shipped(name)
     fast = FastTicker.ideal(machine)
     fast.queue.put(parse_program(BOARD, names_of(machine)))
     ticked = [batch for batch in fast.batches() if batch is None]
@@ -109,7 +110,7 @@ def test_after_a_look_into_the_middle_of_a_command_it_goes_on_fast(monkeypatch: 
 @pytest.mark.parametrize(("name", "distances"), [("pcb-drill", (0, 20)), ("eight-axis", (0, 48))])
 def test_every_distance_both_ways(name: str, distances: tuple[int, int]) -> None:
     """Up to where head and tail of a move don't touch, both axes at different ones; and beyond a strip's length."""
-    machine = LIBRARY.machine(name)
+    machine = shipped(name)
     moves = [f"KMD_GOTOdXdY {d} {-d // 2}\nKMD_GOTOdXdY {-d} {d // 3}" for d in range(*distances)]
     check(machine, "\n".join([*moves, "KMD_GOTOdXdY 4300 7", "KMD_GOTOdXdY -4096 1"]), {}, 10**9)
 
@@ -165,7 +166,7 @@ def test_two_engines_in_two_processes_give_the_same_bytes(tmp_path: Path) -> Non
 @given(data=st.data())
 def test_wherever_the_machine_is_found_both_see_the_same_holes(name: str, data: st.DataObject) -> None:
     """Also with the bit in the board: it has not come down to it, so that is no hole."""
-    machine = LIBRARY.machine(name)
+    machine = shipped(name)
     surface = machine.board_surface[machine.drill_axes[0]]
     assert surface is not None
     found = []

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from drillctl.machine import Library, TableError, shipped_tables
 from drillctl.machine.edit import set_pattern, set_reverse, set_state_row, set_value, with_states, without_states
-from drillctl.machine.ramp import parse_ramp, proposals, ramp_rows
+from drillctl.machine.ramp_file import parse_ramp, proposals, ramp_rows
 from drillctl.machine.source import Source
 
 PHASE = (shipped_tables() / "phase" / "two-phase-forced.toml").read_text("utf-8")
@@ -112,7 +112,7 @@ def test_windows_line_ends_stay() -> None:
     assert set_value("a = 1\r\nb = 2 # c\r\n", ("b",), 3) == "a = 1\r\nb = 3 # c\r\n"
 
 
-@pytest.mark.parametrize("name", ["seven-state", "drive-servo", "even-interval"])
+@pytest.mark.parametrize("name", ["seven-state", "drive-servo"])
 def test_states_come_and_go_without_a_trace_and_what_is_proposed_lands(name: str) -> None:
     text = (shipped_tables() / "ramp" / f"{name}.toml").read_text("utf-8")
     top = ramp_rows(Source(Path("ramp"), text))[-1]

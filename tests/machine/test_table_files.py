@@ -49,7 +49,7 @@ NOT_A_TABLE = "no table of this program: a phase table has [[wire]], a ramp [[st
     [
         (empty, NOT_A_TABLE, None),
         (comment, NOT_A_TABLE, None),
-        (huge, "can't be read: larger than 256 KiB: not a table", None),
+        (huge, "can't be read: larger than 1 MiB: not a table", None),
         (latin, "not UTF-8 text, so not a table", 2),
         (folder, "can't be read: Is a directory", None),
         (loop, "can't be read: Too many levels of symbolic links", None),

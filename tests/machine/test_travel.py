@@ -73,9 +73,10 @@ def test_no_step_takes_no_tick() -> None:
 @pytest.mark.parametrize("ramp", RAMPS.values(), ids=RAMPS)
 @pytest.mark.parametrize("columns_per_step", [1, 2, 6])
 def test_travel_table_is_the_sum_of_intervals(ramp: RampTable, columns_per_step: int) -> None:
-    table = travel_table(ramp, 600, columns_per_step)
-    assert table.shape == (601,)
-    assert table.tolist() == [sum(intervals(ramp, steps)) * columns_per_step for steps in range(601)]
+    longest = 600 if ramp.top < 20 else 70  # a ramp of hundreds of states runs such strokes whole
+    table = travel_table(ramp, longest, columns_per_step)
+    assert table.shape == (longest + 1,)
+    assert table.tolist() == [sum(intervals(ramp, steps)) * columns_per_step for steps in range(longest + 1)]
 
 
 @pytest.mark.parametrize("longest", [0, 1, 2, 7, 8, 15, 16, 17])

@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 
 from drillctl.execution.axis import Axis
 from drillctl.machine import AxisTable, shipped_tables
-from drillctl.machine.ramp import RampTable, read_ramp
-from tests.support.bench import shipped
+from drillctl.machine.ramp import RampTable
+from drillctl.machine.ramp_file import read_ramp
+from tests.support.bench import even_ramp, shipped
 
-RAMPS: dict[str, RampTable] = {
-    file.stem: read_ramp(file) for file in sorted((shipped_tables() / "ramp").glob("*.toml"))
+RAMPS: dict[str, RampTable] = {  # the shipped ones of a few states, and computed ones
+    **{name: read_ramp(shipped_tables() / "ramp" / f"{name}.toml") for name in ("drive-servo", "seven-state")},
+    "even-steps": even_ramp(),
+    "whole-strokes": even_ramp('short_strokes = "whole"\n'),
 }
 LONGEST_WAIT_TICKS = 2_000
 

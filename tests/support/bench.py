@@ -5,26 +5,51 @@ Used by tests/execution.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.generation.job import names_of
 from drillctl.kmd import Condition, Request, parse_program
-from drillctl.machine import Library, Machine, shipped_tables
+from drillctl.machine import Library, Machine, RampTable, shipped_tables
+from drillctl.machine.ramp_file import parse_ramp
+from drillctl.machine.source import Source
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ticker.ticker import Ticker
 
+FINE_TICK_HZ = 20_000
 LONGEST_RUN_WAKES = 400_000
 MACHINES = ("pcb-drill", "pcb-drill-ramp-lab", "boiler-drum", "eight-axis")
 
 
+EVEN = (  # intervals of 9 to 1 ticks, a state a step
+    'name = "even-steps"\n{option}[computed]\ntick_hz = 1000\npulse_mm = 0.02\n'
+    "start_hz = 111.11\ntop_hz = 1000\nshrink_ticks = 1\n"
+)
+
+
+def even_ramp(option: str = "") -> RampTable:
+    """A ramp computed as the drum drill's is, short enough to be ticked through; ``option`` is a line of its file."""
+    return parse_ramp(Source(Path("even-steps.toml"), EVEN.format(option=option)))
+
+
 @cache
 def shipped(name: str) -> Machine:
-    """A machine as it is shipped, whatever tables the user has."""
-    return Library((shipped_tables(),)).machine(name)
+    """A machine as it is shipped, whatever tables the user has; one of fine ticks with coarse ones: a step takes a few
+    ticks and not hundreds, so that it can be ticked through.
+    """
+    return coarse(Library((shipped_tables(),)).machine(name))
+
+
+def coarse(machine: Machine) -> Machine:
+    """The machine itself; one of fine ticks with coarse ones."""
+    if machine.tick_hz < FINE_TICK_HZ:
+        return machine
+    return replace(machine, tick_hz=4167, axes=tuple(replace(axis, ramp=even_ramp()) for axis in machine.axes))
 
 
 class WatchedCard(SimulatedCard):

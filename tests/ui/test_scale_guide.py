@@ -215,7 +215,7 @@ def test_machines_are_compared_field_by_field_and_others_line_by_line(tables: Ta
     assert ["X:", "columns", "of", "a", "step", "1", "6"] in [row.split() for row in told]
     assert ["X:", "highest", "position", "16535", "2588"] in [row.split() for row in told]
     assert differences(tables, "machines", "pcb-drill", "pcb-drill") == []
-    assert "+interval = 9" in differences(tables, "ramp", "seven-state", "even-interval")
+    assert "+shrink_ticks = 1" in differences(tables, "ramp", "seven-state", "even-interval")
 
 
 def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(tables: TableFiles, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
-from drillctl.machine.travel import cruising_state
+from drillctl.machine.travel import cruising_from, cruising_state
 from drillctl.trace.tapes import PERIOD, Count, ImagePool
 
 LONGEST_STRIP = 1 << 20  # words that the strips of one distance may take; an interval beyond that is left to tick
@@ -25,12 +25,11 @@ class MoveProfile:
         self.first_wait = max(axis.interval[0], min_interval)
         state = direction * cruising_state(ramp, min_interval, direction)
         self._pace = max(axis.interval[state], min_interval)
-        self._straight = ramp.straight_from()
+        self._straight = cruising_from(ramp, min_interval, direction)
         walk = list(ramp.walk(direction * self._straight, min_interval))
         self._cruise = [made_in for _, made_in in walk].index(state)  # steps before the cruise begins
         self._split = self._cruise * self._columns
-        self._short = np.array([sum(self._waits(d)) for d in range(self._straight + 1)], np.int64)
-        self._last_wait = [0, *(self._waits(d)[-1] for d in range(1, self._straight + 1))]
+        self._known: dict[int, tuple[int, int]] = {}  # by distance: ticks of the move, and those before its last column
         self._strips: dict[int, int] = {}
         self._cycle = -1
 
@@ -42,11 +41,13 @@ class MoveProfile:
     def ticks(self, steps: Count) -> Count:
         """Ticks from rest to rest of moves of ``steps`` (n,)."""
         short = np.minimum(steps, self._straight)
-        return self._short[short] + (steps - short) * (self._columns * self._pace)
+        distances, places = np.unique(short, return_inverse=True)
+        ticks = np.array([self._timed(distance)[0] for distance in distances.tolist()], np.int64)
+        return ticks[places] + (steps - short) * (self._columns * self._pace)
 
     def last_wait(self, steps: int) -> int:
         """The interval before the last column."""
-        return self._last_wait[min(steps, self._straight)]
+        return self._timed(min(steps, self._straight))[1]
 
     def slices(self, pool: ImagePool, steps: Count, column: Count) -> tuple[Count, Count, Count]:
         """Start, ticks and period of head, cruise and tail of moves (n,) beginning at columns (n,): each (n, 3).
@@ -84,6 +85,13 @@ class MoveProfile:
         made = columns // self._columns
         ticks = np.cumsum(np.repeat(waits, self._columns)) - 1
         return np.stack((ticks, columns, made, np.append(states, 0)[made]))
+
+    def _timed(self, steps: int) -> tuple[int, int]:
+        """Ticks of a move, and those before its last column (0 of none)."""
+        if steps not in self._known:
+            waits = self._waits(steps)
+            self._known[steps] = sum(waits), waits[-1] if waits else 0
+        return self._known[steps]
 
     def _waits(self, steps: int) -> list[int]:
         """Ticks before each column of a move."""

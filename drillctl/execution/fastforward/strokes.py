@@ -17,7 +17,10 @@ from drillctl.trace.tapes import ImagePool
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
 MOTION = ("column", "position", "state")
 POSITION = MOTION.index("position")
-TABLES = ("ramp", "interval", "drive_patterns", "hold_patterns", "limits", "followers", "reach", "forcing", "halves")
+TABLES = (
+    "ramp", "strokes", "interval", "drive_patterns", "hold_patterns", "limits", "followers", "reach", "forcing",
+    "halves",
+)  # fmt: skip
 BEEN = ("least", "most")  # strokes are foreseen from known places alone, where nothing depends on these
 REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES, *BEEN))
 

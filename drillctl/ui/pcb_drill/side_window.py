@@ -185,6 +185,8 @@ def _marked(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> li
 
 def _tick_lines(view: MachineView) -> list[Line]:
     late = _("{hz} Hz, {late} late").format(hz=view.tick_hz, late=view.late)
+    if view.pace:
+        late = _("{hz} Hz, pace {pace}").format(hz=view.tick_hz, pace=f"{view.pace:.2f}")
     worst = f" ({view.late_worst_ms:.1f} ms)" if view.late else ""
     lines: list[Line] = [[("title", f"{_('Ticks'):{LABEL_WIDTH}}"), ("warning" if view.late else "body", late + worst)]]
     if view.lost_steps is not None:
