@@ -33,8 +33,8 @@ class RampFigures:
     def told(self) -> Message:
         """The figures as a sentence."""
         return Message(
-            "acceleration at most {greatest} m/s2, {mean} on average; neighbouring intervals at most {percent} % apart; "
-            "ramp of {length} mm",
+            "acceleration at most {greatest} m/s2, {mean} on average; neighbouring intervals at most {percent} % "
+            "apart; ramp of {length} mm",
             greatest=f"{self.greatest_m_s2:.3g}", mean=f"{self.mean_m_s2:.3g}", percent=f"{100 * self.ratio:.3g}",
             length=f"{self.length_mm:.3g}",
         )  # fmt: skip
