@@ -22,7 +22,8 @@ KEPT = (
 KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction", "least", "most")
 
 
-CODES = {"<i8": "q", "<u8": "Q", "<i4": "i", "<u4": "I", "<u2": "H", "|i1": "b", "|u1": "B"}  # numpy's, struct's
+# Of a numpy type: the letter that struct has for it.
+CODES = {"<i8": "q", "<u8": "Q", "<i4": "i", "<u4": "I", "<i2": "h", "<u2": "H", "|i1": "b", "|u1": "B"}
 # The fields of the status record in pieces that lie side by side; those between them are the ticker's.
 CLOCK = ("tick", "tick_hz")
 JOB = ("underruns", "epoch", "sequence", "done", "hole_begun", "holes_done", "tool", "opcode", "condition", "fault",
