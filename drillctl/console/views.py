@@ -23,6 +23,8 @@ CONDITIONS = {
     Condition.LATCHED: "latched",
 }
 
+FOLLOWING = 3  # commands that are shown behind the one in execution
+
 
 def machine_list(library: Library) -> list[tuple[str, str]]:
     """Name and description of every machine, or why it can't be loaded."""
@@ -43,6 +45,7 @@ def machine_view(
     condition = CONDITIONS[Condition(int(status["condition"]))]
     moving = bool(status["moving"])
     image = int(status["image"])
+    commands = iter(_command_texts(machine, status, program, done_before))
     code = link.lost() or int(status["fault"])
     view = MachineView(
         machine=machine.name,
@@ -52,10 +55,13 @@ def machine_view(
         condition="held" if condition == "holding" and not moving else condition,
         moving=moving,
         position_known=bool(status["position_known"]),
-        command=_command_text(machine, status, program, done_before),
+        command=next(commands, ""),
+        following=tuple(commands),
         queued=int(status["queued"]),
         tool=int(status["tool"]),
-        axes=tuple(_axis_view(axis, i, status, image, base_steps[i]) for i, axis in enumerate(machine.axes)),
+        axes=tuple(
+            _axis_view(axis, i, status, image, base_steps[i], link.measured) for i, axis in enumerate(machine.axes)
+        ),
         sensors=tuple((s.name, bool(int(status["sensors"]) >> s.bit & 1)) for s in machine.sensors),
         outputs=tuple((name, bool(image >> bit & 1)) for name, bit in machine.outputs),
         lost_steps=tuple(status["lost"].tolist()[: len(machine.axes)]) if link.measured else None,
@@ -73,13 +79,15 @@ def machine_view(
 
 def _without_ticker(view: MachineView) -> MachineView:
     """Corrects what a ticker wrote before it was lost: the guard has switched the outputs off since."""
-    return replace(view, condition="latched", moving=False, position_known=False, command="", queued=0)
+    return replace(view, condition="latched", moving=False, position_known=False, command="", following=(), queued=0)
 
 
-def _axis_view(axis: AxisTable, index: int, status: np.void, image: int, base_steps: int) -> AxisView:
+def _axis_view(
+    axis: AxisTable, index: int, status: np.void, image: int, base_steps: int, measured: bool
+) -> AxisView:  # fmt: skip
     position, target = int(status["position"][index]), int(status["target"][index])
     wires = tuple(
-        (wire.name, "".join("x" if on else "." for on in wire.forward), bool(image >> bit & 1))
+        (wire.name, "".join(_cell(on, wire.forcing) for on in wire.forward), bool(image >> bit & 1))
         for wire, bit in zip(axis.phase.wires, axis.wire_bits, strict=True)
     )
     return AxisView(
@@ -93,14 +101,22 @@ def _axis_view(axis: AxisTable, index: int, status: np.void, image: int, base_st
         column=int(status["column"][index]),
         wires=wires,
         steps_per_mm=axis.steps_per_mm,
+        behind_steps=int(status["behind"][index]) / 1000 if measured else None,
     )
 
 
-def _command_text(machine: Machine, status: np.void, program: NDArray[np.void] | None, done_before: int) -> str:
+def _cell(on: bool, forcing: bool) -> str:
+    """A cell of a phase table as the screens have it."""
+    return "." if not on else "X" if forcing else "x"
+
+
+def _command_texts(machine: Machine, status: np.void, program: NDArray[np.void] | None, done_before: int) -> list[str]:
+    """The command in execution and the FOLLOWING ones of the program; none where nothing is executed."""
     row = int(status["sequence"]) - done_before - 1
     if program is None or not status["sequence"] or not 0 <= row < len(program):
-        return ""
-    return to_text(program[row], names_of(machine))
+        return []
+    names = names_of(machine)
+    return [to_text(record, names) for record in program[row : row + 1 + FOLLOWING]]
 
 
 def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None, after_end: str) -> BoardView:

@@ -50,6 +50,7 @@ STATUS = np.dtype(
         ("base", "<i8", (MOST_AXES,)),  # of the working base: where absolute commands count from
         ("steps", "<i8", (MOST_AXES,)),  # made so far, both directions added
         ("lost", "<i4", (MOST_AXES,)),  # steps that the plant is behind; 0 where there is no plant to ask
+        ("behind", "<i4", (MOST_AXES,)),  # thousandths of a step that the plant's carriage is behind, moving or not
         ("state", "<i2", (MOST_AXES,)),
         ("column", "u1", (MOST_AXES,)),  # from 1
         ("sensors", "<u8"),  # by input bit, 1 = reached; of the first two cards

@@ -46,6 +46,7 @@ class Ticker:
         record = np.zeros(1, dtype=STATUS)
         self.status: np.void = record[0]
         self._lateness = 0, 0
+        self._behind: list[int] = []
         self._status_bytes = record.view(np.uint8).data
         self.touched: list[tuple[int, int, tuple[float, ...]]] = []
         self._touches = 0
@@ -133,10 +134,19 @@ class Ticker:
     def report(self) -> np.void:
         """The status record, written anew; the lost steps of the plant are measured only while everything rests."""
         report(self.controller, self._status_bytes)
-        if self.plant is not None and not self.controller.moving:
+        if self.plant is not None:
+            self._measure(self.plant)
+        return self.status
+
+    def _measure(self, plant: Plant) -> None:
+        """Notes how far the plant is behind, if that has changed; lost steps only while everything rests."""
+        behind = [round(1000 * plant.behind_steps(i, axis.travelled)) for i, axis in enumerate(self.controller.axes)]
+        if behind != self._behind:
+            self._behind = behind
+            self.status["behind"][: len(behind)] = behind
+        if not self.controller.moving:
             lost = self.lost_steps()
             self.status["lost"][: len(lost)] = np.rint(lost)
-        return self.status
 
     def late(self, count: int, worst_ns: int) -> None:
         """Notes for the status record how many ticks were late so far, and the worst."""

@@ -30,8 +30,9 @@ class AxisView:
     state: int
     top_state: int
     column: int  # from 1
-    wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table in x and ., lit now
+    wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table (x on, X on and forcing, . off), lit now
     steps_per_mm: float
+    behind_steps: float | None = None  # by which a simulated carriage is behind position_steps; None on a real port
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,7 @@ class MachineView:
     hot_s: float = 0.0  # after which what was switched on by hand and would burn a winding goes off; 0: nothing is
     cut_off: bool = False  # that has happened, and no output was set since
     pace: float = 0.0  # machine time over wall time, of a simulated machine by the simulated clock; 0: of another
+    following: tuple[str, ...] = ()  # the commands of the program that follow ``command``, at most three
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 

@@ -7,5 +7,6 @@
     events.py          what happened at the machine, from one view to the next
     board_map.py       where a board lies on the screen: scale, zoom and pan
     board_work.py      which holes of a board are drilled, in work, failed
+    speeds.py          how fast each axis moves
     viewport.py        which ticks and which signals of a run are on the screen
 """

@@ -16,6 +16,7 @@ Dots = NDArray[np.int64]
 MARGIN_MM = 2.54  # of the outline around the outermost holes: a drill file says no more of the board's edge
 CLOSEST = 64  # times the scale that shows the whole board
 ROUTE_DOTS = 3  # from one dot of a dotted line to the next
+MOST_POINTS = 200_000  # of a path; the outline of a large terminal has half as many when it is seen closest
 ROUND_MM = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
@@ -111,21 +112,20 @@ class BoardMap:
                 found.append((middle[diameter_mm == diameter][:, None, :] + offsets).reshape(-1, 2))
         return np.concatenate(found)
 
-    def path(self, xy_mm: Places, every: int = ROUTE_DOTS) -> Dots:
-        """A line through places, each ``every``-th dot of it; none for fewer than two places."""
+    def path(self, xy_mm: Places, every: float = ROUTE_DOTS) -> Dots:
+        """A line through places, a point ``every`` so many dots, MOST_POINTS at most; none for a single place."""
         if len(xy_mm) < 2:
             return np.zeros((0, 2), np.int64)
         length = np.hypot(*np.diff(xy_mm, axis=0).T) * self.dots_per_mm
         along = np.concatenate([[0.0], np.cumsum(length)])
-        most = every * self.rows * self.columns * np.prod(CELL_DOTS)  # a path longer than that would fill the sheet
-        at = np.arange(0.0, min(float(along[-1]), float(most)), every)
+        at = np.arange(0.0, min(float(along[-1]), every * MOST_POINTS), every)
         return self.dots(np.column_stack([np.interp(at, along, axis) for axis in xy_mm.T]))
 
     def outline(self) -> Dots:
         """The dots of the outline."""
         (left, low), (right, high) = self.low_mm, self.high_mm
         corners = np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
-        return self.path(corners, every=1)
+        return self.path(corners, every=0.5)  # no dot of it is left out
 
 
 def round_mm(least_mm: float) -> float:

@@ -3,6 +3,8 @@
     drilling.py    the machine at work: jog, base, start, hold, stop       board_view.py   the picture of the board
     board_layers.py what lies in each cell of that picture                 rulers.py       what stands around it
     side_window.py the paper's window at the right of it                   unfinished.py   jobs that were interrupted
+    machine_window.py the same with large figures, where there is room     tool_list.py    the tools of the board
+    motor_strip.py the motors side by side
     files.py       find a drill file, see what it says, place it           browser.py      its list of files
     typed.py       number formats, and what is typed into its dialogs      board_facts.py  a board in words
     alignment.py   placing a board by holes measured on it                 measuring.py    what the holes say

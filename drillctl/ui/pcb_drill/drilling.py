@@ -4,6 +4,7 @@ Rule: every motion is one key of the table below or one entry of the menu, and a
 line. Drilling itself asks first.
 """
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,16 @@ from drillctl.language import Message
 from drillctl.language.figures import clock, pair_mm
 from drillctl.language.words import N_, _
 from drillctl.ui.models.board_work import BoardWork
+from drillctl.ui.models.speeds import Speeds
+from drillctl.ui.pcb_drill.board_layers import PlaceMm
 from drillctl.ui.pcb_drill.board_view import STEP, BoardPicture
 from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.files import Files
+from drillctl.ui.pcb_drill.machine_window import machine_pages
+from drillctl.ui.pcb_drill.motor_strip import motor_pages
 from drillctl.ui.pcb_drill.next_step import next_step
-from drillctl.ui.pcb_drill.side_window import SideWindow, machine_pages, motor_pages, side_pages
+from drillctl.ui.pcb_drill.side_window import SideWindow, side_pages
+from drillctl.ui.pcb_drill.tool_list import tool_lines
 from drillctl.ui.pcb_drill.unfinished import offer_job
 from drillctl.ui.screens.event_list import EventList
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
@@ -26,9 +32,9 @@ from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.sizes import Layout, layout
-from drillctl.ui.widgets.texts import Size, Text
+from drillctl.ui.widgets.texts import Line, Size, Text
 from drillctl.ui.widgets.windows import Window
-from drillctl.viewmodel.console import Console, MachineView
+from drillctl.viewmodel.console import BoardView, Console, MachineView
 from drillctl.viewmodel.records import Progress
 
 FIRST_WORDS = (
@@ -39,8 +45,9 @@ FIRST_WORDS = (
     N_("L in Files offers the boards opened last."),
     N_("F1 or ? explains this screen."),
 )
+Paged = list[list[Line]]
 BOARD_KEYS = (
-    Key(("z",), "Z", "zoom_board", N_("the board closer; so does the mouse wheel"), N_("Zoom"), "closer"),
+    Key(("z",), "Z", "zoom_board", N_("the board closer; so does the mouse wheel"), argument="closer"),
     Key(("Z",), "Shift Z", "zoom_board", N_("the board from further away"), argument="further"),
     Key(("w",), "W", "whole_board", N_("the whole board")),
     Key(("shift left",), N_("Shift Left"), "pan_board", N_("the board further to the left"), argument="left"),
@@ -81,19 +88,23 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         JogControls.__init__(self, console)
         self._shell = shell
         self._picture = BoardPicture(plain, FIRST_WORDS)
-        self._window, self._motors = SideWindow(side_pages), SideWindow(motor_pages)
-        self._events, self._work = EventList(), BoardWork()
+        self._plain = plain
+        self._window = SideWindow(side_pages)
+        self._motors, self._tools = SideWindow(self._motor_pages), SideWindow(self._tool_pages)
+        self._events, self._work, self._speeds = EventList(), BoardWork(), Speeds()
         self._was_at_work = False
         self._footer = Text("")
         self._parts = {
             "board": Window(self._picture, _("Board")),
             "machine": Window(self._window, _("Machine")),
             "motors": Window(self._motors, _("Motors")),
+            "tools": Window(self._tools, _("Tools")),
             "events": Window(self._events, _("Events")),
         }
         self._rule = urwid.AttrMap(urwid.SolidFill(borders.lines().down), "border")
         self._left = urwid.Pile([self._parts["board"]])
-        self._columns = urwid.Columns([self._left, self._parts["machine"]])
+        self._right = urwid.Pile([self._parts["machine"]])
+        self._columns = urwid.Columns([self._left, self._right])
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._columns, footer=self._footer))
         self.refresh(console.view())
 
@@ -116,24 +127,41 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """The windows that there is room for; ``beside``: room for more than the machine's."""
         for part in self._parts.values():
             part.show(room.framed)
-        self._window.use(machine_pages if room.motors else side_pages)
-        sides = [("machine", room.side), ("motors", room.motors)]
+        self._window.use(partial(machine_pages, plain=self._plain) if room.machine else side_pages)
         whole, given = self._columns.options(), self._columns.options
-        right: list[Any] = [(self._parts[name], given("given", width)) for name, width in sides if width]
+        side = given("given", room.side) if beside else whole
         rule = [] if room.framed else [(self._rule, given("given", 1))]
-        self._columns.contents = [(self._left, whole), *rule, *right] if beside else [(self._parts["machine"], whole)]
-        below: list[Any] = [(self._parts["events"], self._left.options("given", room.events))] if room.events else []
-        self._left.contents = [(self._parts["board"], self._left.options()), *below]
+        left: list[Any] = [(self._left, whole), *rule] if beside else []
+        self._columns.contents = [*left, (self._right, side)]
+        self._left.contents = self._piled(("board", 0), *([("motors", room.motors)] if room.motors else []))
+        lists = [("tools", 0), ("events", 0)] if room.machine else []
+        self._right.contents = self._piled(("machine", room.machine), *lists)
+
+    def _piled(self, *parts: tuple[str, int]) -> list[Any]:
+        """Windows for a pile, by name and rows; 0 rows: as many as are left."""
+        options = self._left.options
+        return [(self._parts[name], options("given", rows) if rows else options()) for name, rows in parts]
+
+    def _motor_pages(self, view: MachineView, _progress: object, _board: object, columns: int, rows: int) -> Paged:
+        return motor_pages(view, self._speeds, columns, rows, self._plain)
+
+    def _tool_pages(
+        self, view: MachineView, _progress: object, board: BoardView | None, columns: int, _rows: int
+    ) -> Paged:
+        return [tool_lines(view, board, self._work.work.done, columns, self._plain)]
 
     def refresh(self, view: MachineView) -> None:
         """Draws what changed in machine, board and job."""
         board, progress = self._console.board(), self._console.progress()
         self._window.show(view, progress, board)
+        self._speeds.see(view)
+        work = self._work.see(view, board, progress)
         self._motors.show(view, progress, board)
+        self._tools.show(view, progress, board)
         self._events.see(view)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
-        head = (view.axes[0].position_mm, view.axes[1].position_mm) if len(view.axes) > 1 else None
-        self._picture.show(board, self._work.see(view, board, progress), view.tool, head)
+        head, real = _head(view)
+        self._picture.show(board, work, view.tool, head, real)
         if self._was_at_work and not view.at_work and of_board:
             self._note = ("body", _ended(of_board))
         self._was_at_work = view.at_work
@@ -283,6 +311,18 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def _go_to(self, x_mm: float, y_mm: float) -> None:
         where = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
         self._answer(self._console.go_to(x_mm, y_mm), where)
+
+
+def _head(view: MachineView) -> tuple[PlaceMm | None, PlaceMm | None]:
+    """Where the bit is thought to be, and where the simulated carriages have it; None for what is not known."""
+    if len(view.axes) < 2:
+        return None, None
+    x, y = view.axes[:2]
+    thought = x.position_mm, y.position_mm
+    if x.behind_steps is None or y.behind_steps is None:
+        return thought, None
+    behind_mm = x.behind_steps / x.steps_per_mm, y.behind_steps / y.steps_per_mm
+    return thought, (thought[0] - behind_mm[0], thought[1] - behind_mm[1])
 
 
 def _ended(of_board: Progress) -> str:

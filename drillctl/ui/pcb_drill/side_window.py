@@ -61,38 +61,22 @@ def side_pages(
     job, places = _job_lines(view, progress, board), _place_lines(view)
     phases: list[Line] = [[("title", _("Phases"))], *map(phase_line, view.axes)]
     tables = [phase_table(axis) for axis in view.axes]
-    sensors, outputs = _marked(_("Sensors"), view.sensors, columns), _marked(_("Outputs"), view.outputs, columns)
-    whole = [*job, *places, *(line for table in tables for line in table), *_tick_lines(view), *sensors, *outputs]
+    sensors, outputs = lamps(_("Sensors"), view.sensors, columns), lamps(_("Outputs"), view.outputs, columns)
+    whole = [*job, *places, *(line for table in tables for line in table), *tick_lines(view), *sensors, *outputs]
     if len(whole) <= rows:
         return [whole]
-    return _marked_pages([job, places, _tick_lines(view), phases, sensors, outputs, *tables], columns, rows)
-
-
-def machine_pages(
-    view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
-) -> list[list[Line]]:
-    """As ``side_pages``, without the motors."""
-    sensors, outputs = _marked(_("Sensors"), view.sensors, columns), _marked(_("Outputs"), view.outputs, columns)
-    blocks = [_job_lines(view, progress, board), _place_lines(view), _tick_lines(view), sensors, outputs]
-    return _marked_pages(_apart(blocks), columns, rows)
-
-
-def motor_pages(
-    view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int
-) -> list[list[Line]]:
-    """As ``side_pages``, the phase tables of the motors alone."""
-    return _marked_pages(_apart(map(phase_table, view.axes)), columns, rows)
+    return numbered_pages([job, places, tick_lines(view), phases, sensors, outputs, *tables], columns, rows)
 
 
 Pages = Callable[[MachineView, Progress | None, BoardView | None, int, int], list[list[Line]]]
 
 
-def _apart(blocks: Iterable[list[Line]]) -> list[list[Line]]:
+def apart(blocks: Iterable[list[Line]]) -> list[list[Line]]:
     """Blocks with an empty line after each."""
     return [[*block, []] for block in blocks]
 
 
-def _marked_pages(blocks: Sequence[list[Line]], columns: int, rows: int) -> list[list[Line]]:
+def numbered_pages(blocks: Sequence[list[Line]], columns: int, rows: int) -> list[list[Line]]:
     """Blocks on pages, each with its number where they are more than one."""
     pages = _paged(blocks, rows)
     if len(pages) == 1:
@@ -121,19 +105,21 @@ def _numbered(page: list[Line], mark: str, columns: int) -> list[Line]:
 
 def _job_lines(view: MachineView, progress: Progress | None, board: BoardView | None) -> list[Line]:
     return [
-        _labelled(_("Hole"), _hole(view, progress)),
-        _labelled(_("Tool"), _tool(view, board)),
-        _labelled(_("Time"), _time(progress)),
-        _labelled(_("Command"), view.command or "-"),
-        _labelled(_("Queue"), str(view.queued)),
+        labelled(_("Hole"), hole_text(view, progress)),
+        labelled(_("Tool"), tool_text(view, board)),
+        labelled(_("Time"), time_text(progress)),
+        labelled(_("Command"), view.command or "-"),
+        labelled(_("Queue"), str(view.queued)),
     ]
 
 
-def _labelled(label: str, text: str) -> Line:
+def labelled(label: str, text: str) -> Line:
+    """A line of a label and what stands behind it."""
     return [("title", f"{label:{LABEL_WIDTH}}"), text]
 
 
-def _hole(view: MachineView, progress: Progress | None) -> str:
+def hole_text(view: MachineView, progress: Progress | None) -> str:
+    """Which hole is in work, of how many."""
     if progress is None or not progress.holes_total:
         return "-"
     current = min(progress.holes_done + 1, progress.holes_total)
@@ -142,7 +128,8 @@ def _hole(view: MachineView, progress: Progress | None) -> str:
     )
 
 
-def _tool(view: MachineView, board: BoardView | None) -> str:
+def tool_text(view: MachineView, board: BoardView | None) -> str:
+    """The tool in the spindle, with its diameter where the board tells it."""
     if not view.tool:
         return "-"
     diameters = {tool.number: tool.diameter_mm for tool in board.tools} if board else {}
@@ -150,7 +137,8 @@ def _tool(view: MachineView, board: BoardView | None) -> str:
     return f"T{view.tool}" + (f" {diameter:.3f} mm" if diameter else "")
 
 
-def _time(progress: Progress | None) -> str:
+def time_text(progress: Progress | None) -> str:
+    """How long the job has run, and how long it will still take."""
     if progress is None:
         return "-"
     left = "" if progress.seconds_left is None else _(", {left} left").format(left=clock(progress.seconds_left))
@@ -169,7 +157,7 @@ def _place_line(axis: AxisView) -> Line:
     ]
 
 
-def _marked(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> list[Line]:
+def lamps(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> list[Line]:
     """Signals as lamps beside their label, as many a line as fit."""
     lines: list[Line] = []
     room = 0
@@ -183,7 +171,8 @@ def _marked(label: str, signals: Iterable[tuple[str, bool]], columns: int) -> li
     return lines
 
 
-def _tick_lines(view: MachineView) -> list[Line]:
+def tick_lines(view: MachineView) -> list[Line]:
+    """The tick rate with the late ticks, and on a simulated machine the lost steps."""
     late = _("{hz} Hz, {late} late").format(hz=view.tick_hz, late=view.late)
     if view.pace:
         late = _("{hz} Hz, pace {pace}").format(hz=view.tick_hz, pace=f"{view.pace:.2f}")

@@ -11,8 +11,8 @@ class Layout(NamedTuple):
 
     framed   windows have borders; without, a rule in a line that is there anyway
     side     columns of the window at the side
-    motors   the motors have a window of their own, of so many columns; 0: they share the side window
-    events   rows of the list of events; 0: there is none
+    motors   rows of the motors' own window below the board; 0: they share the side window
+    machine  rows of the machine's window, tools and events below it; 0: it has the whole side, and there are no lists
     """
 
     columns: int
@@ -20,13 +20,13 @@ class Layout(NamedTuple):
     framed: bool
     side: int
     motors: int
-    events: int
+    machine: int
 
 
 SMALL = Layout(0, 0, False, 36, 0, 0)
 LAYOUTS = (
-    Layout(210, 48, True, 50, 50, 14),  # 220x60
-    Layout(150, 38, True, 50, 0, 10),  # 160x50
+    Layout(210, 48, True, 60, 13, 27),  # 220x60
+    Layout(150, 38, True, 50, 13, 27),  # 160x50
     Layout(98, 22, True, 48, 0, 0),  # 100x32
     SMALL,  # 80x24
 )
