@@ -1,5 +1,6 @@
 """What works everywhere: any action found by its words, the screen kept as a picture, a terminal that is too small."""
 
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -20,6 +21,7 @@ from drillctl.viewmodel.jobs import Asked
 from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 from tests.ui.whole import Watched, at_home
 
+README = Path(__file__).resolve().parents[2] / "README.md"
 NAMES = ["BLINKER.drl", "a[1].drl", "notes.txt"]
 
 pytestmark = pytest.mark.usefixtures("idle")
@@ -152,3 +154,18 @@ def test_each_example_board_is_understood_without_a_doubt(tmp_path: Path, monkey
     finally:
         console.close()
     assert len(boards()) >= 4
+
+
+def paths(items: tuple[Item, ...], above: str = "") -> list[str]:
+    """Every entry as README writes it: ``Tests > Scope``."""
+    named = [(above + item.label.replace("&", "").removesuffix("..."), item.items) for item in items]
+    return [path for name, below in named for path in (name, *paths(below, f"{name} > "))]
+
+
+def test_every_way_that_the_readme_names_is_in_the_menus() -> None:
+    text = README.read_text("utf-8")
+    ways = re.findall(r"[A-Z]\w+ > [A-Z][\w ]*\w", text.partition("## On the screen")[2].partition("\n## ")[0])
+    known = paths(MENUS)
+    assert len(ways) >= 10
+    for way in ways:
+        assert any(path == way or path.startswith(f"{way},") for path in known), way

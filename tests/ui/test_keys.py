@@ -56,3 +56,10 @@ def test_a_key_that_means_something_everywhere_means_nothing_else_here(screen: s
 
 def test_all_screens_are_looked_at() -> None:
     assert {"Drilling", "Files", "PhaseEditor", "RampEditor", "QueueEditor", "Signals", "Scope"} <= set(TABLES)
+
+
+def test_the_letters_that_command_the_machine_mean_nothing_else_where_boards_are_chosen() -> None:
+    commands = {"start", "dry_run", "acknowledge", "set_base", "tool_changed", "initialise", "stop", "files"}
+    letters = {name for key in TABLES["Drilling"] if key.method in commands for name in key.names}
+    assert len(letters) == len(commands)
+    assert not letters & {name for key in TABLES["Files"] for name in key.names}
