@@ -150,8 +150,9 @@ def test_the_channel_is_made_beside_its_place_and_holds_its_lock(tmp_path: Path)
     assert (tmp_path / "victim").read_text() == "kept" and not (tmp_path / "j.status").is_symlink()
     scratch.sweep(tmp_path, "*.status")
     assert (tmp_path / "j.status").exists()
-    channel.fields = channel.fields[:0].copy()
-    channel.memory.close()
+    memory = channel.memory
+    del channel  # the last one that looks into the memory
+    memory.close()
     scratch.sweep(tmp_path, "*.status")
     assert not (tmp_path / "j.status").exists()
 
