@@ -50,9 +50,11 @@ class BoardPicture(urwid.Widget):
 
     def show(
         self, board: BoardView | None, work: Work = NOTHING_DONE, tool: int = 0, head_mm: PlaceMm | None = None,
-        real_mm: PlaceMm | None = None,
+        real_mm: PlaceMm | None = None, moving: bool = True,
     ) -> None:  # fmt: skip
-        """Draws a board as far as it is; ``tool``: the number of the one in the spindle. Only if something is new."""
+        """Draws a board as far as it is; ``tool``: the number of the one in the spindle. Only if something is new. The
+        trail is that of the motion under way: at rest, not ``moving``, there is none.
+        """
         if board is not self._board:
             self._map = BoardMap.of(board.xy_mm, 1, 1) if board and len(board.xy_mm) else None
             self._chosen = None
@@ -60,10 +62,13 @@ class BoardPicture(urwid.Widget):
         if (board, work, tool) != (self._board, self._work, self._tool):
             self._board, self._work, self._tool = board, work, tool
             self._draw_anew()
-        if (head_mm, real_mm) != (self._head.thought_mm, self._head.real_mm):
-            if head_mm:
-                self._trail.append(head_mm)
-            self._head = Head(head_mm, real_mm, tuple(self._trail))
+        if not moving:
+            self._trail.clear()
+        elif head_mm and head_mm != self._head.thought_mm:
+            self._trail.append(head_mm)
+        head = Head(head_mm, real_mm, tuple(self._trail))
+        if head != self._head:
+            self._head = head
             self._invalidate()
 
     def zoom(self, factor: float) -> float:

@@ -161,7 +161,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._events.see(view)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
         head, real = _head(view)
-        self._picture.show(board, work, view.tool, head, real)
+        self._picture.show(board, work, view.tool, head, real, view.moving)
         if self._was_at_work and not view.at_work and of_board:
             self._note = ("body", _ended(of_board))
         self._was_at_work = view.at_work
