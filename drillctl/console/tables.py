@@ -7,6 +7,7 @@ import difflib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from drillctl.console.views import field_view
 from drillctl.files.outputs import write_text
 from drillctl.language import Message, message_of
 from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
@@ -209,7 +210,7 @@ class TableFiles:
 
     def _field_view(self, setting: Setting) -> FieldView:
         choices = self._tables_for(setting) if setting.key in TABLES_OF_A_MOTOR else setting.choices
-        return FieldView(setting.place, setting.axis, _shown(setting), choices, _bounds(setting), setting.locked)
+        return field_view(setting, choices)
 
     def _tables_for(self, setting: Setting) -> tuple[str, ...]:
         """The tables that a motor may have in place of its own: every ramp, and phase tables of the same wires."""
@@ -288,17 +289,3 @@ def _locked(source: Source, setting: Setting) -> Message:
         field=setting.key,
         line=line,
     )
-
-
-def _shown(setting: Setting) -> str:
-    """A card's address in hexadecimal, as its switches are set; 18.0 s as 18."""
-    if setting.place[-1] == "card_address":
-        return f"0x{setting.value:X}"
-    return str(setting.value).removesuffix(".0") if setting.kind is float else str(setting.value)
-
-
-def _bounds(setting: Setting) -> str:
-    if setting.kind is str:
-        return ""
-    low = f"above {setting.above:g}" if setting.above is not None else f"{setting.least:.0f}"
-    return f"{low}..{setting.greatest:.0f}"

@@ -10,10 +10,12 @@ from drillctl.files.inputs import real_path
 from drillctl.generation.job import Job, names_of
 from drillctl.kmd import Condition, to_text
 from drillctl.machine import AxisTable, Library, Machine, TableError
+from drillctl.machine.settings import Setting
 from drillctl.ticker.link import Link
 from drillctl.viewmodel import fault_report
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView, ToolView
 from drillctl.viewmodel.records import Estimate
+from drillctl.viewmodel.tables import FieldView
 
 CONDITIONS = {
     Condition.READY: "ready",
@@ -144,3 +146,22 @@ def board_view(file: Path, job: Job, estimate: Estimate, fmt: str | None, after_
         warnings=job.warnings,
         estimate=estimate,
     )
+
+
+def field_view(setting: Setting, choices: tuple[str, ...]) -> FieldView:
+    """A field of the configuration as the screen shows it; ``choices``: the values that it can have, if few."""
+    return FieldView(setting.place, setting.axis, _shown(setting), choices, _bounds(setting), setting.locked)
+
+
+def _shown(setting: Setting) -> str:
+    """A card's address in hexadecimal, as its switches are set; 18.0 s as 18."""
+    if setting.place[-1] == "card_address":
+        return f"0x{setting.value:X}"
+    return str(setting.value).removesuffix(".0") if setting.kind is float else str(setting.value)
+
+
+def _bounds(setting: Setting) -> str:
+    if setting.kind is str:
+        return ""
+    low = f"above {setting.above:g}" if setting.above is not None else f"{setting.least:.0f}"
+    return f"{low}..{setting.greatest:.0f}"

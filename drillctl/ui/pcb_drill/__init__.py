@@ -1,6 +1,7 @@
 """The screens and menus of the PCB drill, and of every machine that drills a board.
 
     drilling.py    the machine at work: jog, base, start, hold, stop       board_view.py   the picture of the board
+    drilling_windows.py its windows, by the size of the terminal
     board_layers.py what lies in each cell of that picture                 rulers.py       what stands around it
     side_window.py the paper's window at the right of it                   unfinished.py   jobs that were interrupted
     machine_window.py the same with large figures, where there is room     tool_list.py    the tools of the board

@@ -4,48 +4,28 @@ Rule: every motion is one key of the table below or one entry of the menu, and a
 line. Drilling itself asks first.
 """
 
-from functools import partial
 from pathlib import Path
-from typing import Any
 
 import urwid
 
 from drillctl.language import Message
 from drillctl.language.figures import clock, pair_mm
 from drillctl.language.words import N_, _
-from drillctl.ui.models.board_work import BoardWork
-from drillctl.ui.models.speeds import Speeds
-from drillctl.ui.pcb_drill.board_layers import PlaceMm
-from drillctl.ui.pcb_drill.board_view import STEP, BoardPicture
+from drillctl.ui.pcb_drill.board_view import STEP
+from drillctl.ui.pcb_drill.drilling_windows import DrillingWindows
 from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.files import Files
-from drillctl.ui.pcb_drill.machine_window import machine_pages
-from drillctl.ui.pcb_drill.motor_strip import motor_pages
 from drillctl.ui.pcb_drill.next_step import next_step
-from drillctl.ui.pcb_drill.side_window import SideWindow, side_pages
-from drillctl.ui.pcb_drill.tool_list import tool_lines
 from drillctl.ui.pcb_drill.unfinished import offer_job
-from drillctl.ui.screens.event_list import EventList
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.sizes import Layout, layout
-from drillctl.ui.widgets.texts import Line, Size, Text
-from drillctl.ui.widgets.windows import Window
-from drillctl.viewmodel.console import BoardView, Console, MachineView
+from drillctl.ui.widgets.sizes import layout
+from drillctl.ui.widgets.texts import Size, Text
+from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.records import Progress
 
-FIRST_WORDS = (
-    N_("No board is loaded."),
-    "",
-    N_("F opens a drill file."),
-    N_("E shows the example boards and the lab sheets."),
-    N_("L in Files offers the boards opened last."),
-    N_("F1 or ? explains this screen."),
-)
-Paged = list[list[Line]]
 BOARD_KEYS = (
     Key(("z",), "Z", "zoom_board", N_("the board closer; so does the mouse wheel"), argument="closer"),
     Key(("Z",), "Shift Z", "zoom_board", N_("the board from further away"), argument="further"),
@@ -58,7 +38,6 @@ BOARD_KEYS = (
 )
 ZOOMS = {"closer": STEP, "further": 1 / STEP}
 PANS = {"left": (-0.25, 0), "right": (0.25, 0), "up": (0, -0.25), "down": (0, 0.25)}  # parts of what is seen
-LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
 
 
 class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
@@ -87,25 +66,10 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, console: Console, shell: Shell, plain: bool = False):
         JogControls.__init__(self, console)
         self._shell = shell
-        self._picture = BoardPicture(plain, FIRST_WORDS)
-        self._plain = plain
-        self._window = SideWindow(side_pages)
-        self._motors, self._tools = SideWindow(self._motor_pages), SideWindow(self._tool_pages)
-        self._events, self._work, self._speeds = EventList(), BoardWork(), Speeds()
+        self._windows = DrillingWindows(plain)
         self._was_at_work = False
         self._footer = Text("")
-        self._parts = {
-            "board": Window(self._picture, _("Board")),
-            "machine": Window(self._window, _("Machine")),
-            "motors": Window(self._motors, _("Motors")),
-            "tools": Window(self._tools, _("Tools")),
-            "events": Window(self._events, _("Events")),
-        }
-        self._rule = urwid.AttrMap(urwid.SolidFill(borders.lines().down), "border")
-        self._left = urwid.Pile([self._parts["board"]])
-        self._right = urwid.Pile([self._parts["machine"]])
-        self._columns = urwid.Columns([self._left, self._right])
-        urwid.WidgetWrap.__init__(self, urwid.Frame(self._columns, footer=self._footer))
+        urwid.WidgetWrap.__init__(self, urwid.Frame(self._windows, footer=self._footer))
         self.refresh(console.view())
 
     def selectable(self) -> bool:
@@ -120,48 +84,14 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Lays the windows out for this size."""
         assert len(size) == 2
-        self._lay_out(layout(*size), beside=size[0] >= layout(*size).side + LEAST_BOARD)
+        self._windows.lay_out(layout(*size), size[0])
         return super().render(size, focus)
-
-    def _lay_out(self, room: Layout, beside: bool) -> None:
-        """The windows that there is room for; ``beside``: room for more than the machine's."""
-        for part in self._parts.values():
-            part.show(room.framed)
-        self._window.use(partial(machine_pages, plain=self._plain) if room.machine else side_pages)
-        whole, given = self._columns.options(), self._columns.options
-        side = given("given", room.side) if beside else whole
-        rule = [] if room.framed else [(self._rule, given("given", 1))]
-        left: list[Any] = [(self._left, whole), *rule] if beside else []
-        self._columns.contents = [*left, (self._right, side)]
-        self._left.contents = self._piled(("board", 0), *([("motors", room.motors)] if room.motors else []))
-        lists = [("tools", 0), ("events", 0)] if room.machine else []
-        self._right.contents = self._piled(("machine", room.machine), *lists)
-
-    def _piled(self, *parts: tuple[str, int]) -> list[Any]:
-        """Windows for a pile, by name and rows; 0 rows: as many as are left."""
-        options = self._left.options
-        return [(self._parts[name], options("given", rows) if rows else options()) for name, rows in parts]
-
-    def _motor_pages(self, view: MachineView, _progress: object, _board: object, columns: int, rows: int) -> Paged:
-        return motor_pages(view, self._speeds, columns, rows, self._plain)
-
-    def _tool_pages(
-        self, view: MachineView, _progress: object, board: BoardView | None, columns: int, _rows: int
-    ) -> Paged:
-        return [tool_lines(view, board, self._work.work.done, columns, self._plain)]
 
     def refresh(self, view: MachineView) -> None:
         """Draws what changed in machine, board and job."""
         board, progress = self._console.board(), self._console.progress()
-        self._window.show(view, progress, board)
-        self._speeds.see(view)
-        work = self._work.see(view, board, progress)
-        self._motors.show(view, progress, board)
-        self._tools.show(view, progress, board)
-        self._events.see(view)
+        self._windows.show(view, board, progress)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
-        head, real = _head(view)
-        self._picture.show(board, work, view.tool, head, real, view.moving)
         if self._was_at_work and not view.at_work and of_board:
             self._note = ("body", _ended(of_board))
         self._was_at_work = view.at_work
@@ -245,26 +175,25 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
     def turn_page(self) -> None:
         """Shows the next page of the windows at the right."""
-        self._window.turn_page()
-        self._motors.turn_page()
+        self._windows.turn_page()
 
     def zoom_board(self, way: str) -> None:
         """Shows the board closer or from further away."""
-        self._say("body", _("zoom {zoom:g}").format(zoom=round(self._picture.zoom(ZOOMS[way]), 1)))
+        self._say("body", _("zoom {zoom:g}").format(zoom=round(self._windows.picture.zoom(ZOOMS[way]), 1)))
 
     def whole_board(self) -> None:
         """Shows the whole board."""
-        self._picture.whole()
+        self._windows.picture.whole()
         self._say("body", _("the whole board"))
 
     def pan_board(self, way: str) -> None:
         """Shows another part of the board; of the whole board there is none."""
-        whole = self._picture.pan(*PANS[way]) == 1
+        whole = self._windows.picture.pan(*PANS[way]) == 1
         self._say("body", _("the whole board is seen; Z shows it closer") if whole else "")
 
     def tool_numbers(self) -> None:
         """Shows holes to do by the numbers of their tools, or as dots again."""
-        self._say("body", _("tool numbers") if self._picture.turn_numbers() else _("holes as dots"))
+        self._say("body", _("tool numbers") if self._windows.picture.turn_numbers() else _("holes as dots"))
 
     def go_to_hole(self) -> None:
         """Asks for the number of a hole, in drilling order, and goes over it."""
@@ -311,18 +240,6 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
     def _go_to(self, x_mm: float, y_mm: float) -> None:
         where = _("to X {x:.3f}, Y {y:.3f} mm").format(x=x_mm, y=y_mm)
         self._answer(self._console.go_to(x_mm, y_mm), where)
-
-
-def _head(view: MachineView) -> tuple[PlaceMm | None, PlaceMm | None]:
-    """Where the bit is thought to be, and where the simulated carriages have it; None for what is not known."""
-    if len(view.axes) < 2:
-        return None, None
-    x, y = view.axes[:2]
-    thought = x.position_mm, y.position_mm
-    if x.behind_steps is None or y.behind_steps is None:
-        return thought, None
-    behind_mm = x.behind_steps / x.steps_per_mm, y.behind_steps / y.steps_per_mm
-    return thought, (thought[0] - behind_mm[0], thought[1] - behind_mm[1])
 
 
 def _ended(of_board: Progress) -> str:

@@ -1,0 +1,116 @@
+"""The windows of the Drilling screen: board, machine, motors, tools and events, laid out by the size of the terminal.
+
+Rule: draws the newest view and hears no keys; what a size shows is a row of widgets/sizes.py.
+"""
+
+from functools import partial
+from typing import Any
+
+import urwid
+
+from drillctl.language.words import N_, _
+from drillctl.ui.models.board_work import BoardWork
+from drillctl.ui.models.speeds import Speeds
+from drillctl.ui.pcb_drill.board_layers import PlaceMm
+from drillctl.ui.pcb_drill.board_view import BoardPicture
+from drillctl.ui.pcb_drill.machine_window import machine_pages
+from drillctl.ui.pcb_drill.motor_strip import motor_pages
+from drillctl.ui.pcb_drill.side_window import SideWindow, side_pages
+from drillctl.ui.pcb_drill.tool_list import tool_lines
+from drillctl.ui.screens.event_list import EventList
+from drillctl.ui.widgets import borders
+from drillctl.ui.widgets.sizes import Layout
+from drillctl.ui.widgets.texts import Line
+from drillctl.ui.widgets.windows import Window
+from drillctl.viewmodel.console import BoardView, MachineView
+from drillctl.viewmodel.records import Progress
+
+FIRST_WORDS = (
+    N_("No board is loaded."),
+    "",
+    N_("F opens a drill file."),
+    N_("E shows the example boards and the lab sheets."),
+    N_("L in Files offers the boards opened last."),
+    N_("F1 or ? explains this screen."),
+)
+Paged = list[list[Line]]
+LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone
+
+
+class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
+    """All windows, of which ``lay_out`` chooses; ``picture`` is that of the board."""
+
+    def __init__(self, plain: bool):
+        self._plain = plain
+        self.picture = BoardPicture(plain, FIRST_WORDS)
+        self._machine = SideWindow(side_pages)
+        self._motors, self._tools = SideWindow(self._motor_pages), SideWindow(self._tool_pages)
+        self._events, self._work, self._speeds = EventList(), BoardWork(), Speeds()
+        self._parts = {
+            "board": Window(self.picture, _("Board")),
+            "machine": Window(self._machine, _("Machine")),
+            "motors": Window(self._motors, _("Motors")),
+            "tools": Window(self._tools, _("Tools")),
+            "events": Window(self._events, _("Events")),
+        }
+        self._rule = urwid.AttrMap(urwid.SolidFill(borders.lines().down), "border")
+        self._left = urwid.Pile([self._parts["board"]])
+        self._right = urwid.Pile([self._parts["machine"]])
+        self._columns = urwid.Columns([self._left, self._right])
+        super().__init__(self._columns)
+
+    def show(self, view: MachineView, board: BoardView | None, progress: Progress | None) -> None:
+        """Draws what changed in machine, board and job."""
+        self._machine.show(view, progress, board)
+        self._speeds.see(view)
+        work = self._work.see(view, board, progress)
+        self._motors.show(view, progress, board)
+        self._tools.show(view, progress, board)
+        self._events.see(view)
+        head, real = _head(view)
+        self.picture.show(board, work, view.tool, head, real, view.moving)
+
+    def turn_page(self) -> None:
+        """Shows the next page of the machine's and the motors' windows."""
+        self._machine.turn_page()
+        self._motors.turn_page()
+
+    def lay_out(self, room: Layout, columns: int) -> None:
+        """Shows the windows that there is room for on a screen of so many columns."""
+        beside = columns >= room.side + LEAST_BOARD
+        for part in self._parts.values():
+            part.show(room.framed)
+        self._machine.use(partial(machine_pages, plain=self._plain) if room.machine else side_pages)
+        whole, given = self._columns.options(), self._columns.options
+        side = given("given", room.side) if beside else whole
+        rule = [] if room.framed else [(self._rule, given("given", 1))]
+        left: list[Any] = [(self._left, whole), *rule] if beside else []
+        self._columns.contents = [*left, (self._right, side)]
+        self._left.contents = self._piled(("board", 0), *([("motors", room.motors)] if room.motors else []))
+        lists = [("tools", 0), ("events", 0)] if room.machine else []
+        self._right.contents = self._piled(("machine", room.machine), *lists)
+
+    def _piled(self, *parts: tuple[str, int]) -> list[Any]:
+        """Windows for a pile, by name and rows; 0 rows: as many as are left."""
+        options = self._left.options
+        return [(self._parts[name], options("given", rows) if rows else options()) for name, rows in parts]
+
+    def _motor_pages(self, view: MachineView, _progress: object, _board: object, columns: int, rows: int) -> Paged:
+        return motor_pages(view, self._speeds, columns, rows, self._plain)
+
+    def _tool_pages(
+        self, view: MachineView, _progress: object, board: BoardView | None, columns: int, _rows: int
+    ) -> Paged:
+        return [tool_lines(view, board, self._work.work.done, columns, self._plain)]
+
+
+def _head(view: MachineView) -> tuple[PlaceMm | None, PlaceMm | None]:
+    """Where the bit is thought to be, and where the simulated carriages have it; None for what is not known."""
+    if len(view.axes) < 2:
+        return None, None
+    x, y = view.axes[:2]
+    thought = x.position_mm, y.position_mm
+    if x.behind_steps is None or y.behind_steps is None:
+        return thought, None
+    behind_mm = x.behind_steps / x.steps_per_mm, y.behind_steps / y.steps_per_mm
+    return thought, (thought[0] - behind_mm[0], thought[1] - behind_mm[1])
