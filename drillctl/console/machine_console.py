@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from drillctl.console.boards import Boards, align
+from drillctl.console.boards import Boards
+from drillctl.console.job_request import align
 from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operator_state import WorkingBase

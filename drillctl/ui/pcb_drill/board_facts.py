@@ -43,11 +43,14 @@ CHOICES = (
 
 def option_lines(options: Asked) -> list[str]:
     """The options that always have a value, two a line; then those that were set beside them."""
-    offset = "{:g} {:g} mm".format(*options.offset_mm)
     pairs = [f"{_('Format')}: {format_word(options.format)}"]
-    pairs += [f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES] + [f"{_('Offset')}: {offset}"]
+    pairs += [f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES] + [_offset(options)]
     lines = [f"{left:{LEFT_COLUMNS}} {right}".rstrip() for left, right in zip_longest(*[iter(pairs)] * 2, fillvalue="")]
     return [*lines, *_further(options)]
+
+
+def _offset(options: Asked) -> str:
+    return "{}: {:g} {:g} mm".format(_("Offset"), *options.offset_mm)
 
 
 def _chosen(choice: PlacingChoice, options: Asked) -> str:
@@ -71,11 +74,10 @@ def recent_line(file: str, options: Asked) -> str:
     """The line of a job opened before: the file, and the options that differ from the usual ones."""
     usual = Asked()
     unusual_choices = [
-        _chosen(choice, options)
-        for choice in CHOICES
-        if getattr(options, choice.field) != getattr(usual, choice.field)
+        _chosen(choice, options) for choice in CHOICES if getattr(options, choice.field) != getattr(usual, choice.field)
     ]
-    unusual = [*filter(None, [options.format]), *unusual_choices, *_further(options)]
+    offset = [] if options.offset_mm == usual.offset_mm else [_offset(options)]
+    unusual = [*filter(None, [options.format]), *unusual_choices, *offset, *_further(options)]
     return "  ".join([Path(file).name, *unusual, str(Path(file).parent)])
 
 
