@@ -9,7 +9,7 @@ from drillctl.kmd import STATUS, parse_program
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.ticker import Ticker
 
-OF_TICKER = ("late", "late_worst_ns", "lost")
+OF_TICKER = ("late", "late_worst_ns", "pace_percent", "lost", "behind")
 BY_AXIS = {"position": "position", "target": "target", "base": "base", "steps": "made", "state": "state"}
 SUMS = ("sequence", "opcode", "hot_ticks", "queued", "column", "sensors", "image", *BY_AXIS)
 
