@@ -22,7 +22,7 @@ from drillctl.console.views import machine_list, machine_view
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
 from drillctl.generation.waits import unwatched
-from drillctl.kmd import Condition, KmdError, Request, parse_program
+from drillctl.kmd import Condition, KmdError, Request, is_idle, parse_program
 from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
@@ -232,7 +232,7 @@ class MachineConsole:
         """Ends the job. At rest nothing is asked: the stop would meet whatever is begun next."""
         self._jogs.forget()
         status = self.link.status()
-        if self.at_work or status["moving"] or status["job"] or status["condition"] != Condition.READY:
+        if self.at_work or not is_idle(status["condition"], status["job"], status["moving"]):
             self.link.post(Request.STOP)
         return ()
 

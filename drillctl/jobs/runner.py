@@ -18,10 +18,10 @@ from drillctl.jobs.estimate import TimeLeft
 from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
 from drillctl.jobs.operator import JobHold, Operator, ToolChange
-from drillctl.kmd import Fault, Request
+from drillctl.kmd import Fault, Request, is_complete, is_over
 from drillctl.language import Message
 from drillctl.replay.header import trace_header
-from drillctl.ticker.link import Link, is_over
+from drillctl.ticker.link import Link
 from drillctl.trace import Segments, Trace
 from drillctl.viewmodel import Outcome, Progress, fault_report
 
@@ -211,7 +211,7 @@ class JobRunner:
     def _outcome(self, status: np.void, interrupted: bool) -> Outcome:
         names = self.job.machine.axis_names
         code = self.link.lost() or int(status["fault"])
-        complete = int(status["done"]) == self.last_sequence
+        complete = is_complete(status, self.last_sequence)
         if not (code or complete or interrupted or self.trouble):
             self.trouble = BY_OPERATOR if self._stop_asked else BY_OTHERS
         kept = bool(status["fault_kept"]) and not self.link.lost()

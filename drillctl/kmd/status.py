@@ -1,7 +1,7 @@
 """The status record: small, of fixed size, published after each tick. Screens, journal and summary are made from it.
 
 Rule: execution/between_ticks.py writes it, and the ticker adds what only it knows (lateness, lost steps); everybody
-above only reads. Integers: no file, no millimetre, no word.
+above only reads. Integers: no file, no millimetre, no word. Whether a job is over is asked here and nowhere else.
 """
 
 from enum import IntEnum
@@ -57,3 +57,30 @@ STATUS = np.dtype(
         ("image", "<u8"),  # outputs as flushed; of the first two cards
     ]
 )
+
+
+def is_idle(condition: int, job: int, moving: int) -> bool:
+    """Whether the machine rests outside a job and takes commands; arguments as in the status record."""
+    return condition == Condition.READY and not job and not moving
+
+
+def has_ended(condition: int, job: int, moving: int) -> bool:
+    """Whether a job has ended (at KMD_KONIEC, by a stop, or latched by a fault) and everything rests; arguments as in
+    the status record. Also true before the first command of a job: see ``is_over``.
+    """
+    return is_idle(condition, job, moving) or (condition == Condition.LATCHED and not moving)
+
+
+def is_complete(status: np.void, last_sequence: int) -> bool:
+    """Whether the command ``last_sequence``, a program's last, is done."""
+    return bool(status["done"] == last_sequence)
+
+
+def is_over(status: np.void, last_sequence: int, first_epoch: int) -> bool:
+    """Whether a program has ended and everything rests: complete, stopped (which begins another epoch than
+    ``first_epoch``, that of its commands), or latched by a fault.
+    """
+    if not has_ended(status["condition"], status["job"], status["moving"]):
+        return False
+    stopped = status["condition"] == Condition.LATCHED or status["epoch"] != first_epoch
+    return bool(stopped or is_complete(status, last_sequence))

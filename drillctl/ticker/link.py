@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from drillctl.kmd import CommandQueue, Condition, Request, TickGate
+from drillctl.kmd import CommandQueue, Request, TickGate
 from drillctl.language import Message
 from drillctl.plant import Plant
 from drillctl.ticker.edited_tables import take_tables
@@ -178,16 +178,6 @@ class LocalLink:
     def close(self) -> None:
         """Closes the port, which makes the outputs safe."""
         self.ticker.port.close()
-
-
-def is_over(status: np.void, last_sequence: int, first_epoch: int) -> bool:
-    """Whether a program has ended and everything rests: its last command done, stopped, or latched by a fault."""
-    if status["moving"]:
-        return False
-    if status["condition"] == Condition.LATCHED:
-        return True
-    ended = status["done"] == last_sequence or status["epoch"] != first_epoch
-    return bool(status["condition"] == Condition.READY and not status["job"] and ended)
 
 
 def header_of(plant: Plant | None) -> Header:

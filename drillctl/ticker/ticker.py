@@ -9,7 +9,18 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from drillctl.execution import Controller, loaded, look, report, tick
-from drillctl.kmd import STATUS, CommandQueue, Condition, Gate, Mailbox, Queue, Requests, TickGate
+from drillctl.kmd import (
+    STATUS,
+    CommandQueue,
+    Condition,
+    Gate,
+    Mailbox,
+    Queue,
+    Requests,
+    TickGate,
+    has_ended,
+    is_idle,
+)
 from drillctl.machine import Machine
 from drillctl.plant import IDEAL_PLANT, Plant, PlantChoice
 from drillctl.portio.simulated import SimulatedCard
@@ -110,7 +121,7 @@ class Ticker:
     def resting(self) -> bool:
         """Whether the machine is outside a job, nothing moves and no command waits."""
         m = self.controller
-        return m.condition == Condition.READY and not (m.busy or m.job or m.moving) and len(self.queue) == 0
+        return is_idle(m.condition, m.job, m.moving) and not m.busy and len(self.queue) == 0
 
     def load(self, machine: Machine) -> None:
         """Takes the same machine with other phase and ramp tables (edited_tables.py has checked that), at rest."""
@@ -125,11 +136,9 @@ class Ticker:
             self.plant.set_rate(self.machine.tick_hz)
 
     def over(self) -> bool:
-        """Whether the job has ended (at KMD_KONIEC, by a stop, or latched by a fault) and everything rests."""
+        """Whether the job has ended and everything rests."""
         m = self.controller
-        if m.condition == Condition.LATCHED:
-            return not m.moving
-        return m.condition == Condition.READY and not m.job and not m.moving
+        return has_ended(m.condition, m.job, m.moving)
 
     def report(self) -> np.void:
         """The status record, written anew; the lost steps of the plant are measured only while everything rests."""
