@@ -18,9 +18,9 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 
 def call(arguments: argparse.Namespace) -> int:
     """Prints a paragraph for each port; none is opened."""
-    from drillctl.portio.registry import PORTS
+    from drillctl.portio.registry import PORTS, added_ports
 
-    rows = [_facts(port) for port in PORTS.values()]
+    rows = [_facts(port) for port in (*PORTS.values(), *added_ports())]
     if arguments.json:
         print(json_text(rows, 2))
     else:

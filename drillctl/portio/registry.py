@@ -1,16 +1,23 @@
 """The ports that drillctl can drive, as a table: what each is, what it needs, what it can carry, how it is opened.
 
-Rule: everything that can be refused is refused here, before anything moves. A new port is a new row.
+Rule: everything that can be refused is refused here, before anything moves. A new port is a new row; another
+distribution adds one by an entry point, which is looked for only where a name is not in the table.
 """
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
+from typing import TYPE_CHECKING
 
 from drillctl.language import Message, known_words
 from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
 from drillctl.ports import Driver, PortLayout, PortRefused
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+GROUP = "drillctl.drivers"  # of entry points; each gives a Port that has the entry point's name
 
 Open = Callable[[str, PortLayout, Driver | None], Driver]
 Rate = Callable[[str, PortLayout, Iterable[int]], int | None]
@@ -135,7 +142,69 @@ def port_of_card(card: str) -> str:
     """Returns the real port, ``NAME[:ADDRESS]``, that drives a card; empty where none does."""
     spec = CARD_PORTS.get(card, card)
     name = spec.partition(":")[0]
-    return spec if name in PORTS and PORTS[name].real else ""
+    there = name in PORTS or any(entry.name == name for entry in _entries())
+    return spec if there and select(spec)[0].real else ""
+
+
+def added_ports() -> list[Port]:
+    """Returns the ports that other distributions add; one that can't be used says why by its ``missing``."""
+    entries = _entries()
+    return [_listed(entry, entries) for entry in entries]
+
+
+def _entries() -> "list[EntryPoint]":
+    from importlib.metadata import entry_points
+
+    return list(entry_points(group=GROUP))
+
+
+def _owner(entry: "EntryPoint") -> str:
+    return entry.dist.name if entry.dist else entry.value
+
+
+def _listed(entry: "EntryPoint", entries: "list[EntryPoint]") -> Port:
+    try:
+        return _loaded(entry, entries)
+    except PortRefused as error:
+        reason = error.reason
+
+    def refuse(address: str, layout: PortLayout, card: Driver | None) -> Driver:
+        raise PortRefused(entry.name, reason)
+
+    summary = Message("a port of the distribution {owner}", owner=_owner(entry))
+    return Port(entry.name, summary, Message("its driver"), "", real=True, missing=lambda: reason, open=refuse)
+
+
+def _loaded(entry: "EntryPoint", entries: "list[EntryPoint]") -> Port:
+    """Returns the port of an entry point. Raises PortRefused, naming the distribution, where its name is taken or it
+    can't be loaded.
+    """
+    name, owner = entry.name, _owner(entry)
+    taken_by = ["drillctl"] if name in PORTS else [_owner(e) for e in entries if e.name == name and e is not entry]
+    if taken_by:
+        raise PortRefused(
+            name,
+            Message(
+                "the distribution {owner} adds a port of this name, which {other} has too; uninstall one of the added",
+                owner=owner,
+                other=", ".join(taken_by),
+            ),
+        )
+    try:
+        port = entry.load()
+    except Exception as error:  # whatever a stranger's module raises
+        reason = Message(
+            "its driver, of the distribution {owner}, can't be loaded: {error}; install it anew",
+            owner=owner,
+            error=f"{type(error).__name__}: {error}",
+        )
+        raise PortRefused(name, reason) from error
+    if not isinstance(port, Port) or port.name != name:
+        why = Message(
+            "the distribution {owner} gives {value}, which is no Port of this name", owner=owner, value=entry.value
+        )
+        raise PortRefused(name, why)
+    return port
 
 
 def rate_of(spec: str, layout: PortLayout) -> int | None:
@@ -148,11 +217,18 @@ def rate_of(spec: str, layout: PortLayout) -> int | None:
 
 
 def select(spec: str) -> tuple[Port, str]:
-    """Returns the port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name."""
+    """Returns the port and the address in ``NAME[:ADDRESS]``. Raises PortRefused for an unknown name, or an added port
+    that can't be loaded.
+    """
     name, _, address = spec.partition(":")
-    if name not in PORTS:
-        raise PortRefused(name, Message("there is no such port; {words}", words=known_words(name, PORTS)))
-    return PORTS[name], address
+    if name in PORTS:
+        return PORTS[name], address
+    entries = _entries()
+    for entry in entries:
+        if entry.name == name:
+            return _loaded(entry, entries), address
+    known = [*PORTS, *(entry.name for entry in entries)]
+    raise PortRefused(name, Message("there is no such port; {words}", words=known_words(name, known)))
 
 
 def check_rate(spec: str, layout: PortLayout) -> None:
