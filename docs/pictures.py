@@ -27,7 +27,7 @@ TRACE = ROOT / "examples" / "traces" / "square-pcb-drill.trace"
 YES = ("Right", "Enter")
 QUEUE = ("KMD_INICJALIZACJA", "KMD_GOTO_X_Y 480 300", "KMD_WIERTLO_DOL", "KMD_WIERTLO_GORA", "KMD_GOTO_X_Y 99000 0")
 EDITORS = {"phase": "phase_editor", "ramp": "ramp_editor", "machines": "configuration"}
-MASKED = re.compile(r"/tmp/drillctl-\w+")  # the folder that a session plays in
+MASKED = re.compile(r"/tmp/drillctl-\w+")  # the folder in which a session is played
 SHOWN_FOLDER = "/home/lab/boards"
 
 Script = Callable[[], Iterator[Act | str]]  # keys to press, and names of pictures to take

@@ -16,7 +16,7 @@ from drillctl.language.words import _, translated
 from drillctl.ui.alerts import Alerts
 from drillctl.ui.background import Background
 from drillctl.ui.dropping import Dropping
-from drillctl.ui.explanations import EXPLAINED
+from drillctl.ui.explanations import EXPLAINED, SIGNS
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
@@ -166,11 +166,12 @@ class App(Boxes):
         self._menus.drop(0)
 
     def help(self) -> None:
-        """Explains the screen on top and the signs on it, then lists the keys that work there."""
+        """Explains the screen on top, then lists the keys that work there, and the rest of its signs."""
         screen = self.screens[-1]
         keys = help_lines([*screen_keys(screen), *FRAME_KEYS])
         title = getattr(screen, "title", "")
-        self.message(_(title) or _("Keys"), [*map(_, EXPLAINED.get(title, ())), "", *keys])
+        first, last = (map(_, table.get(title, ())) for table in (EXPLAINED, SIGNS))
+        self.message(_(title) or _("Keys"), [*first, "", *keys, "", *last])
 
     def find_action(self) -> None:
         """Opens a box that finds any action by its words."""

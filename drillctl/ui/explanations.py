@@ -1,6 +1,7 @@
 """What F1 says of each screen before it lists the keys: what is shown, what the signs mean, how one begins.
 
-Rule: a line is no longer than a dialog is wide; every sign that a screen draws is explained here. By a screen's title.
+Rule: ten lines at most, none longer than a dialog is wide; every sign that a screen draws is explained here or, behind
+the keys, in SIGNS. By a screen's title.
 """
 
 from collections.abc import Mapping
@@ -19,15 +20,6 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("a click on a hole tells its number, its tool and its place."),
         N_("The bar shows how much is drilled; below it the command in execution"),
         N_("and the next three. Large figures: where an axis is, in mm."),
-        N_("Motors: X is a forcing wire's pulse (24 V); bars for ramp and speed."),
-        N_("Rotor: ● (o) where it is, | where it is thought to be, in steps;"),
-        N_("◇ (%) on the board: where the bit really is."),
-        N_("now mm, steps: where an axis is, from the working base;"),
-        N_("to mm, steps: where it goes."),
-        N_("12 +0 after an axis: column 12 of its phase table, ramp state 0."),
-        N_("[24a]: the wire is on. Names in brackets are on, others are off."),
-        N_("Ticks: interrupts a second, and how many of them came late."),
-        N_("Lost: steps that the simulated rotors did not follow, by axis."),
     ),
     "Files": (
         N_("Left, the drill files of a folder; right, what the chosen one says."),
@@ -96,4 +88,19 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("A real machine is driven only after a question."),
     ),
     "Lab sheet": (N_("A task of the laboratory, to be read; arrows and PgDn scroll it."),),
+}
+
+# What stands behind the keys, where the signs of a screen need more than its ten lines.
+SIGNS: Mapping[str, tuple[str, ...]] = {
+    "Drilling": (
+        N_("Motors: X is a forcing wire's pulse (24 V); bars for ramp and speed."),
+        N_("Rotor: ● (o) where it is, | where it is thought to be, in steps;"),
+        N_("◇ (%) on the board: where the bit really is."),
+        N_("now mm, steps: where an axis is, from the working base;"),
+        N_("to mm, steps: where it goes."),
+        N_("12 +0 after an axis: column 12 of its phase table, ramp state 0."),
+        N_("[24a]: the wire is on. Names in brackets are on, others are off."),
+        N_("Ticks: interrupts a second, and how many of them came late."),
+        N_("Lost: steps that the simulated rotors did not follow, by axis."),
+    ),
 }

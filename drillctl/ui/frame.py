@@ -28,6 +28,7 @@ CONDITIONS = {
     "latched": ("danger", N_("FAULT")),
 }
 PAUSED = ("warning", N_("CLOCK STOPPED"))
+AT_WORK = ("good", N_("AT WORK"))  # while a job is under way that waits for nobody
 FRAME_ROWS = 6  # that the frame takes of the terminal, the keys in three of them
 
 
@@ -146,6 +147,8 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         attribute, word = CONDITIONS[view.condition]
         if view.paused:
             attribute, word = PAUSED
+        elif view.condition == "ready" and view.moving:
+            attribute, word = AT_WORK
         moving = _("moving") if view.moving else _("at rest")
         position = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
         tables = f" {_('(local)')}" if view.local else ""

@@ -66,8 +66,8 @@ def board() -> Iterator["terminals.Act"]:
 def basing() -> Iterator["terminals.Act"]:
     """Initialised, and the base taken beside machine zero."""
     yield Act(menu("drilling", "initialise"), (at_rest("position known"),))
-    yield Act(("Right",), ("0.254", at_rest("position known")))
-    yield Act(("Up",), ("Y      0.254", at_rest("position known")))
+    yield Act(("Right",), ("X +12", at_rest("position known")))
+    yield Act(("Up",), ("Y +12", at_rest("position known")))
     yield Act(("b",), (word("this place is the working base"),))
 
 

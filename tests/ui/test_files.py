@@ -382,7 +382,7 @@ def test_an_example_board_is_loaded_by_its_number(first: tuple[str, ...]) -> Non
     assert f"1 board {board.name}" in program.text()
     program.press("1")
     assert program.console.asked == [("load", str(board), Asked())]
-    assert isinstance(program.app.screens[-1], Files)
+    assert isinstance(program.app.screens[-1], Drilling)
 
 
 def test_a_lab_sheet_is_opened_to_be_read() -> None:

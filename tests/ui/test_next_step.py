@@ -18,7 +18,7 @@ pytestmark = pytest.mark.usefixtures("idle")
 
 FIELD = re.compile(r"\{(\w+)\}")
 CASES = {
-    "position not known": ({"position_known": False}, False, "position not known: I initialises"),
+    "position not known": ({"position_known": False}, True, "position not known: I initialises; S does, then drills"),
     "no board": ({}, False, "no board: F opens one, E shows the examples"),
     "ready": ({}, True, "ready: S drills the board, D goes over it"),
     "a tool": ({"at_work": True, "tool_wanted": ToolWanted(2, 1.0)}, True, "T2, 1.000 mm is wanted: put it in, then C"),

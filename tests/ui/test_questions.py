@@ -7,7 +7,7 @@ import pytest
 import urwid
 
 from drillctl.language import words
-from drillctl.ui.explanations import EXPLAINED
+from drillctl.ui.explanations import EXPLAINED, SIGNS
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.widgets.dialogs import WIDEST
@@ -108,8 +108,9 @@ def test_q_leaves_what_is_on_top_and_at_last_the_program() -> None:
 @pytest.mark.parametrize("language", words.LANGUAGES)
 def test_no_line_of_an_explanation_is_wider_than_its_dialog(language: str) -> None:
     words.use(language)
-    for lines in EXPLAINED.values():
-        assert len(lines) <= 10 and all(len(words._(line)) <= WIDEST - 4 for line in lines)
+    assert all(len(lines) <= 10 for lines in EXPLAINED.values())
+    for lines in (*EXPLAINED.values(), *SIGNS.values()):
+        assert all(len(words._(line)) <= WIDEST - 4 for line in lines)
 
 
 def test_every_screen_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -131,7 +132,7 @@ def test_every_screen_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 
 def test_every_sign_of_the_drilling_screen_is_explained() -> None:
-    program = Program(FakeConsole(loaded=BOARD), (80, 50))
+    program = Program(FakeConsole(loaded=BOARD), (80, 80))
     program.press("?")
     for sign in ("12 +0", "[24a]", "○", "◎", "+ the drill"):
         assert sign in program.text()

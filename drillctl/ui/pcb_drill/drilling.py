@@ -171,7 +171,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """Loads a board as the Files screen does, which then has it too."""
         files = self._shell.show("files")
         if isinstance(files, Files):
-            files.open_file(file)
+            files.open_example(file)
 
     def turn_page(self) -> None:
         """Shows the next page of the windows at the right."""

@@ -29,7 +29,7 @@ FIRST_WORDS = (
     N_("No board is loaded."),
     "",
     N_("F opens a drill file."),
-    N_("E shows the example boards and the lab sheets."),
+    N_("E shows example boards and lab sheets."),
     N_("L in Files offers the boards opened last."),
     N_("F1 or ? explains this screen."),
 )

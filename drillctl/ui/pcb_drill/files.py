@@ -98,13 +98,19 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._shell.choose(_("Recent"), lines, lambda index: self._open_again(jobs[index]))
 
     def examples(self) -> None:
-        """Offers the example boards and the lab sheets."""
-        offer_examples(self._shell, self.open_file)
+        """Offers the example boards and the lab sheets; a board that is chosen is loaded, ready to be drilled."""
+        offer_examples(self._shell, self.open_example)
 
-    def open_file(self, file: Path) -> None:
-        """Loads a file that was named elsewhere than in the list; the cursor goes to it."""
+    def open_example(self, file: Path) -> None:
+        """Loads an example as if it were chosen in the list, then shows the machine with it."""
         self._browser.stand_on(file)
-        self.load(file)
+
+        def opened(problems: Problems) -> None:
+            self._tell(problems)
+            if not problems:
+                self._shell.show("drilling")
+
+        self._read(file, replace(self._options, measured=(), skip_tools=()), opened)
 
     def unfinished(self) -> None:
         """Offers to resume the jobs that were interrupted."""

@@ -49,7 +49,7 @@ def _rotor(axis: AxisView, lost: int, plain: bool) -> list[Line]:
     """The rotor on a scale whose middle is the place where it is thought to be; none on a real port."""
     if axis.behind_steps is None:
         return []
-    off = -axis.behind_steps
+    off = round(-axis.behind_steps, 2) + 0.0  # never -0.00
     at = round(min(max(off, -REACH_STEPS), REACH_STEPS)) + REACH_STEPS
     scale = ["."] * (2 * REACH_STEPS + 1)
     scale[REACH_STEPS], scale[at] = "|", PLAIN_MARK if plain else MARK

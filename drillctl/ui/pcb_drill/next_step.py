@@ -46,10 +46,10 @@ ROWS = (
         N_("{tool} is wanted: put it in, then {tool_changed}"), N_("the job waits for a tool")),
     Row(lambda view, board: view.at_work or view.moving, "good",
         N_("at work: {hold_or_resume} holds, {stop} ends the job"), AT_WORK),
-    Row(lambda view, board: not view.position_known, "warning",
-        N_("position not known: {initialise} initialises")),
     Row(lambda view, board: board is None, "warning",
         N_("no board: {files} opens one, {examples} shows the examples")),
+    Row(lambda view, board: not view.position_known, "warning",
+        N_("position not known: {initialise} initialises; {start} does, then drills")),
     Row(lambda view, board: True, "good",
         N_("ready: {start} drills the board, {dry_run} goes over it with the drill up")),
 )  # fmt: skip
