@@ -67,6 +67,7 @@ CASES = [
     ["sweep", "--out", f"{NASTY}.csv", "--axis", NASTY], ["sweep", "--out", f"{NASTY}.csv", "--hz", NASTY],
     ["tune", NASTY], ["tune", "pcb-drill", "--name", NASTY], ["tune", "pcb-drill", "--axis", NASTY],
     ["tune", "pcb-drill", "--out", OWN],
+    ["store", "show", NASTY], ["store", "put", "05", NASTY], ["store", "list", "--store", NASTY],
 ]  # fmt: skip
 
 

@@ -11,6 +11,7 @@ import tomlkit
 from hypothesis import given
 from hypothesis import strategies as st
 
+from drillctl.language import Message
 from drillctl.machine import TableError, shipped_tables
 from drillctl.machine.positions import Place, key_lines
 from drillctl.machine.source import Source
@@ -130,4 +131,4 @@ def test_a_key_in_a_long_text_misleads_no_fault(tmp_path: Path) -> None:
     text = 'name = "t"\ndescription = """\ntick_hz = 1\n"""\ntick_hz = "x"\n'
     source = Source(tmp_path / "m.toml", text)
     assert source.line_of("tick_hz") == 5 and source.line_of("nothing") is None
-    assert isinstance(source.error("wrong", "tick_hz"), TableError)
+    assert isinstance(source.error(Message("wrong"), "tick_hz"), TableError)
