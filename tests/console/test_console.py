@@ -111,8 +111,8 @@ def test_a_fault_in_a_queue_is_told(console: MachineConsole) -> None:
 
 def test_another_machine_starts_anew(console: MachineConsole) -> None:
     assert console.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
-    assert console.choose_machine("boiler-drum") == ()
-    assert console.view().machine == "boiler-drum" and console.board() is None
+    assert console.choose_machine("pcb-drill-ramp-lab") == ()
+    assert console.view().machine == "pcb-drill-ramp-lab" and console.board() is None
     assert "no machine of this name" in console.choose_machine("nonsense")[0]
 
 

@@ -146,11 +146,11 @@ def hold_key(console: MachineConsole, steps: int, for_s: float) -> None:
 def test_the_machine_runs_smoothly_while_the_key_is_held_and_rests_soon_after(console: MachineConsole) -> None:
     hold_key(console, 12, 2.0)
     view = console.view()
-    assert view.axes[0].state == 3 and view.axes[0].target_steps > 16000, "at full speed, towards the end of the range"
+    assert view.axes[0].state and view.axes[0].target_steps > 16000, "up its ramp, towards the end of the range"
     let_go = view.axes[0].position_steps
     settle(console)
     view = console.view()
-    assert 500 < let_go < view.axes[0].position_steps < let_go + 400
+    assert 100 < let_go < view.axes[0].position_steps < let_go + 400
     assert view.position_known and view.condition == "ready" and view.lost_steps == (0, 0, 0)
 
 
