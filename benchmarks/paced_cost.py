@@ -61,6 +61,7 @@ def wake_us(machine: Machine, folder: Path) -> float:
     body.desk = os.getppid()
     body.queue.put(parse_program(MOVE, names_of(machine)))
     channel["desk_beat_ns"] = time.monotonic_ns()
+    # A stand-in for the class: a clock that never sleeps, made before.
     ticker_process.PacedClock = lambda tick_hz: clock  # type: ignore[assignment,misc]
     before = time.process_time()
     body._tick_on()

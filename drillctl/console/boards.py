@@ -101,7 +101,7 @@ class Boards:
         """The jobs that were cut off, the newest first, on whichever machine; ``here`` is where they would go on."""
         return [_unfinished_job(file, account, here) for file, account in unfinished(journals())]
 
-    def take_up(self, journal: Path, machine: Machine, here: Site, elsewhere: bool) -> Problems:
+    def take_up(self, journal: Path, machine: Machine, here: Site, elsewhere: bool, watch: Watch) -> Problems:
         """Plans what is left of a job that was cut off, from its own working base. Refused where it ran on another
         machine, or elsewhere than ``here``; ``elsewhere``: the operator has agreed to the latter.
         """
@@ -115,8 +115,9 @@ class Boards:
                 )
             if not elsewhere and (reason := moved(account.site, here)):
                 return (reason.at(journal),)
-            rest = rest_of(journal, account, machine)
-            estimate, ticks = estimate_with_ticks(rest.left)
+            rest = rest_of(journal, account, machine, watch)
+            estimate, ticks = estimate_with_ticks(rest.left, waits=watch)
+            watch(PLANNED)
             view = board_view(Path(account.head.job), rest.whole, estimate, *rest.options.reading())
         except REFUSALS as error:
             return _problems(error)

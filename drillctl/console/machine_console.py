@@ -158,11 +158,15 @@ class MachineConsole:
         """The jobs that were cut off, from the user's state folder; without the one that runs."""
         return self._boards.unfinished(self.used.site)
 
-    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
-        """Drills what is left of a job, as ``drillctl resume`` does; ``elsewhere`` is its option."""
-        if problems := self.busy() or self._boards.take_up(Path(journal), self.machine, self.used.site, elsewhere):
+    def take_up(self, journal: str, elsewhere: bool = False, watch: Watch = unwatched) -> Problems:
+        """Plans what is left of a job, as ``drillctl resume`` does; ``elsewhere`` is its option. May take seconds."""
+        if problems := self.busy():
             return problems
-        return self._drill()
+        return self._boards.take_up(Path(journal), self.machine, self.used.site, elsewhere, watch)
+
+    def go_on(self) -> Problems:
+        """Drills what was taken up, from the base that it was begun at."""
+        return self.busy() or self._drill()
 
     def give_up(self, journal: str) -> Problems:
         """Deletes the journal of a job that was cut off."""

@@ -20,7 +20,7 @@ from drillctl.machine.model import Machine
 from drillctl.machine.motor import parse_motor
 from drillctl.machine.parts import Parts, find_table
 from drillctl.machine.phase import parse_phase
-from drillctl.machine.ramp_figures import machine_figures, ramp_figures, told
+from drillctl.machine.ramp_figures import axis_figures, machine_figures, ramp_figures
 from drillctl.machine.ramp_file import computed_figures, parse_ramp
 from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
 
@@ -115,9 +115,13 @@ class Library:
             return []
         ramp, figures = parse_ramp(source), computed_figures(source)
         if figures is not None:
-            return [ramp_figures(ramp, figures.tick_hz, figures.pulse_mm).told()]
+            return [ramp_figures(ramp, figures.tick_hz, figures.pulse_mm).sentence()]
         return [
-            Message("{axis}: {figures}", axis=f"{name}.{axis.name}", figures=told(replace(axis, ramp=ramp), machine))
+            Message(
+                "{axis}: {figures}",
+                axis=f"{name}.{axis.name}",
+                figures=axis_figures(replace(axis, ramp=ramp), machine.tick_hz).sentence(),
+            )
             for name, machine in self._readable_machines()
             for axis in machine.axes
             if axis.ramp.name == ramp.name

@@ -30,7 +30,7 @@ class RampFigures:
     ratio: float
     length_mm: float
 
-    def told(self) -> Message:
+    def sentence(self) -> Message:
         """The figures as a sentence."""
         return Message(
             "acceleration at most {greatest} m/s2, {mean} on average; neighbouring intervals at most {percent} % "
@@ -49,7 +49,7 @@ def ramp_figures(
     top = ramp.top if top is None else top
     sides = [[ramp.interval[direction * state] for state in range(top + 1)] for direction in (1, -1)]
     return max(
-        (_side(side, tick_hz, pulse_mm, columns_per_step) for side in sides), key=lambda side: side.greatest_m_s2
+        (side_figures(side, tick_hz, pulse_mm, columns_per_step) for side in sides), key=lambda side: side.greatest_m_s2
     )
 
 
@@ -58,19 +58,15 @@ def axis_figures(axis: AxisTable, tick_hz: int) -> RampFigures:
     return ramp_figures(axis.ramp, tick_hz, MM_PER_INCH / axis.columns_per_inch, axis.columns_per_step)
 
 
-def told(axis: AxisTable, machine: Machine) -> Message:
-    """The figures of an axis of a machine as a sentence."""
-    return axis_figures(axis, machine.tick_hz).told()
-
-
 def machine_figures(machine: Machine) -> Iterator[Message]:
     """Yields a line for each axis: its ramp and the figures."""
     for axis in machine.axes:
-        figures = told(axis, machine)
+        figures = axis_figures(axis, machine.tick_hz).sentence()
         yield Message("{axis}: ramp {ramp}: {figures}", axis=axis.name, ramp=axis.ramp.name, figures=figures)
 
 
-def _side(intervals: list[int], tick_hz: int, pulse_mm: float, columns_per_step: int) -> RampFigures:
+def side_figures(intervals: list[int], tick_hz: int, pulse_mm: float, columns_per_step: int) -> RampFigures:
+    """Returns the figures of one direction, from the intervals (ticks) of its states, the slowest first."""
     speed = pulse_mm * tick_hz / MM_PER_M  # m/s at an interval of one tick
     runs = [(interval, len(list(run))) for interval, run in groupby(intervals)]
     gains = [

@@ -87,7 +87,7 @@ def _bytes_read(file: TextIO, advance: Callable[[int, int], None]) -> Callable[[
 
 
 def _nothing() -> None:
-    """Tells nobody."""
+    """Ignores how much of a file is read."""
 
 
 def _bad_ending(line: str) -> Message:

@@ -11,11 +11,10 @@ import urwid
 
 from drillctl.language.words import _
 from drillctl.ui.widgets import dialogs
-from drillctl.ui.widgets.dialogs import ChoiceDialog, Field, FieldsDialog, offer
+from drillctl.ui.widgets.dialogs import Accept, ChoiceDialog, Field, FieldsDialog, offer
 from drillctl.ui.widgets.finder import COLUMNS, ROWS, Finder
 from drillctl.ui.widgets.menus import PullDown
 from drillctl.ui.widgets.texts import Size, Text
-from drillctl.viewmodel.console import Problems
 
 LEAST = (50, 15)  # columns and rows below which the screen can't be used
 
@@ -47,7 +46,7 @@ class TooSmall(urwid.WidgetWrap[urwid.Widget]):
         """Does nothing: what a key would do can't be seen."""
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """Does nothing."""
+        """Takes a click away from what can't be seen; nothing is done."""
         return True
 
 
@@ -163,9 +162,10 @@ class Boxes:
         """Opens a dialog with a line to type in."""
         self.layers.push_dialog(dialogs.entry(title, prompt, text, accept, self.layers.pop))
 
-    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
-        """Opens a dialog with several lines to type in."""
-        self.layers.push_dialog(FieldsDialog(title, fields, accept, self.layers.pop))
+    def ask_fields(self, title: str, fields: Sequence[Field], accept: Accept) -> None:
+        """Opens a dialog with several lines to type in; whatever lies over it when it closes stays."""
+        form = FieldsDialog(title, fields, accept, lambda: self.layers.drop(form))
+        self.layers.push_dialog(form)
 
     def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
         """Opens a dialog with lines of which one is chosen."""

@@ -149,10 +149,13 @@ class Console(Protocol):
     def unfinished(self) -> Sequence[UnfinishedJob]:
         """Jobs that were interrupted, the newest first. Reads their journals from the disk."""
 
-    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
-        """Initialises, goes to the same base and drills what is left. Refused where anything is not the same;
-        ``elsewhere``: but for port, pace and plant.
+    def take_up(self, journal: str, elsewhere: bool, watch: Watch) -> Problems:
+        """Makes an interrupted job again and plans what is left of it; ``watch`` as for ``load``. Refused where
+        anything is not the same; ``elsewhere``: but for port, pace and plant.
         """
+
+    def go_on(self) -> Problems:
+        """Drills what was taken up: initialises and goes to the same base first."""
 
     def give_up(self, journal: str) -> Problems:
         """Gives an unfinished job up for good: its journal is removed."""

@@ -16,6 +16,7 @@ from drillctl.jobs.journal import read_journal
 from drillctl.jobs.session import default_journal
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
+from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, Site
 from tests.support.journalled import BOARD, forged, lines_of
 from tests.support.operator import settle, until
@@ -39,6 +40,11 @@ def console() -> Iterator[MachineConsole]:
 def board(tmp_path: Path) -> Path:
     (tmp_path / "job.drl").write_text(BOARD)
     return tmp_path / "job.drl"
+
+
+def gone_on(console: MachineConsole, journal: str, elsewhere: bool = False) -> Problems:
+    """As the screen does it."""
+    return console.take_up(journal, elsewhere) or console.go_on()
 
 
 def cut_off(console: MachineConsole, board: Path, holes: int, asked: Asked | None = None) -> None:
@@ -73,7 +79,7 @@ def test_an_interrupted_job_is_offered_and_exactly_its_rest_is_drilled(console: 
     (job,) = console.unfinished()
     assert 1 <= job.holes_done < 4 and (job.file, job.machine, job.holes_total) == (str(board), "pcb-drill", 4)
     assert console.start(dry=False)[0].endswith("or delete the file to begin anew")
-    assert console.go_on(job.journal) == ()
+    assert gone_on(console, job.journal) == ()
     settle(console)
     told = console.progress()
     assert told is not None and (told.holes_done, told.holes_total) == (4, 4)
@@ -93,7 +99,7 @@ def test_another_program_goes_on_where_one_was_killed(console: MachineConsole, b
     try:
         (job,) = other.unfinished()
         assert job.holes_total == 3 and len(job.again) <= 1
-        assert other.go_on(job.journal) == ()
+        assert gone_on(other, job.journal) == ()
         settle(other)
         assert other.view().fault is None and other.unfinished() == []
     finally:
@@ -115,7 +121,7 @@ def test_the_screen_goes_on_with_what_the_command_line_began(console: MachineCon
     journal.write_text("".join(journal.read_text().splitlines(keepends=True)[:4]))
     (job,) = console.unfinished()
     assert (job.holes_done, job.again) == (1, (2,))
-    assert console.go_on(job.journal) == ()
+    assert gone_on(console, job.journal) == ()
     settle(console)
     assert read_journal(journal).done == {1, 2, 3, 4}
 
@@ -124,7 +130,7 @@ def test_a_job_is_not_gone_on_with_where_something_is_another(console: MachineCo
     cut_off(console, board, 1)
     (job,) = console.unfinished()
     board.write_text(BOARD.replace("X3.0Y4.0", "X3.0Y4.1"))
-    assert "has changed since the job was begun" in console.go_on(job.journal)[0]
+    assert "has changed since the job was begun" in gone_on(console, job.journal)[0]
     board.write_text(BOARD)
     head, *lines = lines_of(Path(job.journal))
     for name, value, reason in (
@@ -134,7 +140,7 @@ def test_a_job_is_not_gone_on_with_where_something_is_another(console: MachineCo
         ("options", {**head["options"], "peck": "deep"}, "written by another version"),
     ):
         Path(job.journal).write_bytes(forged([{**head, name: value}, *lines]))
-        assert reason in console.go_on(job.journal)[0] and not console.at_work
+        assert reason in gone_on(console, job.journal)[0] and not console.at_work
 
 
 def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(console: MachineConsole, board: Path) -> None:
@@ -148,9 +154,9 @@ def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(console:
     before = Path(job.journal).read_bytes()
     (job,) = console.unfinished()
     assert (job.ran, job.here) == (real, Site("simulated", "free", "ideal"))
-    assert "the job ran with port firmata:/dev/ttyACM0, pace real; what port" in console.go_on(job.journal)[0]
+    assert "the job ran with port firmata:/dev/ttyACM0, pace real; what port" in gone_on(console, job.journal)[0]
     assert not console.at_work and Path(job.journal).read_bytes() == before
-    assert console.go_on(job.journal, elsewhere=True) == ()
+    assert gone_on(console, job.journal, elsewhere=True) == ()
     settle(console)
     assert console.unfinished() == [] and read_journal(Path(job.journal)).site == job.here
 
@@ -205,7 +211,7 @@ def test_what_was_cut_off_goes_on_from_its_own_base(console: MachineConsole, boa
     cut_off(console, board, 1)
     console.initialise()
     settle(console)
-    assert console.go_on(console.unfinished()[0].journal) == ()
+    assert gone_on(console, console.unfinished()[0].journal) == ()
     settle(console)
     assert console.view().axes[1].position_steps == 240 and console.view().axes[1].position_mm == 0
 

@@ -99,8 +99,11 @@ class FakeConsole:
     def unfinished(self) -> Sequence[UnfinishedJob]:
         return self.unfinished_jobs
 
-    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
-        return self._keep("go_on", journal, elsewhere)
+    def take_up(self, journal: str, elsewhere: bool, watch: Watch) -> Problems:
+        return self._keep("take_up", journal, elsewhere)
+
+    def go_on(self) -> Problems:
+        return self._keep("go_on")
 
     def give_up(self, journal: str) -> Problems:
         self.unfinished_jobs = []

@@ -188,7 +188,8 @@ def test_a_hole_that_may_have_been_begun_is_named() -> None:
 def test_an_interrupted_job_goes_on_or_is_given_up() -> None:
     program = Program(FakeConsole(unfinished_jobs=[CUT]))
     program.press("f", "u", "right", "enter")
-    assert program.console.asked == [("go_on", CUT.journal, False)] and " Drilling " in program.text().splitlines()[1]
+    assert program.console.asked == [("take_up", CUT.journal, False), ("go_on",)]
+    assert " Drilling " in program.text().splitlines()[1]
     program.press("f", "u", "right", "right", "enter")
     assert program.console.asked[-1] == ("give_up", CUT.journal)
     program.press("u")
@@ -215,7 +216,7 @@ def test_a_job_that_ran_elsewhere_is_asked_about(ran: Site, here: Site, told: st
     program.press("enter")
     assert not program.console.asked
     program.press("u", "right", "enter", "right", "enter")
-    assert program.console.asked == [("go_on", CUT.journal, True)]
+    assert program.console.asked == [("take_up", CUT.journal, True), ("go_on",)]
 
 
 def test_several_interrupted_jobs_are_listed_and_a_refusal_is_told() -> None:
@@ -226,7 +227,7 @@ def test_several_interrupted_jobs_are_listed_and_a_refusal_is_told() -> None:
     assert "1 four.drl  3 of 26 holes are drilled" in program.text()
     console.answer = ("two.drl has changed since the job was begun",)
     program.press("2", "right", "enter")
-    assert console.asked == [("go_on", "/j2", False)] and "has changed since" in program.text()
+    assert console.asked == [("take_up", "/j2", False)] and "has changed since" in program.text()
 
 
 def test_start_offers_what_was_cut_off_of_the_same_board_and_begins_anew_on_request() -> None:

@@ -77,7 +77,7 @@ def test_whatever_the_console_says() -> None:
         lambda shell: shell.message(NASTY, [NASTY] * 40),
         lambda shell: shell.ask(NASTY, lambda: None),
         lambda shell: shell.ask_text(NASTY, NASTY, NASTY, lambda text: None),
-        lambda shell: shell.ask_fields(NASTY, [Field(NASTY, NASTY)], lambda texts: (NASTY,)),
+        lambda shell: shell.ask_fields(NASTY, [Field(NASTY, NASTY)], lambda texts, answered: answered((NASTY,))),
         lambda shell: shell.choose(NASTY, [NASTY, NASTY], lambda index: None),
         lambda shell: shell.offer(NASTY, [NASTY], [(NASTY, lambda: None)]),
     ],

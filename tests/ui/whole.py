@@ -17,7 +17,7 @@ from drillctl.generation.waits import unwatched
 from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
-from drillctl.ui import app
+from drillctl.ui import app, background
 from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.jobs import Asked
 from tests.ui.fake_console import Paper
@@ -37,6 +37,7 @@ def at_home(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setenv(name, str(home))
     monkeypatch.chdir(home)
     monkeypatch.setattr(app, "TURNING_S", 0.0)
+    monkeypatch.setattr(background, "SHOWN_AFTER_S", 60.0)  # work is waited for, however busy the computer is
     monkeypatch.setattr(handbench, "MachineSignals", WatchedHands)
     (home / BLINKER.name).write_bytes(BLINKER.read_bytes())
 
@@ -66,8 +67,8 @@ class Watched(MachineConsole):
     def start(self, dry: bool) -> Problems:
         return self.noted("dry" if dry else "start", super().start(dry))
 
-    def go_on(self, journal: str, elsewhere: bool = False) -> Problems:
-        return self.noted("go_on", super().go_on(journal, elsewhere))
+    def go_on(self) -> Problems:
+        return self.noted("go_on", super().go_on())
 
     def tool_changed(self) -> Problems:
         return self.noted("tool_changed", super().tool_changed())

@@ -7,10 +7,10 @@ the paper has sixteen gears; their speeds are taken to be the preferred numbers 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from drillctl.machine import AxisTable, Machine
 from drillctl.machine.model import MM_PER_INCH
+from drillctl.machine.ramp_figures import side_figures
 
 GEARS_MM_MIN = (160, 200, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600, 2000, 2500, 3150, 4000, 5000)
 LETTERS = "0123456789ABCDEF"
@@ -54,19 +54,7 @@ def gear_rows(axis: AxisTable, machine: Machine) -> Iterator[GearRow]:
 
 def _ramp(axis: AxisTable, tick_hz: int, floor_ticks: int) -> tuple[float, float]:
     """Returns length (mm) and greatest acceleration (m/s2) of the ramp up to a floor."""
-    column_mm = MM_PER_INCH / axis.columns_per_inch
-    held = [max(axis.ramp.interval[state], floor_ticks) for state in range(axis.ramp.top + 1)]
-    up = held[: held.index(min(held)) + 1]
-    speeds = [column_mm * tick_hz / interval / MM_PER_M for interval in up]
-    gained = zip(pairwise(speeds), _lasted(up, axis.columns_per_step, tick_hz), strict=False)
-    peak = max(((after - before) / seconds for (before, after), seconds in gained), default=0.0)
-    return (len(up) - 1) * axis.columns_per_step * column_mm, peak
-
-
-def _lasted(up: list[int], columns_per_step: int, tick_hz: int) -> list[float]:
-    """Returns for each state how long its interval had lasted by its end (s): a speed may last several states."""
-    seconds: list[float] = []
-    for index, interval in enumerate(up):
-        before = seconds[-1] if index and up[index - 1] == interval else 0.0
-        seconds.append(before + interval * columns_per_step / tick_hz)
-    return seconds
+    intervals = [max(axis.ramp.interval[state], floor_ticks) for state in range(axis.ramp.top + 1)]
+    up = intervals[: intervals.index(min(intervals)) + 1]
+    figures = side_figures(up, tick_hz, MM_PER_INCH / axis.columns_per_inch, axis.columns_per_step)
+    return figures.length_mm, figures.greatest_m_s2

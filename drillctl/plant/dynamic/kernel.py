@@ -70,6 +70,7 @@ def compiled_law() -> ModuleType | None:
         return None
     found, loader = import_module(COMPILED), law.__spec__.loader
     folder = os.path.dirname(law.__file__)
+    # Every loader of source files has get_data, pytest's too; its declared type, the least of a loader, has not.
     here = digest(lambda name: loader.get_data(os.path.join(folder, name)))  # type: ignore[union-attr]
     return found if here == found.DIGEST else None
 

@@ -39,7 +39,7 @@ class BoardMap:
 
     @property
     def dots_per_mm(self) -> float:
-        """The scale."""
+        """How many dots of the picture a millimetre takes, at the zoom in force."""
         down, across = CELL_DOTS
         room = np.maximum(np.array([self.columns * across, self.rows * down]) - 1, 1)
         return float((room / (self.high_mm - self.low_mm)).min()) * self.zoom

@@ -4,19 +4,21 @@ Rule: nothing is placed before F2, and not at all by holes that contradict each 
 What is shown counts from the working base, as the operator does; what is kept counts from machine zero.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from textwrap import wrap
 
 import urwid
 
+from drillctl.language import Message
 from drillctl.language.figures import pair_mm
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.measuring import LEAST_HOLES, Measuring, PlaceMm
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets.dialogs import Answered
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Line, Size, boxed
-from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView, Problems
+from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView
 from drillctl.viewmodel.jobs import Asked, MeasuredHole
 
 WIDTH = 78
@@ -24,7 +26,9 @@ NONE_TO_SPARE = 3  # holes that fix shift, turn, scale and shear just so: their 
 
 
 class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
-    """``accept`` places the board by the holes measured, by none of them: as it was asked before."""
+    """``accept`` places the board by the holes measured, by none of them: as it was asked before. It is called with the
+    holes, and with what is to be called with the problems.
+    """
 
     title = N_("Measured holes")
     keys = (
@@ -41,7 +45,7 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(
         self, console: Console, shell: Shell, board: BoardView, options: Asked,
-        accept: Callable[[tuple[MeasuredHole, ...]], Problems],
+        accept: Callable[[tuple[MeasuredHole, ...], Answered], object],
     ):  # fmt: skip
         JogControls.__init__(self, console)
         self._shell, self._accept = shell, accept
@@ -112,7 +116,12 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """Places the board by the holes found, and goes back to the Files screen."""
         if self.measuring.measured and not self.measuring.sound:
             self._say("warning", _("these holes can't place the board: see above"))
-        elif problems := self._accept(self.measuring.measured):
+        else:
+            self._accept(self.measuring.measured, self._placed)
+
+    def _placed(self, problems: Sequence[Message]) -> None:
+        """Leaves the screen if the board could be placed, else says why not."""
+        if problems:
             self._shell.message(_("Refused"), [translated(problem) for problem in problems])
         else:
             self._shell.back()

@@ -5,7 +5,7 @@ shown of a board comes from its BoardView alone.
 """
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.typed import FORMATS, accepted, length_mm, panel_of, tool_numbers
 from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.widgets.dialogs import Field
+from drillctl.ui.widgets.dialogs import Answered, Field
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Icon, Size, Text
 from drillctl.viewmodel.console import Console, Problems, Watch
@@ -105,7 +105,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         """Loads an example as if it were chosen in the list, then shows the machine with it."""
         self._browser.stand_on(file)
 
-        def opened(problems: Problems) -> None:
+        def opened(problems: Sequence[Message]) -> None:
             self._tell(problems)
             if not problems:
                 self._shell.show("drilling")
@@ -126,7 +126,8 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         """The next value of a choice; the first one after a value that can't be chosen."""
         values = [value for value, _word in BY_FIELD[field].values]
         now = getattr(self._options, field)
-        self._change(**{field: values[(values.index(now) + 1) % len(values)] if now in values else values[0]})
+        following = values[(values.index(now) + 1) % len(values)] if now in values else values[0]
+        self._change(self._tell, **{field: following})
 
     def choose_format(self) -> None:
         """Offers the formats by name, and to type one."""
@@ -147,7 +148,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
 
     def set_format(self, name: str) -> None:
         """Reads the file by this format; recognises the format for an empty text."""
-        self._change(format=name.strip() or None)
+        self._change(self._tell, format=name.strip() or None)
 
     def offset(self) -> None:
         """Asks for the offset from the base."""
@@ -163,7 +164,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             Field(_("From board to board in X, mm:"), f"{now.pitch_x_mm:g}"),
             Field(_("From board to board in Y, mm:"), f"{now.pitch_y_mm:g}"),
         )
-        self._shell.ask_fields(_("Panel"), fields, accepted(panel_of, lambda panel: self._with(panel=panel)))
+        self._shell.ask_fields(_("Panel"), fields, accepted(panel_of, self._repeat))
 
     def how_to_drill(self) -> None:
         """Asks for peck depth, spot depth, tools to leave out and the file of the drills at hand."""
@@ -180,7 +181,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             depths = {"peck_mm": length_mm(texts[0]), "spot_mm": length_mm(texts[1])}
             return {**depths, "skip_tools": tool_numbers(texts[2]), "drills": drills}
 
-        self._shell.ask_fields(_("How to drill"), fields, accepted(read, lambda changes: self._with(**changes)))
+        self._shell.ask_fields(_("How to drill"), fields, accepted(read, self._drill_so))
 
     def align(self) -> None:
         """Opens the screen that places the loaded board by holes measured on it."""
@@ -192,19 +193,22 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         else:
             self._shell.open(AlignmentScreen(self._console, self._shell, board, self._options, self._place_by))
 
-    def _place_by(self, measured: tuple[MeasuredHole, ...]) -> Problems:
+    def _repeat(self, panel: PanelOf | None, answered: Answered) -> None:
+        self._change(answered, panel=panel)
+
+    def _drill_so(self, changes: dict[str, Any], answered: Answered) -> None:
+        self._change(answered, **changes)
+
+    def _place_by(self, measured: tuple[MeasuredHole, ...], answered: Answered) -> None:
         """The holes say where the board lies; only whether it lies face down was asked beside them."""
-        if not measured:
-            return self._with(measured=())
         usual = Asked()
-        return self._with(
-            measured=measured, origin=usual.origin, rotate_deg=usual.rotate_deg, offset_mm=usual.offset_mm
-        )
+        placed = {"origin": usual.origin, "rotate_deg": usual.rotate_deg, "offset_mm": usual.offset_mm}
+        self._change(answered, measured=measured, **(placed if measured else {}))
 
     def _open_again(self, job: RecentJob) -> None:
         file = Path(job.file)
 
-        def opened(problems: Problems) -> None:
+        def opened(problems: Sequence[Message]) -> None:
             self._tell(problems)
             if not problems:
                 self._browser.stand_on(file)
@@ -217,21 +221,17 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             wanted = _("two numbers are wanted, such as 12.7 25.4, not {text!r}").format(text=text)
             self._shell.message(_("Offset"), [wanted])
         else:
-            self._change(offset_mm=pair)
+            self._change(self._tell, offset_mm=pair)
 
-    def _change(self, **changed: Any) -> None:
-        self._read(self._loaded, replace(self._options, **changed), self._tell)
+    def _change(self, answered: Answered, **changed: Any) -> None:
+        """Reads the loaded file with other options; ``answered`` is called with what is wrong with them."""
+        self._read(self._loaded, replace(self._options, **changed), answered)
 
-    def _with(self, **changed: Any) -> Problems:
-        """The same while a form waits for what is wrong with it."""
-        options = replace(self._options, **changed)
-        return self._taken(self._loaded, options, self._load(self._loaded, options, _unwatched))
-
-    def _tell(self, problems: Problems) -> None:
+    def _tell(self, problems: Sequence[Message]) -> None:
         if problems:
             self._shell.message(_("Refused"), [translated(problem) for problem in problems])
 
-    def _read(self, file: Path, options: Asked, then: Callable[[Problems], None]) -> None:
+    def _read(self, file: Path, options: Asked, then: Answered) -> None:
         """Reads the file with these options beside the screen; without a file yet they are kept for the first one."""
 
         self._shell.work(
@@ -255,10 +255,6 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         lines = board_lines(board) if board else preview(path)
         self._rows[:] = [_row(line) for line in [*option_lines(self._options), "", *lines]]
         self._rows.set_focus(0)
-
-
-def _unwatched(what: Message) -> Callable[[int, int], None]:
-    return lambda done, total: None
 
 
 def _typed_mm(value_mm: float | None) -> str:

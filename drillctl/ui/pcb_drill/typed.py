@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeVar
 
 from drillctl.language import Message, message_of
 from drillctl.language.words import N_
-from drillctl.viewmodel.console import Problems
+from drillctl.ui.widgets.dialogs import Accept, Answered
 from drillctl.viewmodel.jobs import PanelOf
 
 
@@ -42,17 +42,16 @@ BY_OPTION = {entry.option: entry for entry in FORMATS}
 Read = TypeVar("Read")
 
 
-def accepted(
-    read: Callable[[Sequence[str]], Read], then: Callable[[Read], Problems]
-) -> Callable[[list[str]], Problems]:
-    """What a form calls with its texts: what can't be read is its problem, else what ``then`` finds."""
+def accepted(read: Callable[[Sequence[str]], Read], then: Callable[[Read, Answered], object]) -> Accept:
+    """What a form calls with its texts: what can't be read is its problem, else what ``then`` answers."""
 
-    def accept(texts: list[str]) -> Problems:
+    def accept(texts: list[str], answered: Answered) -> None:
         try:
             made = read(texts)
         except ValueError as error:
-            return (message_of(error),)
-        return then(made)
+            answered((message_of(error),))
+            return
+        then(made, answered)
 
     return accept
 

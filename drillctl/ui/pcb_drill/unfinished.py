@@ -9,7 +9,7 @@ from pathlib import Path
 
 from drillctl.language.words import _, translated
 from drillctl.ui.screens.shell import Shell
-from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.console import Console, Problems
 from drillctl.viewmodel.jobs import Site, UnfinishedJob
 
 
@@ -28,7 +28,10 @@ def offer_job(job: UnfinishedJob, console: Console, shell: Shell, anew: Callable
     """Offers to resume a job or to give it up; with ``anew``, giving it up calls this to begin again."""
 
     def go_on(elsewhere: bool) -> None:
-        if problems := console.go_on(job.journal, elsewhere):
+        shell.work(lambda watch: console.take_up(job.journal, elsewhere, watch), taken_up)
+
+    def taken_up(problems: Problems) -> None:
+        if problems := problems or console.go_on():
             shell.message(_("Refused"), [translated(problem) for problem in problems])
         else:
             shell.show("drilling")

@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import urwid
 
 from drillctl.language.words import _
-from drillctl.ui.widgets.dialogs import Field
+from drillctl.ui.widgets.dialogs import Accept, Field
 from drillctl.ui.widgets.menus import Item
 from drillctl.viewmodel.console import Console, MachineView, Problems, Watch
 from drillctl.viewmodel.signals import ManualControl
@@ -39,7 +39,7 @@ class Shell(Protocol):
         called with its problems where it was not given up.
         """
 
-    def ask_fields(self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Problems]) -> None:
+    def ask_fields(self, title: str, fields: Sequence[Field], accept: Accept) -> None:
         """Opens a dialog of several lines to type in; it stays, and says why, while ``accept`` finds problems."""
 
     def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:

@@ -160,12 +160,14 @@ class Field(NamedTuple):
     text: str
 
 
-class FieldsDialog(Dialog):
-    """``accept`` gets what was typed, in the order of the fields, and answers with what is wrong with it."""
+Answered = Callable[[Sequence[Message]], object]  # is called with what is wrong; empty for nothing
+Accept = Callable[[list[str], Answered], object]
 
-    def __init__(
-        self, title: str, fields: Sequence[Field], accept: Callable[[list[str]], Sequence[Message]], closing: Act
-    ):
+
+class FieldsDialog(Dialog):
+    """``accept`` gets what was typed, in the order of the fields, and answers, at once or later, with what is wrong."""
+
+    def __init__(self, title: str, fields: Sequence[Field], accept: Accept, closing: Act):
         widest = max(len(field.label) for field in fields)
         self._edits = [Edit(("body", f"{field.label:{widest}} "), field.text) for field in fields]
         self._accept = accept
@@ -178,8 +180,12 @@ class FieldsDialog(Dialog):
         return super().keypress(size, "down" if key == "tab" else key)
 
     def submit(self) -> None:
-        """Hands the texts to ``accept``; closes if there are no problems, else shows them."""
-        if problems := self._accept([edit.edit_text for edit in self._edits]):
+        """Hands the texts to ``accept``."""
+        self._accept([edit.edit_text for edit in self._edits], self._answered)
+
+    def _answered(self, problems: Sequence[Message]) -> None:
+        """Closes if there are no problems, else shows them."""
+        if problems:
             self._problems.set_text(("danger", "\n".join(map(translated, problems[:PROBLEM_ROWS]))))
         else:
             self._closing()

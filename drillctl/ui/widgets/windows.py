@@ -27,7 +27,7 @@ class Window(urwid.WidgetDecoration[urwid.Widget]):
         return self.inside.selectable()
 
     def set_title(self, title: str) -> None:
-        """Shows another title."""
+        """Draws this title in the upper border in place of the one before."""
         if title != self._title:
             self._title = title
             self._invalidate()
