@@ -149,7 +149,9 @@ class _FaultAction(argparse.Action):
 
 
 def _seed(text: str) -> int:
-    return whole_number(text, 0, 2**31 - 1)
+    from drillctl.plant.choice import GREATEST_SEED
+
+    return whole_number(text, 0, GREATEST_SEED)
 
 
 def port(arguments: argparse.Namespace, machine: "Machine") -> str:

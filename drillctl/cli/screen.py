@@ -112,6 +112,7 @@ class EditorScreens:
             "configuration": self._tables("machines"),
             "queue_editor": self._queue_editor,
             "port": self._port,
+            "plant": self._plant,
             "signals": self._signals,
             "scope": self._scope,
         }
@@ -139,6 +140,12 @@ class EditorScreens:
         from drillctl.ui.screens.port import PortScreen
 
         return PortScreen(console, shell, MachinePort(self._console))
+
+    def _plant(self, console: "Console", shell: "Shell") -> "urwid.Widget":
+        from drillctl.console.plant import MachinePlant
+        from drillctl.ui.screens.plant import PlantScreen
+
+        return PlantScreen(console, shell, MachinePlant(self._console))
 
     def _signals(self, console: "Console", shell: "Shell") -> "urwid.Widget":
         from drillctl.console.signals import MachineSignals

@@ -18,7 +18,7 @@ from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operator_state import WorkingBase
 from drillctl.console.running_job import RunningJob, took_a_base
 from drillctl.console.scope import RunRecording
-from drillctl.console.views import machine_list, machine_view
+from drillctl.console.views import machine_list, machine_view, plant_in_words
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
 from drillctl.generation.waits import unwatched
@@ -98,7 +98,8 @@ class MachineConsole:
         waits = tool_wanted is not None or self.link.gate.paused or view.condition != "ready"
         return replace(
             view, tool_wanted=tool_wanted, real_wanted=self.used.real_wanted, notices=notices, at_work=self.at_work,
-            local=bool(self.used.local), condition=self._job.condition_forecast(view.condition),
+            local=bool(self.used.local), plant=plant_in_words(self.used.running.plant),
+            condition=self._job.condition_forecast(view.condition),
             moving=view.moving or (self.at_work and not waits),
         )  # fmt: skip
 

@@ -14,6 +14,7 @@ from drillctl.language import Message
 from drillctl.machine import Library, Machine, TableError
 from drillctl.machine.bundle import bundle, unbundle
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
+from drillctl.plant import PlantChoice
 from drillctl.ports import PortError
 from drillctl.ticker.edited_tables import differs_in_tables_alone
 from drillctl.ticker.launch import (
@@ -86,6 +87,25 @@ class MachineInUse:
     def go_simulated(self) -> Problems:
         """Changes to a simulated card; the position is unknown afterwards."""
         return self._change(self.machine, simulated(self._settings))
+
+    def choose_plant(self, plant: PlantChoice) -> Problems:
+        """Starts the simulated machine anew on another plant, which the machines chosen later have too."""
+        if self.port.real:
+            return (
+                Message(
+                    "a real machine hangs on {port} and has no plant; go back to the simulated one first (Port)",
+                    port=self.running.port,
+                ),
+            )
+        settings = replace(simulated(self._settings), plant=plant)
+        try:
+            plant_of(self.machine, settings)
+        except PortError as error:
+            return error.messages
+        problems = self._change(self.machine, replace(self.running, plant=plant))
+        if not problems:
+            self._settings = settings
+        return problems
 
     def set_tick_hz(self, hz: int) -> Problems:
         """Asks for another tick rate (PACE); it is in force from the tick that serves it."""

@@ -11,6 +11,8 @@ from drillctl.generation.job import Job, names_of
 from drillctl.kmd import Condition, to_text
 from drillctl.machine import AxisTable, Library, Machine, TableError
 from drillctl.machine.settings import Setting
+from drillctl.plant import PlantChoice
+from drillctl.plant.choice import IDEAL
 from drillctl.ticker.link import Link
 from drillctl.viewmodel import fault_report
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView, ToolView
@@ -77,6 +79,11 @@ def machine_view(
         paused=link.gate.paused,
     )
     return _without_ticker(view) if link.lost() else view
+
+
+def plant_in_words(plant: PlantChoice) -> str:
+    """``dynamic blunt=20``; empty for the ideal plant, and for a real machine."""
+    return "" if plant.kind == IDEAL else str(plant)
 
 
 def _without_ticker(view: MachineView) -> MachineView:

@@ -13,6 +13,7 @@ from drillctl.plant.faults import PlantRefused
 from drillctl.plant.ideal import IdealPlant
 
 IDEAL, DYNAMIC, NONE = "ideal", "dynamic", "none"
+GREATEST_SEED = 2**31 - 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +33,9 @@ class PlantChoice:
         if kind not in (IDEAL, DYNAMIC):
             raise PlantRefused(Message("plant {described!r} is none that can be built", described=described[:60]))
         return cls(kind, tuple(faults), int(seed[:20]) if seed.isdecimal() else 0)
+
+    def __str__(self) -> str:
+        return " ".join((self.kind, *self.faults))
 
     def build(self, machine: Machine) -> Plant:
         """Returns the plant. Raises PlantRefused where the machine can't have it."""

@@ -60,15 +60,17 @@ class Faults:
         for fault in [parse_fault(text) for text in texts]:
             kind = FAULT_KINDS[fault.name].part
             if fault.part not in parts[kind]:
-                has = ", ".join(parts[kind])
+                has, meant = ", ".join(parts[kind]), nearest(fault.part, parts[kind])
+                hint = Message("; did you mean {usage}?", usage=f"{fault.name}.{meant}=N") if meant else ""
                 raise PlantRefused(
                     Message(
-                        "fault {name}: {machine} has no {kind} {part!r}; it has {has}",
+                        "fault {name}: {machine} has no {kind} {part!r}; it has {has}{hint}",
                         name=fault.name,
                         machine=machine.name,
                         kind=kind,
                         part=fault.part,
                         has=has,
+                        hint=hint,
                     )
                 )
             if (fault.name, fault.part) in self._values:
@@ -87,17 +89,17 @@ def parse_fault(text: str) -> Fault:
     if found is None or kind is None:
         word = re.split("[.=]", text, maxsplit=1)[0]
         meant = nearest(word, FAULT_KINDS)
-        hint = Message("; did you mean {usage}?", usage=_usage(meant)) if meant else ""
+        hint = _meant(meant) if meant else ""
         raise PlantRefused(
             Message(
                 "fault {text!r}: not known; there are {names}{hint}",
                 text=text[:60],
-                names=", ".join(map(_usage, FAULT_KINDS)),
+                names=", ".join(map(usage, FAULT_KINDS)),
                 hint=hint,
             )
         )
     if bool(found[2]) != bool(kind.part):
-        raise PlantRefused(Message("fault {text!r}: it is told as {usage}", text=text[:60], usage=_usage(found[1])))
+        raise PlantRefused(Message("fault {text!r}: it is told as {usage}", text=text[:60], usage=usage(found[1])))
     if not kind.least <= float(found[3]) <= kind.most:
         raise PlantRefused(
             Message(
@@ -113,9 +115,17 @@ def parse_fault(text: str) -> Fault:
 
 def fault_lines() -> list[str]:
     """Returns a line for each kind of fault: how it is written and what it means."""
-    return [f"{_usage(name):20} {kind.meaning}" for name, kind in FAULT_KINDS.items()]
+    return [f"{usage(name):20} {kind.meaning}" for name, kind in FAULT_KINDS.items()]
 
 
-def _usage(name: str) -> str:
+def _meant(name: str) -> Message:
+    kind = FAULT_KINDS[name]
+    return Message(
+        "; did you mean {usage}, N from {least:g} to {most:g}?", usage=usage(name), least=kind.least, most=kind.most
+    )
+
+
+def usage(name: str) -> str:
+    """Returns how a kind of fault is written: ``blunt=N``, ``loose.AXIS=N``."""
     part = FAULT_KINDS[name].part
     return f"{name}.{part.upper()}=N" if part else f"{name}=N"

@@ -70,8 +70,8 @@ def card_port(machine: Machine) -> str:
 
 
 def on_port(running: RunSettings, port: str) -> RunSettings:
-    """The same settings on another, real port."""
-    return replace(running, port=port, pace=REAL)
+    """The same settings on another, real port, which has no plant behind it."""
+    return replace(running, port=port, pace=REAL, plant=IDEAL_PLANT)
 
 
 def simulated(running: RunSettings) -> RunSettings:

@@ -152,7 +152,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         moving = _("moving") if view.moving else _("at rest")
         position = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
         tables = f" {_('(local)')}" if view.local else ""
-        place = f" {view.machine}{tables} | {view.port} | "
+        place = f" {view.machine}{tables} | {_plant_or_port(view)} | "
         shown = (attribute, f" {_(word)} ")
         title = ("title", f" {_(getattr(self.screen, 'title', ''))} ")
         state: Line = [place, shown, f" {moving} | ", position]
@@ -160,6 +160,14 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         if (state, notice, [title]) != (self._state, self._notice, self._title):
             self._title, self._state, self._notice = [title], state, notice
             self._invalidate()
+
+
+def _plant_or_port(view: MachineView) -> str:
+    """The port; in its place the dynamic plant with the number of its faults, which the machine's window names."""
+    if not view.plant:
+        return view.port
+    count = len(view.plant.split()) - 1
+    return _("dynamic, faults: {count}").format(count=count) if count else _("dynamic")
 
 
 def screen_keys(screen: urwid.Widget) -> Sequence[Key]:

@@ -5,6 +5,7 @@
     records.py     Estimate before a job, Progress while it runs, Outcome when it is over
     tables.py      tables and queues as their editors see them
     signals.py     signals, outputs by hand, single ticks; the port and a test of it
+    plant.py       plant, faults and seed of the simulated machine
     scope.py       runs as the scope sees them
     reports.py     how punctual ticks are here; pictures of numbers
     fault_texts.py cause and remedy of every fault

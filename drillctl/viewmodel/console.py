@@ -74,6 +74,7 @@ class MachineView:
     cut_off: bool = False  # that has happened, and no output was set since
     pace: float = 0.0  # machine time over wall time, of a simulated machine by the simulated clock; 0: of another
     following: tuple[str, ...] = ()  # the commands of the program that follow ``command``, at most three
+    plant: str = ""  # the dynamic plant with its faults, ``dynamic blunt=20``; empty for another
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 

@@ -25,6 +25,7 @@ from tests.ui.fake_console import Paper
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 SCREENS = (
     "drilling", "files", "phase_editor", "ramp_editor", "queue_editor", "signals", "scope", "configuration", "port",
+    "plant",
 )  # fmt: skip
 PARTS = re.compile(r"/drillctl/(ui|console)/")
 Event = str | tuple[str, int, int, int]
@@ -55,8 +56,8 @@ def actions() -> set[str]:
 class Watched(MachineConsole):
     """Notes whatever sets the machine going, and by which actions; reads one board only, whichever is chosen."""
 
-    def __init__(self) -> None:
-        library = Library((shipped_tables(),))
+    def __init__(self, library: Library | None = None) -> None:
+        library = library or Library((shipped_tables(),))
         super().__init__(library, library.machine("pcb-drill"), RunSettings("simulated", "free"), tools="ask")
         self.moved: list[tuple[str, set[str]]] = []
         self.stops = 0
@@ -108,13 +109,14 @@ class WatchedHands(handbench.MachineSignals):
 
 
 class Whole:
-    """The program at a size, in the language that is spoken. To be closed."""
+    """The program at a size, in the language that is spoken, on the shipped tables or a library. To be closed."""
 
-    def __init__(self, size: tuple[int, int] = (80, 24)):
-        self.console = Watched()
+    def __init__(self, size: tuple[int, int] = (80, 24), library: Library | None = None):
+        library = library or Library((shipped_tables(),))
+        self.console = Watched(library)
         self.paper = Paper()
         self.paper.size = size
-        makers = EditorScreens(Library((shipped_tables(),)), self.console, plain=False).makers()
+        makers = EditorScreens(library, self.console, plain=False).makers()
         self.app = app.App(self.console, makers=makers, terminal=self.paper)
 
     def press(self, *events: Event) -> None:

@@ -13,9 +13,9 @@ import msgspec
 from drillctl.generation.job_options import BAD_VALUES, FilePath
 from drillctl.jobs.journal.chain import NO_SEAL
 from drillctl.language import Message, Refusal, message_of
+from drillctl.plant.choice import GREATEST_SEED
 from drillctl.viewmodel.jobs import Site
 
-GREATEST_SEED = 2**31 - 1
 DONE = "done"
 
 

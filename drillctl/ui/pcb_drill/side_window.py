@@ -178,6 +178,8 @@ def tick_lines(view: MachineView) -> list[Line]:
         late = _("{hz} Hz, pace {pace}").format(hz=view.tick_hz, pace=f"{view.pace:.2f}")
     worst = f" ({view.late_worst_ms:.1f} ms)" if view.late else ""
     lines: list[Line] = [[("title", f"{_('Ticks'):{LABEL_WIDTH}}"), ("warning" if view.late else "body", late + worst)]]
+    if view.plant:
+        lines.append([("title", f"{_('Plant'):{LABEL_WIDTH}}"), ("warning", view.plant)])
     if view.lost_steps is not None:
         lost = " ".join(map(str, view.lost_steps))
         lines.append([("title", f"{_('Lost'):{LABEL_WIDTH}}"), ("danger" if any(view.lost_steps) else "body", lost)])

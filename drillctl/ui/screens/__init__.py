@@ -8,6 +8,7 @@
     scope.py         a run as a logic analyser shows it: its keys are in scope_keys.py, its lines in scope_view.py,
                      its waves in scope_wave.py
     signals.py       every input and output, live             port.py           the port, tested and chosen
+    plant.py         ideal or dynamic motors, faults and seed of the simulated machine
     event_list.py    what happened at the machine
     reader.py        a text to be read
     machine_lines.py phases and tools as lines of text        jog_controls.py   jog keys, and the line that answers

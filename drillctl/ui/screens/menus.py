@@ -11,6 +11,7 @@ TESTS = Item(N_("&Tests"), items=(
     Item(N_("&Ramp tables"), "ramp_editor"),
     Item(N_("&Queue of commands"), "queue_editor"),
     Item(N_("&Signals"), "signals"),
+    Item(N_("P&lant and faults"), "plant"),
     Item(N_("S&cope"), items=(
         Item(N_("&The machine's run"), "scope", "show_machine"),
         Item(N_("&Open a trace..."), "scope", "open_file"),
