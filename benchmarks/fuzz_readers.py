@@ -32,7 +32,7 @@ from drillctl.generation.boiler_drum.stores import read_ram
 from drillctl.generation.drillfile import DrillFileError, read, summary
 from drillctl.generation.drills import read_drills
 from drillctl.generation.errors import JobError
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.jobs.journal import Journal, JournalError, head_of, read_journal
 from drillctl.machine import Library, TableError, shipped_tables
@@ -124,7 +124,7 @@ def _trace(file: Path) -> object:
 
 
 def _job(file: Path) -> object:
-    return load_job(file, MACHINE, JobOptions("pcb-drill"))
+    return load_job(file, MACHINE, JobSetup("pcb-drill"))
 
 
 def _measured(file: Path) -> object:
@@ -137,7 +137,7 @@ def _line_map(file: Path) -> object:
 
 def _journal(file: Path) -> object:
     account = read_journal(file)
-    return account.holes_begun, JobOptions.of_journal(account.head.options, file)
+    return account.holes_begun, JobSetup.of_journal(account.head.options, file)
 
 
 def _segments(rng: Random, material: Material) -> bytes:
@@ -162,7 +162,7 @@ def _segment_seeds() -> list[bytes]:
 
 def _journal_seed() -> bytes:
     """Of a board that was stopped after its first hole, gone on with, and cut off at its third."""
-    options = JobOptions(machine="pcb-drill")
+    options = JobSetup(machine="pcb-drill")
     job = load_job(EXAMPLES / "blinker.drl", MACHINE, options)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "journal"
@@ -191,7 +191,7 @@ def readers() -> dict[str, Reader]:
         "board": Reader(_job, (JobError,), boards),
         "kmd": Reader(_job, (JobError,), Material(_files(EXAMPLES, "*.kmd"), KMD_WORDS), ".kmd"),
         "sentences": Reader(
-            lambda file: load_job(file, DRUM, JobOptions("boiler-drum")),
+            lambda file: load_job(file, DRUM, JobSetup("boiler-drum")),
             (JobError,),
             Material(_files(EXAMPLES, "*.sentences"), SENTENCE_WORDS),
             ".sentences",

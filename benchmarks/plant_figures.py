@@ -15,7 +15,7 @@ from random import Random
 
 import numpy as np
 
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.jobs.runner import JobRunner
 from drillctl.lab.moves import move
@@ -137,7 +137,7 @@ def whole_board() -> None:
     for hz in BOARD_HZ:
         machine = Library((shipped_tables(),)).machine("pcb-drill").at_rate(hz)
         link = LocalLink(Ticker.simulated(machine, plant_choice=PlantChoice("dynamic")))
-        told = JobRunner(load_job(BOARD, machine, JobOptions("pcb-drill")), link, lambda progress: None).run().outcome
+        told = JobRunner(load_job(BOARD, machine, JobSetup("pcb-drill")), link, lambda progress: None).run().outcome
         lost_steps = " ".join(f"{name} {steps}" for name, steps in (told.lost_steps or {}).items())
         fault = told.fault.name if told.fault else NEVER
         lines.append([f"{hz} Hz", f"{told.holes_done} of {told.holes_total}", lost_steps, fault])

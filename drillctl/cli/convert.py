@@ -94,7 +94,7 @@ def _trace(arguments: argparse.Namespace) -> int:
 def _queue(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     from drillctl.generation.queues import queue_text
 
-    job = jobs.load(arguments.file, jobs.job_options(arguments), options.machine(arguments))
+    job = jobs.load(arguments.file, jobs.job_setup(arguments), options.machine(arguments))
     return queue_text(job), job.warnings
 
 

@@ -25,7 +25,7 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.ui.terminal.reports import estimate_lines
 
     machine = options.machine(arguments)
-    job = jobs.load(arguments.job, jobs.job_options(arguments), machine)
+    job = jobs.load(arguments.job, jobs.job_setup(arguments), machine)
     with waiting() as wait:
         estimated = estimate(job, arguments.engine, wait)
     print(json_text(estimated.as_dict(), 2) if arguments.json else "\n".join(estimate_lines(estimated)))

@@ -1,4 +1,4 @@
-"""The options of a job - reading, placing, order, drills - for the verbs that take a drill file; and the job made from
+"""The options of a job (reading, placing, order, drills) for the verbs that take a drill file; and the job made from
 them.
 """
 
@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 from drillctl.cli import streams
 from drillctl.cli.operating import waiting
 from drillctl.files.inputs import real_path
-from drillctl.generation.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
+from drillctl.viewmodel.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
     from drillctl.generation.job import Job
-    from drillctl.generation.job_options import JobOptions
+    from drillctl.generation.job_setup import JobSetup
     from drillctl.machine import Machine
+    from drillctl.viewmodel.job_options import JobOptions
 
 JOB_HELP = "a drill file, a queue of commands (.kmd), a part program (.sentences), or a workpiece (01..99)"
 
@@ -60,27 +61,35 @@ def add_store(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--store", type=Path, metavar="FILE", help=where)
 
 
-def job_options(arguments: argparse.Namespace) -> "JobOptions":
-    """Returns the job's options as a journal keeps them, with absolute paths."""
-    from drillctl.generation.job_options import JobOptions
+def job_setup(arguments: argparse.Namespace) -> "JobSetup":
+    """Returns what the job is made by, as a journal keeps it, with absolute paths."""
+    from drillctl.generation.job_setup import JobSetup
 
     machine = arguments.machine
-    return JobOptions(
+    return JobSetup(
         machine=str(real_path(machine)) if machine.endswith(".toml") else machine,
+        options=_job_options(arguments),
         tables=_absolute(arguments.tables),
         tick_hz=arguments.tick_hz,
+    )
+
+
+def _job_options(arguments: argparse.Namespace) -> "JobOptions":
+    from drillctl.viewmodel.job_options import JobOptions, PanelOf
+
+    return JobOptions(
+        format=arguments.format,
         origin=arguments.origin,
         mirror=arguments.mirror,
-        rotate=arguments.rotate,
-        offset=arguments.offset,
+        rotate_deg=arguments.rotate,
+        offset_mm=arguments.offset,
         align=_absolute(arguments.align),
-        panel=arguments.panel,
+        panel=arguments.panel and PanelOf(*arguments.panel),
         order=arguments.order,
         skip_tools=tuple(sorted(arguments.skip_tools)),
         drills=_absolute(arguments.drills),
-        peck=arguments.peck,
-        spot=arguments.spot,
-        format=arguments.format,
+        peck_mm=arguments.peck,
+        spot_mm=arguments.spot,
         after_end=arguments.after_end,
         store=_absolute(arguments.store),
     )
@@ -90,7 +99,7 @@ def _absolute(path: Path | None) -> str | None:
     return None if path is None else str(real_path(path))
 
 
-def load(file: Path, chosen: "JobOptions", machine: "Machine") -> "Job":
+def load(file: Path, chosen: "JobSetup", machine: "Machine") -> "Job":
     """Returns the job in a file, made by these options, and prints what the measured holes say. Raises JobError,
     PlacingError or AlignmentError.
     """

@@ -48,10 +48,10 @@ def call(arguments: argparse.Namespace) -> int:
 
 
 def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
-    from drillctl.generation.job_options import JobOptions
+    from drillctl.generation.job_setup import JobSetup
     from drillctl.jobs.session import Session, rest_of
 
-    chosen = JobOptions.of_journal(account.head.options, file)
+    chosen = JobSetup.of_journal(account.head.options, file)
     tables = chosen.tables and Path(chosen.tables)
     machine = options.machine(argparse.Namespace(machine=chosen.machine, tables=tables, tick_hz=chosen.tick_hz))
     with operating.waiting() as wait:

@@ -50,7 +50,7 @@ def call(arguments: argparse.Namespace) -> int:
         taped = machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
     running = replace(running, engine=arguments.engine, taped=taped)
     paced = pace_of(running) == "real"
-    chosen = jobs.job_options(arguments)
+    chosen = jobs.job_setup(arguments)
     job = jobs.load(arguments.job, chosen, machine)
     session = Session(job, running)
     if job.work and (paced or arguments.journal):

@@ -4,7 +4,7 @@
     machine_in_use.py   the machine with its link and port; changes to another machine or port
     running_job.py      the job that runs on it, held and resumed
     boards.py           the board that is loaded: planned, drilled with a journal, what is left of one cut off
-    job_request.py      what a screen asks of a board, as options of a job; the fit of measured holes
+    job_request.py      options from a screen, for the machine in use; the fit of measured holes
     operator_state.py   the tool change that is waited for, and the working base
     jogging.py          jog keys: pressed, or held down
     views.py            status record, machine and board as the records that screens draw

@@ -11,13 +11,13 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.console.job_request import options_of
+from drillctl.console.job_request import setup_of
 from drillctl.console.operator_state import Base
 from drillctl.console.recent_jobs import RecentJobs
 from drillctl.console.views import board_view
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.measured import AlignmentError
 from drillctl.generation.placing import PlacingError
 from drillctl.generation.readers import load_job
@@ -31,7 +31,8 @@ from drillctl.jobs.site import moved
 from drillctl.language import Message, Refusal, message_of
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import BoardView, Problems, Watch
-from drillctl.viewmodel.jobs import Asked, RecentJob, Site, UnfinishedJob
+from drillctl.viewmodel.job_options import JobOptions
+from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
 
 REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, OSError)
 
@@ -46,7 +47,7 @@ class Plan:
     """
 
     file: Path
-    options: JobOptions
+    setup: JobSetup
     view: BoardView
     left: Job
     ticks: NDArray[np.int64]
@@ -71,23 +72,23 @@ class Boards:
         self.journal: Journal | None = None
         self.troubles: Problems = ()
 
-    def load(self, file: Path, asked: Asked, machine: Machine, base: Base, watch: Watch) -> Problems:
+    def load(self, file: Path, options: JobOptions, machine: Machine, base: Base, watch: Watch) -> Problems:
         """Plans the board of a drill file, from this working base; it becomes the newest of the recent jobs."""
         try:
-            options = options_of(asked, machine, base)
+            setup = setup_of(options, machine, base)
         except msgspec.ValidationError as error:
             return (Message("it can't be opened with these settings: {why}", why=message_of(error)).at(file),)
-        if problems := self._planned(file, options, machine, watch):
+        if problems := self._planned(file, setup, machine, watch):
             return problems
-        self._recent.add(file, asked)
+        self._recent.add(file, options)
         return ()
 
     def plan_again(self, machine: Machine, base: Base) -> Problems:
         """Plans the loaded board again where its working base or the machine's tick rate is another one now."""
-        if self.plan is None or (self.plan.options.base, self.plan.options.tick_hz) == (base, machine.tick_hz):
+        if self.plan is None or (self.plan.setup.base, self.plan.setup.tick_hz) == (base, machine.tick_hz):
             return ()
-        options = msgspec.structs.replace(self.plan.options, base=base, tick_hz=machine.tick_hz)
-        return self._planned(self.plan.file, options, machine)
+        setup = msgspec.structs.replace(self.plan.setup, base=base, tick_hz=machine.tick_hz)
+        return self._planned(self.plan.file, setup, machine)
 
     def forget(self) -> None:
         """From now on no board is loaded."""
@@ -118,10 +119,10 @@ class Boards:
             rest = rest_of(journal, account, machine, watch)
             estimate, ticks = estimate_with_ticks(rest.left, waits=watch)
             watch(PLANNED)
-            view = board_view(Path(account.head.job), rest.whole, estimate, *rest.options.reading())
+            view = board_view(Path(account.head.job), rest.whole, estimate, *rest.setup.reading())
         except REFUSALS as error:
             return _problems(error)
-        self.plan = Plan(Path(account.head.job), rest.options, view, rest.left, ticks, journal, account)
+        self.plan = Plan(Path(account.head.job), rest.setup, view, rest.left, ticks, journal, account)
         return ()
 
     def give_up(self, journal: Path) -> Problems:
@@ -149,7 +150,7 @@ class Boards:
         runner.settle()
         self.close()
         if self.plan is not None and isinstance(self.plan.start_from, Account):
-            self._planned(self.plan.file, self.plan.options, machine)
+            self._planned(self.plan.file, self.plan.setup, machine)
 
     def close(self) -> None:
         """Closes the journal; of a job that still runs, as where it was cut off."""
@@ -157,18 +158,18 @@ class Boards:
             self.journal.close()
             self.journal = None
 
-    def _planned(self, file: Path, options: JobOptions, machine: Machine, watch: Watch = unwatched) -> Problems:
+    def _planned(self, file: Path, setup: JobSetup, machine: Machine, watch: Watch = unwatched) -> Problems:
         try:
-            job = load_job(file, machine, options, watch)
+            job = load_job(file, machine, setup, watch)
             if job.work is None:
                 return (Message("a queue of commands; it is run from the queue editor").at(file),)
             estimate, ticks = estimate_with_ticks(job, waits=watch)
             watch(PLANNED)
-            view = board_view(file, job, estimate, *options.reading())
-            head = head_of(file, job, options.as_journalled())
+            view = board_view(file, job, estimate, *setup.reading())
+            head = head_of(file, job, setup.as_journalled())
         except REFUSALS as error:
             return _problems(error)
-        self.plan = Plan(file, options, view, job, ticks, default_journal(file), head)
+        self.plan = Plan(file, setup, view, job, ticks, default_journal(file), head)
         return ()
 
 

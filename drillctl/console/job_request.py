@@ -1,43 +1,23 @@
-"""What a screen asks of a board, as options of a job and as a fit of measured holes.
-
-Rule: ``options_of`` is the only place that knows which field of the request becomes which option.
-"""
+"""What a screen asks of a board: its options for the machine in use, and the fit of measured holes."""
 
 from drillctl.console.operator_state import Base
 from drillctl.files.inputs import real_path
 from drillctl.generation import alignment
 from drillctl.generation.alignment import decompose
-from drillctl.generation.job_options import JobOptions, MeasuredRow
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.measured import AlignmentError
 from drillctl.machine import Library, Machine
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
+from drillctl.viewmodel.jobs import AlignmentReport
 
 
-def options_of(asked: Asked, machine: Machine, base: Base) -> JobOptions:
-    """The options of the screen as the command line has them, checked as it checks them: a list of recent jobs may hold
-    anything. A board with measured holes is placed by these alone. Raises msgspec.ValidationError.
+def setup_of(options: JobOptions, machine: Machine, base: Base) -> JobSetup:
+    """What the job is made by on this machine, from this working base. Raises msgspec.ValidationError for options that
+    the command line would not take.
     """
-    panel = asked.panel
-    fields = {
-        "machine": _reference(machine),
-        "tick_hz": machine.tick_hz,
-        "origin": None if asked.origin == "base" else asked.origin,
-        "mirror": asked.mirror,
-        "rotate": asked.rotate_deg,
-        "offset": asked.offset_mm,
-        "align": tuple(map(_row, asked.measured)) or None,
-        "panel": (panel.columns, panel.rows, panel.pitch_x_mm, panel.pitch_y_mm) if panel else None,
-        "order": asked.order,
-        "skip_tools": tuple(sorted(asked.skip_tools)),
-        "drills": asked.drills,
-        "peck": asked.peck_mm,
-        "spot": asked.spot_mm,
-        "format": asked.format,
-        "after_end": asked.after_end,
-        "base": base,
-    }
-    return JobOptions.checked(fields)
+    setup = JobSetup(_reference(machine), options, tick_hz=machine.tick_hz, base=base)
+    return JobSetup.checked(setup.as_journalled())
 
 
 def _reference(machine: Machine) -> str:
@@ -49,9 +29,8 @@ def _reference(machine: Machine) -> str:
 
 def align(measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
     """Fits a placing to measured holes: the report, or None and the reasons why there is none."""
-    rows = [_row(hole) for hole in measured]
     try:
-        found = alignment.fit([row[:2] for row in rows], [row[2:] for row in rows], mirrored=face_down)
+        found = alignment.fit([hole[:2] for hole in measured], [hole[2:] for hole in measured], mirrored=face_down)
     except AlignmentError as error:
         return None, error.messages
     parts = decompose(found.affine)
@@ -61,7 +40,3 @@ def align(measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[Alignmen
         found.kind, found.affine.matrix, residual_mm, parts.turn_deg, scale, found.warnings, found.rejected
     )
     return report, ()
-
-
-def _row(hole: MeasuredHole) -> MeasuredRow:
-    return hole.file_x_mm, hole.file_y_mm, hole.machine_x_mm, hole.machine_y_mm

@@ -28,7 +28,8 @@ from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.link import Link
 from drillctl.viewmodel.console import BoardView, MachineView, Problems, Watch
-from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
+from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
 
 BUSY = Message("the machine is at work; hold or stop it first")
@@ -141,11 +142,11 @@ class MachineConsole:
         """Asks for another tick rate; it is in force once the ticker has served the request."""
         return self.busy() or self.used.set_tick_hz(hz)
 
-    def load(self, file: str, asked: Asked, watch: Watch = unwatched) -> Problems:
+    def load(self, file: str, options: JobOptions, watch: Watch = unwatched) -> Problems:
         """Reads a drill file, places and orders its holes and checks them against the reach. May take seconds."""
         if self.at_work:
             return (BUSY,)
-        return self._boards.load(Path(file), asked, self.machine, self._base.xy, watch)
+        return self._boards.load(Path(file), options, self.machine, self._base.xy, watch)
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
         """Fits a placing to measured holes, as ``--align`` does."""
@@ -276,6 +277,6 @@ class MachineConsole:
             return problems
         plan = self._boards.plan
         assert plan is not None
-        self._base.move(*plan.options.base)
+        self._base.move(*plan.setup.base)
         self._job.begin(plan.left, self._boards.journal, plan.ticks, plan.done_before)
         return ()

@@ -8,7 +8,7 @@
     pcb_drill/    a board's program, hole by hole
     job.py        what is run: a program with its names and holes
     readers.py    the readers of jobs, by what they recognise           queues.py  ``.kmd`` queues
-    job_options.py  the options of a job, as a journal keeps them       wishes.py  what generation makes of them
+    job_setup.py  options, machine and base of a job, as a journal keeps them    work_settings.py  what is made of them
     drills.py     the drills that a workshop owns                       choices.py what options may be, by name
     feeder.py     puts a program into the queue as room is made
     errors.py     JobError: the operator's input, refused before anything moves

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import Message, Refusal
+from drillctl.viewmodel.job_options import MAX_MM
 
 Millimetres = NDArray[np.float64]
 
 COLUMNS = ("file_x", "file_y", "machine_x", "machine_y")
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 MAX_BYTES = 1_000_000
-MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
 
 
 class AlignmentError(Refusal):

@@ -16,9 +16,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drillctl.generation.choices import ORIGINS
 from drillctl.language import Message, Refusal
 from drillctl.language.messages import listed
+from drillctl.viewmodel.choices import ORIGINS
 
 MIRRORS = {
     None: ((1.0, 0.0), (0.0, 1.0)),

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from drillctl.files.inputs import read_bytes
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job, names_of
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.waits import Waits, reading
-from drillctl.generation.wishes import Wishes
+from drillctl.generation.work_settings import WorkSettings
 from drillctl.kmd import KmdError, parse_program, to_text
 from drillctl.language import Message, message_of, one_line
 from drillctl.machine import Machine
@@ -25,7 +25,7 @@ def is_queue(path: Path, machine: Machine) -> bool:
     return path.suffix.lower() == ENDING
 
 
-def load_queue(path: Path, machine: Machine, options: JobOptions, wishes: Wishes, waits: Waits) -> Job:
+def load_queue(path: Path, machine: Machine, setup: JobSetup, settings: WorkSettings, waits: Waits) -> Job:
     """A queue as a job, as it stands: nothing is placed or ordered. Raises JobError with file, line and column."""
     waits(reading(path.name))
     try:

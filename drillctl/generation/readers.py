@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 from drillctl.generation.boiler_drum.part import is_part_file, is_workpiece, load_part
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.board import load_board
 from drillctl.generation.queues import is_queue, load_queue
 from drillctl.generation.waits import Waits, unwatched
-from drillctl.generation.wishes import Wishes
+from drillctl.generation.work_settings import WorkSettings
 from drillctl.machine import Machine
 
 
@@ -22,7 +22,7 @@ class Reader(NamedTuple):
 
     what: str
     recognises: Callable[[Path, Machine], bool]
-    load: Callable[[Path, Machine, JobOptions, Wishes, Waits], Job]
+    load: Callable[[Path, Machine, JobSetup, WorkSettings, Waits], Job]
 
 
 READERS = (
@@ -33,10 +33,10 @@ READERS = (
 )
 
 
-def load_job(path: Path, machine: Machine, options: JobOptions, waits: Waits = unwatched) -> Job:
+def load_job(path: Path, machine: Machine, setup: JobSetup, waits: Waits = unwatched) -> Job:
     """The job in a file, by the reader that recognises it; ``waits`` is called with how far the work is. Options that
     can't be meant are refused before any file of a job is read.
     """
-    wishes = options.wishes(machine)
+    settings = setup.work_settings(machine)
     reader = next(reader for reader in READERS if reader.recognises(path, machine))
-    return reader.load(path, machine, options, wishes, waits)
+    return reader.load(path, machine, setup, settings, waits)

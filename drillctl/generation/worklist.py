@@ -15,7 +15,7 @@ from drillctl.generation.errors import JobError
 from drillctl.generation.order import TravelCost, plan_groups
 from drillctl.generation.placing import Affine, boards
 from drillctl.generation.waits import Advance, ignored
-from drillctl.generation.wishes import Wishes
+from drillctl.generation.work_settings import WorkSettings
 from drillctl.language import Message
 from drillctl.machine import Machine, travel_table
 
@@ -75,24 +75,24 @@ class WorkList:
         return WorkList(groups, self.hits.take(left), self.steps[left], self.boards, self.number[left])
 
 
-def build(drill_file: "DrillFile", wishes: Wishes, machine: Machine, advance: Advance = ignored) -> WorkList:
+def build(drill_file: "DrillFile", settings: WorkSettings, machine: Machine, advance: Advance = ignored) -> WorkList:
     """The work list of a file on a machine; ``advance`` is called with how far the ordering is.
 
     Raises JobError for a machine, tools or holes that don't fit.
     """
     axes = positioning_axes(machine)
     extent_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
-    maps = boards(wishes.placing, extent_mm)
-    hits = _on_every_board(_chosen(drill_file, _hits(drill_file), wishes), len(maps))
+    maps = boards(settings.placing, extent_mm)
+    hits = _on_every_board(_chosen(drill_file, _hits(drill_file), settings), len(maps))
     hits = hits.take(np.argsort(hits.tool, kind="stable"))
     scale = np.array([machine.axes[axis].steps_per_mm for axis in axes])
     placed_mm = np.empty_like(hits.xy_mm)
     for board, placed in enumerate(maps):
         placed_mm[hits.board == board] = placed.apply(hits.xy_mm[hits.board == board])
     steps = np.rint(placed_mm * scale).astype(np.int64)
-    _check_reach(drill_file, hits, steps, wishes.base_steps, machine)
-    groups = _groups(drill_file, hits, wishes)
-    order = _order(groups, steps, wishes.order, machine, axes, advance)
+    _check_reach(drill_file, hits, steps, settings.base_steps, machine)
+    groups = _groups(drill_file, hits, settings)
+    order = _order(groups, steps, settings.order, machine, axes, advance)
     return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1))
 
 
@@ -127,10 +127,10 @@ def _chain(drill_file: "DrillFile", index: int) -> Floats:
     return start + along * (end - start)
 
 
-def _chosen(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> Hits:
+def _chosen(drill_file: "DrillFile", hits: Hits, settings: WorkSettings) -> Hits:
     """Without the tools to skip. Raises JobError for a skipped tool that is not there, or when nothing is left."""
     numbers = np.array([tool.number for tool in drill_file.tools], np.int64)
-    unknown = wishes.skip_tools - set(numbers.tolist())
+    unknown = settings.skip_tools - set(numbers.tolist())
     if unknown:
         there = ", ".join(f"T{number}" for number in numbers.tolist())
         raise JobError(
@@ -141,7 +141,7 @@ def _chosen(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> Hits:
                 tools=there,
             )
         )
-    skipped = np.isin(hits.tool, np.flatnonzero(np.isin(numbers, list(wishes.skip_tools))))
+    skipped = np.isin(hits.tool, np.flatnonzero(np.isin(numbers, list(settings.skip_tools))))
     left = hits.take(~skipped)
     if not len(left.xy_mm):
         raise JobError(Message("there is no hole to drill").at(drill_file.name))
@@ -153,16 +153,16 @@ def _on_every_board(hits: Hits, count: int) -> Hits:
     return Hits(repeated.xy_mm, repeated.tool, repeated.line, np.repeat(np.arange(count), len(hits.tool)))
 
 
-def _groups(drill_file: "DrillFile", hits: Hits, wishes: Wishes) -> tuple[Group, ...]:
+def _groups(drill_file: "DrillFile", hits: Hits, settings: WorkSettings) -> tuple[Group, ...]:
     used, starts = np.unique(hits.tool, return_index=True)
     bounds = [*starts.tolist(), len(hits.tool)]
     tools = [drill_file.tools[index] for index in used.tolist()]
     drills: list[Drill | None] = [None] * len(tools)
-    if wishes.drills is not None:
+    if settings.drills is not None:
         pairs = [(tool.number, tool.diameter_mm) for tool in tools]
-        if problems := list(drill_problems(wishes.drills, pairs, drill_file.name)):
+        if problems := list(drill_problems(settings.drills, pairs, drill_file.name)):
             raise JobError(*problems)
-        drills = [wishes.drills.serving(tool.diameter_mm or 0.0) for tool in tools]
+        drills = [settings.drills.serving(tool.diameter_mm or 0.0) for tool in tools]
     return tuple(
         Group(tool.number, tool.diameter_mm, bounds[index], bounds[index + 1], drills[index])
         for index, tool in enumerate(tools)

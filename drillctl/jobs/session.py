@@ -17,7 +17,7 @@ from drillctl.files.inputs import real_path
 from drillctl.files.scratch import KEPT_IN_FOLDERS, Folder, sweep
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.board import without_holes
 from drillctl.generation.readers import load_job
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
@@ -45,9 +45,9 @@ class Session:
     has_forecast: bool = False
     ticks: NDArray[np.int64] | None = None  # of each command, where the time left is worth showing
 
-    def journalled(self, file: Path, journal: Path | None, options: JobOptions) -> "Session":
+    def journalled(self, file: Path, journal: Path | None, setup: JobSetup) -> "Session":
         """The same with a journal for a job made from ``file``; in the user's state folder where no place is given."""
-        head = head_of(file, self.job, options.as_journalled())
+        head = head_of(file, self.job, setup.as_journalled())
         return replace(self, journal=journal or default_journal(file), start_from=head)
 
     @property
@@ -100,9 +100,9 @@ class Session:
 
 @dataclass(frozen=True, eq=False)
 class RemainingJob:
-    """A job made again from its journal: its options, the whole job, and the job that drills what is left."""
+    """A job made again from its journal: what it is made by, the whole job, and the job that drills what is left."""
 
-    options: JobOptions
+    setup: JobSetup
     whole: Job
     left: Job
 
@@ -111,9 +111,9 @@ def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = un
     """Makes the job of a journal again and leaves out what is drilled. Raises JournalError unless it is the same job as
     then; JobError, PlacingError or AlignmentError where it can't be made, or nothing is left.
     """
-    options = JobOptions.of_journal(account.head.options, journal)
+    setup = JobSetup.of_journal(account.head.options, journal)
     file = Path(account.head.job)
-    job = load_job(file, machine, options, waits)
+    job = load_job(file, machine, setup, waits)
     check_same(journal, account.head, head_of(file, job, account.head.options))
     if account.complete:
         raise JobError(
@@ -121,7 +121,7 @@ def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = un
                 "all {total} holes of {file} are drilled; nothing is left", total=job.holes_total, file=file.name
             ).at(journal)
         )
-    return RemainingJob(options, job, without_holes(job, account.done, options))
+    return RemainingJob(setup, job, without_holes(job, account.done, setup))
 
 
 def default_journal(file: Path) -> Path:

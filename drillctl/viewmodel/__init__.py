@@ -1,7 +1,9 @@
 """The door of layer 1: what a person may see and ask, as records and protocols, with words for every fault code.
 
     console.py     the machine and the board: MachineView, and the Console that screens ask
-    jobs.py        what is asked of a board; recent and unfinished jobs
+    job_options.py how a board is read, placed and drilled: made by verbs and screens, kept by journals
+    choices.py     what options of a job may be, by name
+    jobs.py        measured holes; recent and interrupted jobs
     records.py     Estimate before a job, Progress while it runs, Outcome when it is over
     tables.py      tables and queues as their editors see them
     signals.py     signals, outputs by hand, single ticks; the port and a test of it

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import Message
-from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
+from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress
 
 Problems = tuple[Message, ...]
@@ -136,7 +137,7 @@ class Console(Protocol):
     def go_real(self) -> Problems:
         """Changes to the machine on the port that its file asks for. Refused while something moves."""
 
-    def load(self, file: str, options: Asked, watch: Watch) -> Problems:
+    def load(self, file: str, options: JobOptions, watch: Watch) -> Problems:
         """Reads a drill file and plans it; ``watch`` is called with how far that is, maybe from another thread, and may
         raise. Refused with its reasons. The board loaded before stays in both cases.
         """

@@ -1,7 +1,6 @@
-"""What a person may ask of a board, and what is kept of jobs. Plain records; lengths in mm.
+"""What is known of measured holes, and of jobs that were opened or interrupted. Plain records; lengths in mm.
 
-Rule: a request holds what was asked, whether or not it can be done; who is asked says so. Made by the screens, kept
-by the station.
+Rule: made by the console, drawn by the screens; what a person asks of a board is in job_options.py.
 """
 
 from dataclasses import dataclass
@@ -10,49 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from drillctl.language import Message
-
-
-@dataclass(frozen=True, slots=True)
-class MeasuredHole:
-    """A hole of the board, in the file's coordinates, and where it was found, from machine zero."""
-
-    file_x_mm: float
-    file_y_mm: float
-    machine_x_mm: float
-    machine_y_mm: float
-
-
-@dataclass(frozen=True, slots=True)
-class PanelOf:
-    """The same board, so many times along X and Y, at these pitches."""
-
-    columns: int
-    rows: int
-    pitch_x_mm: float
-    pitch_y_mm: float
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """How a board is to be placed and drilled. With ``measured`` holes these alone say where it lies.
-
-    peck_mm, spot_mm  depths below the board's surface; ``drills``: the file of the drills at hand
-    after_end         what becomes of holes behind the end of the program (M30): 'refuse', 'ignore' or 'drill'
-    """
-
-    format: str | None = None
-    origin: str = "base"
-    mirror: str | None = None
-    rotate_deg: float = 0.0
-    offset_mm: tuple[float, float] = (0.0, 0.0)
-    order: str = "file"
-    panel: PanelOf | None = None
-    measured: tuple[MeasuredHole, ...] = ()
-    peck_mm: float | None = None
-    spot_mm: float | None = None
-    skip_tools: tuple[int, ...] = ()
-    drills: str | None = None
-    after_end: str = "refuse"
+from drillctl.viewmodel.job_options import JobOptions
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -82,7 +39,7 @@ class RecentJob:
     """A drill file that was opened, and how."""
 
     file: str
-    asked: Asked
+    options: JobOptions
 
 
 @dataclass(frozen=True, slots=True)

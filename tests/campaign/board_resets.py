@@ -13,7 +13,7 @@ import numpy as np
 
 from drillctl.execution.conditions import raise_fault
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.jobs.runner import JobRunner
 from drillctl.kmd import Fault
@@ -180,7 +180,7 @@ def short_job(folder: Path) -> Job:
     (folder / "short.toml").write_text(text)
     (folder / "short.drl").write_text(BOARD)
     machine = Library.standard().machine(str(folder / "short.toml"))
-    return load_job(folder / "short.drl", machine, JobOptions("pcb-drill"))
+    return load_job(folder / "short.drl", machine, JobSetup("pcb-drill"))
 
 
 def play(job: Job, reset: Reset) -> Played:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.jobs.runner import JobResult, JobRunner
 from drillctl.machine import Library, shipped_tables
@@ -86,7 +86,7 @@ def tickers(monkeypatch: pytest.MonkeyPatch) -> list[Ticker]:
 def run(folder: Path, text: str, watcher: Callable[[Progress], None]) -> JobResult:
     (folder / "q.kmd").write_text(text)
     machine = Library((shipped_tables(),)).machine("pcb-drill")
-    job = load_job(folder / "q.kmd", machine, JobOptions("pcb-drill"))
+    job = load_job(folder / "q.kmd", machine, JobSetup("pcb-drill"))
     with closing(LocalLink(Ticker.simulated(machine))) as link:
         return JobRunner(job, link, watcher).run()
 

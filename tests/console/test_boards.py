@@ -5,6 +5,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +18,8 @@ from drillctl.jobs.session import default_journal
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, Site
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
+from drillctl.viewmodel.jobs import Site
 from tests.support.journalled import BOARD, forged, lines_of
 from tests.support.operator import settle, until
 
@@ -47,9 +49,9 @@ def gone_on(console: MachineConsole, journal: str, elsewhere: bool = False) -> P
     return console.take_up(journal, elsewhere) or console.go_on()
 
 
-def cut_off(console: MachineConsole, board: Path, holes: int, asked: Asked | None = None) -> None:
+def cut_off(console: MachineConsole, board: Path, holes: int, options: JobOptions | None = None) -> None:
     """The board is drilled as far as so many holes, and stopped."""
-    assert console.load(str(board), asked or Asked()) == ()
+    assert console.load(str(board), options or JobOptions()) == ()
     assert console.start(dry=False) == ()
     until(console, lambda: (told := console.progress()) is not None and told.holes_done >= holes)
     console.stop()
@@ -57,7 +59,7 @@ def cut_off(console: MachineConsole, board: Path, holes: int, asked: Asked | Non
 
 
 def test_a_board_is_drilled_with_its_journal(console: MachineConsole, board: Path) -> None:
-    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    assert console.load(str(board), JobOptions()) == () and console.start(dry=False) == ()
     assert console.unfinished() == []  # what runs is not offered
     settle(console)
     account = read_journal(default_journal(board))
@@ -68,7 +70,7 @@ def test_a_board_is_drilled_with_its_journal(console: MachineConsole, board: Pat
 
 
 def test_a_dry_run_leaves_no_journal(console: MachineConsole, board: Path) -> None:
-    console.load(str(board), Asked())
+    console.load(str(board), JobOptions())
     assert console.start(dry=True) == ()
     settle(console)
     assert not default_journal(board).exists()
@@ -91,7 +93,7 @@ def test_an_interrupted_job_is_offered_and_exactly_its_rest_is_drilled(console: 
 
 
 def test_another_program_goes_on_where_one_was_killed(console: MachineConsole, board: Path) -> None:
-    console.load(str(board), Asked(rotate_deg=90.0, peck_mm=1.0, skip_tools=(2,)))
+    console.load(str(board), JobOptions(rotate_deg=90.0, peck_mm=1.0, skip_tools=(2,)))
     console.start(dry=False)
     until(console, lambda: (told := console.progress()) is not None and told.holes_done >= 1)
     console.close()
@@ -109,7 +111,7 @@ def test_another_program_goes_on_where_one_was_killed(console: MachineConsole, b
 def test_the_command_line_goes_on_with_what_the_screen_began(
     console: MachineConsole, board: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    cut_off(console, board, 1, Asked(mirror="x", panel=PanelOf(2, 1, 6.0, 0.0)))
+    cut_off(console, board, 1, JobOptions(mirror="x", panel=PanelOf(2, 1, 6.0, 0.0)))
     assert main(["resume", console.unfinished()[0].journal, "--json"]) == 0
     outcome = json.loads(capsys.readouterr().out)
     assert outcome["holes_done"] == outcome["holes_total"] == 8 and console.unfinished() == []
@@ -161,9 +163,11 @@ def test_a_job_that_ran_elsewhere_goes_on_only_where_that_was_agreed_to(console:
     assert console.unfinished() == [] and read_journal(Path(job.journal)).site == job.here
 
 
-def test_a_list_of_recent_jobs_may_hold_any_settings(console: MachineConsole, board: Path) -> None:
-    for asked in (Asked(order="shortest"), Asked(mirror="z"), Asked(measured=(MeasuredHole(0, 0, 1e9, 0),) * 2)):
-        assert "it can't be opened with these settings" in console.load(str(board), asked)[0]
+def test_options_that_no_verb_takes_are_refused(console: MachineConsole, board: Path) -> None:
+    beyond = (MeasuredHole(0, 0, 1e9, 0),) * 2
+    settings: tuple[dict[str, Any], ...] = ({"order": "shortest"}, {"mirror": "z"}, {"align": beyond})
+    for bad in settings:
+        assert "it can't be opened with these settings" in console.load(str(board), JobOptions(**bad))[0]
     assert console.board() is None
 
 
@@ -187,7 +191,7 @@ def test_a_damaged_journal_is_not_offered_and_stops_nothing(console: MachineCons
 
 def test_a_board_is_drilled_from_the_base_that_was_set(console: MachineConsole, board: Path) -> None:
     """Its program initialises, which leaves the base at machine zero, and takes the operator's base again."""
-    console.load(str(board), Asked())
+    console.load(str(board), JobOptions())
     console.initialise()
     settle(console)
     console.jog("x", 600)
@@ -217,7 +221,7 @@ def test_what_was_cut_off_goes_on_from_its_own_base(console: MachineConsole, boa
 
 
 def test_a_base_from_which_the_board_is_out_of_reach_refuses_the_start(console: MachineConsole, board: Path) -> None:
-    console.load(str(board), Asked())
+    console.load(str(board), JobOptions())
     console.initialise()
     settle(console)
     high = console.machine.reach(0)[1]
@@ -241,7 +245,7 @@ CORNERS = ((1.0, 1.0), (3.0, 1.0), (1.0, 3.0), (3.0, 4.0))
 
 
 def test_measured_holes_place_the_board_whatever_the_base(console: MachineConsole, board: Path) -> None:
-    assert console.load(str(board), Asked(measured=measured(*CORNERS))) == ()
+    assert console.load(str(board), JobOptions(align=measured(*CORNERS))) == ()
     placed = console.board()
     assert placed is not None
     np.testing.assert_allclose(placed.xy_mm, placed.file_xy_mm + SHIFT, atol=0.03)
@@ -267,50 +271,52 @@ def test_measured_holes_are_judged(console: MachineConsole) -> None:
 
 
 @pytest.mark.parametrize(
-    ("asked", "reason"),
+    ("options", "reason"),
     [
-        (Asked(measured=measured(*CORNERS), rotate_deg=90.0), "given together with an alignment"),
-        (Asked(panel=PanelOf(2, 1, 0.0, 0.0)), "pitch 0"),
-        (Asked(panel=PanelOf(0, 1, 1.0, 1.0)), "has no board"),
-        (Asked(peck_mm=0.001), "is not a depth"),
-        (Asked(skip_tools=(9,)), "has no tool T9"),
-        (Asked(drills="/nowhere/drills.toml"), "can't be read"),
-        (Asked(format="furlongs"), "bad-format"),
+        (JobOptions(align=measured(*CORNERS), rotate_deg=90.0), "given together with an alignment"),
+        (JobOptions(panel=PanelOf(2, 1, 0.0, 0.0)), "pitch 0"),
+        (JobOptions(panel=PanelOf(0, 1, 1.0, 1.0)), "has no board"),
+        (JobOptions(peck_mm=0.001), "is not a depth"),
+        (JobOptions(skip_tools=(9,)), "has no tool T9"),
+        (JobOptions(drills="/nowhere/drills.toml"), "can't be read"),
+        (JobOptions(format="furlongs"), "bad-format"),
     ],
 )
-def test_what_cannot_be_done_changes_nothing(console: MachineConsole, board: Path, asked: Asked, reason: str) -> None:
-    assert console.load(str(board), Asked()) == ()
+def test_what_cannot_be_done_changes_nothing(
+    console: MachineConsole, board: Path, options: JobOptions, reason: str
+) -> None:
+    assert console.load(str(board), JobOptions()) == ()
     before = console.board()
-    assert reason in console.load(str(board), asked)[0]
+    assert reason in console.load(str(board), options)[0]
     assert console.board() is before and len(console.recent()) == 1
 
 
 def test_a_panel_repeats_the_board(console: MachineConsole, board: Path) -> None:
-    assert console.load(str(board), Asked(panel=PanelOf(2, 2, 6.0, 7.0))) == ()
+    assert console.load(str(board), JobOptions(panel=PanelOf(2, 2, 6.0, 7.0))) == ()
     placed = console.board()
     assert placed is not None and len(placed.xy_mm) == 16
     np.testing.assert_allclose(np.ptp(placed.xy_mm, axis=0), [8.0, 10.0], atol=0.03)
 
 
 def test_opened_boards_are_remembered(console: MachineConsole, board: Path) -> None:
-    console.load(str(board), Asked(mirror="x"))
-    console.load(str(BLINKER), Asked())
-    assert [(Path(job.file).name, job.asked.mirror) for job in console.recent()] == [
+    console.load(str(board), JobOptions(mirror="x"))
+    console.load(str(BLINKER), JobOptions())
+    assert [(Path(job.file).name, job.options.mirror) for job in console.recent()] == [
         ("blinker.drl", None), ("job.drl", "x"),
     ]  # fmt: skip
 
 
 def test_a_queue_is_no_board(console: MachineConsole) -> None:
-    assert "run from the queue editor" in console.load(str(BLINKER.with_name("square.kmd")), Asked())[0]
+    assert "run from the queue editor" in console.load(str(BLINKER.with_name("square.kmd")), JobOptions())[0]
 
 
 def test_a_pipe_is_refused_at_once(console: MachineConsole, tmp_path: Path) -> None:
     """Opening one waits for whoever writes into it, and the screen with it."""
     os.mkfifo(tmp_path / "pipe.drl")
     refused = (f"{tmp_path / 'pipe.drl'}: can't be read: a pipe or a device, not a file",)
-    assert console.load(str(tmp_path / "pipe.drl"), Asked()) == refused
+    assert console.load(str(tmp_path / "pipe.drl"), JobOptions()) == refused
     assert QueueFiles(lambda: console.machine).open_queue(str(tmp_path / "pipe.drl")) == ("", refused)
-    assert console.load(str(BLINKER), Asked(drills=str(tmp_path / "pipe.drl"))) == refused
+    assert console.load(str(BLINKER), JobOptions(drills=str(tmp_path / "pipe.drl"))) == refused
 
 
 def test_a_hole_is_done_when_the_head_is_up_again(console: MachineConsole, board: Path) -> None:
@@ -318,7 +324,7 @@ def test_a_hole_is_done_when_the_head_is_up_again(console: MachineConsole, board
         view = console.view()
         return view.command.startswith("KMD_WIERTLO_GORA") and view.axes[2].position_steps > 20
 
-    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    assert console.load(str(board), JobOptions()) == () and console.start(dry=False) == ()
     until(console, on_its_way_up)
     told = console.progress()
     assert told is not None and told.holes_done == 0
@@ -327,7 +333,7 @@ def test_a_hole_is_done_when_the_head_is_up_again(console: MachineConsole, board
 def test_a_turn_takes_a_machine_that_runs_free_far(console: MachineConsole, board: Path) -> None:
     """The screen turns it a few hundred times a second at most."""
     assert console.turn() is False, "at rest there is nothing to hurry for"
-    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    assert console.load(str(board), JobOptions()) == () and console.start(dry=False) == ()
     turns = 1
     while console.turn():
         turns += 1

@@ -12,7 +12,7 @@ from drillctl.console.machine_console import MachineConsole
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.paced_link import PacedLink
-from drillctl.viewmodel.console import Asked
+from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import settle, until
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -43,7 +43,7 @@ def test_initialise_jog_base_and_go(console: MachineConsole) -> None:
 
 def test_a_board_is_loaded_and_drilled_dry(console: MachineConsole) -> None:
     assert console.start(dry=True) == ("no board is loaded: open a drill file first",)
-    assert console.load(str(EXAMPLES / "blinker.drl"), Asked(order="nearest")) == ()
+    assert console.load(str(EXAMPLES / "blinker.drl"), JobOptions(order="nearest")) == ()
     board = console.board()
     assert board is not None and len(board.xy_mm) == 26 and board.estimate.ticks > 0
     assert console.start(dry=True) == ()
@@ -55,9 +55,9 @@ def test_a_board_is_loaded_and_drilled_dry(console: MachineConsole) -> None:
 
 
 def test_a_bad_file_leaves_the_board_as_it_was(console: MachineConsole, tmp_path: Path) -> None:
-    assert console.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
+    assert console.load(str(EXAMPLES / "blinker.drl"), JobOptions()) == ()
     (tmp_path / "bad.drl").write_text("hello\n")
-    problems = console.load(str(tmp_path / "bad.drl"), Asked())
+    problems = console.load(str(tmp_path / "bad.drl"), JobOptions())
     assert len(problems) == 1 and "bad.drl" in problems[0]
     board = console.board()
     assert board is not None and board.name == "blinker.drl"
@@ -110,7 +110,7 @@ def test_a_fault_in_a_queue_is_told(console: MachineConsole) -> None:
 
 
 def test_another_machine_starts_anew(console: MachineConsole) -> None:
-    assert console.load(str(EXAMPLES / "blinker.drl"), Asked()) == ()
+    assert console.load(str(EXAMPLES / "blinker.drl"), JobOptions()) == ()
     assert console.choose_machine("pcb-drill-ramp-lab") == ()
     assert console.view().machine == "pcb-drill-ramp-lab" and console.board() is None
     assert "no machine of this name" in console.choose_machine("nonsense")[0]
@@ -124,7 +124,7 @@ def test_a_busy_desk_at_rest_loses_nothing_and_a_moving_machine_takes_no_board(c
     console.turn()
     assert console.view().fault is None and console.view().position_known
     console.jog("x", 9000)
-    assert console.load(str(EXAMPLES / "blinker.drl"), Asked())[0].startswith("the machine is at work")
+    assert console.load(str(EXAMPLES / "blinker.drl"), JobOptions())[0].startswith("the machine is at work")
     settle(console)
 
 

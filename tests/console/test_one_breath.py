@@ -8,7 +8,8 @@ import pytest
 from drillctl.console.machine_console import MachineConsole
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
-from drillctl.viewmodel.console import Asked, Problems
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import settle, until
 
 Begin = Callable[[MachineConsole], Problems]
@@ -29,7 +30,7 @@ def console(request: pytest.FixtureRequest) -> Iterator[MachineConsole]:
     made = MachineConsole(
         library, library.machine("pcb-drill").at_rate(2000), RunSettings(pace=request.param), tools="assume"
     )
-    assert made.load(str(EXAMPLES / "blinker.drl"), Asked()) == () == made.initialise()
+    assert made.load(str(EXAMPLES / "blinker.drl"), JobOptions()) == () == made.initialise()
     settle(made)
     yield made
     made.close()

@@ -11,7 +11,7 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.machine.edit import set_pattern, set_value
 from drillctl.ticker import launch as machinery
 from drillctl.ticker.launch import RunSettings
-from drillctl.viewmodel.console import Asked
+from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import settle, until
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -62,7 +62,7 @@ def test_a_port_that_can_not_carry_it_refuses_with_the_rate_it_can(
 
 
 def test_a_board_on_the_desk_takes_its_time_by_the_new_rate(console: MachineConsole) -> None:
-    console.load(str(EXAMPLES / "blinker.drl"), Asked())
+    console.load(str(EXAMPLES / "blinker.drl"), JobOptions())
     console.set_tick_hz(580)
     until(console, lambda: console.view().tick_hz == 580)
     board = console.board()

@@ -9,7 +9,8 @@ from drillctl.console.machine_console import MachineConsole
 from drillctl.console.operator_state import asks_for_tools
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
-from drillctl.viewmodel.console import Asked, ToolWanted
+from drillctl.viewmodel.console import ToolWanted
+from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import until
 
 TWO_TOOLS = "M48\nMETRIC\nT1C0.800\nT2C1.000\n%\nT1\nX10.0Y10.0\nT2\nX12.0Y10.0\nM30\n"
@@ -20,7 +21,7 @@ def console(tmp_path: Path) -> Iterator[MachineConsole]:
     library = Library.standard()
     made = MachineConsole(library, library.machine("pcb-drill").at_rate(5000), RunSettings(pace="free"), tools="ask")
     (tmp_path / "two.drl").write_text(TWO_TOOLS)
-    assert made.load(str(tmp_path / "two.drl"), Asked(format="mm,decimal")) == ()
+    assert made.load(str(tmp_path / "two.drl"), JobOptions(format="mm,decimal")) == ()
     yield made
     made.close()
 

@@ -14,14 +14,15 @@ from typing import Any
 import pytest
 
 from drillctl.cli import main
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.jobs.journal import Account, Head, Journal, JournalError
 from drillctl.jobs.journal.reader import account_of
+from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.jobs import Site
 from tests.support.journalled import SITE, forged, keep_lines, lines_of, resume, run
 
 HOLES = 3
-OPTIONS = json.loads(json.dumps(JobOptions("pcb-drill", order="nearest").as_journalled()))
+OPTIONS = json.loads(json.dumps(JobSetup("pcb-drill", JobOptions(order="nearest")).as_journalled()))
 HEAD = Head("/job.drl", "a" * 64, "b" * 64, "pcb-drill", "c" * 16, HOLES, OPTIONS)
 OTHER = replace(SITE, port="mapped:/card", pace="real")
 # What happened, in order: begun and done holes, ends of runs, and S for a resumption.

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library, shipped_tables
@@ -23,7 +23,7 @@ def drilled(file: Path, tick_hz: int) -> Outcome:
     """On pcb-drill with its nominal figures."""
     machine = Library((shipped_tables(),)).machine("pcb-drill").at_rate(tick_hz)
     link = LocalLink(Ticker.simulated(machine, plant_choice=PlantChoice("dynamic")))
-    return JobRunner(load_job(file, machine, JobOptions("pcb-drill")), link, lambda progress: None).run().outcome
+    return JobRunner(load_job(file, machine, JobSetup("pcb-drill")), link, lambda progress: None).run().outcome
 
 
 def loses(outcome: Outcome) -> bool:

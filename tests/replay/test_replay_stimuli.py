@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from drillctl.generation.job import names_of
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.kmd import Request, parse_program
 from drillctl.machine import Library, shipped_tables
@@ -23,7 +23,7 @@ def run_with(folder: Path, text: str, act: Callable[[Ticker, int], None]) -> Pat
     """A queue that is fed as ``act`` says (it is called before each of many wakes), and the trace of that."""
     machine = LIBRARY.machine("pcb-drill")
     (folder / "q.kmd").write_text(text)
-    job = load_job(folder / "q.kmd", machine, JobOptions("pcb-drill"))
+    job = load_job(folder / "q.kmd", machine, JobSetup("pcb-drill"))
     ticker = Ticker.simulated(machine, traced=True)
     ticker.queue.put(job.program[:1])
     for wake in range(400):
@@ -71,7 +71,7 @@ def test_a_run_let_through_by_ticks_is_the_run_that_was_not(granted: int, tmp_pa
     machine = LIBRARY.machine("pcb-drill")
     text = "KMD_RUCHd x=30 y=-9\nKMD_CZEKAJ 3\nKMD_LINIAd x=5 y=7\n"
     (tmp_path / "q.kmd").write_text(text)
-    job = load_job(tmp_path / "q.kmd", machine, JobOptions("pcb-drill"))
+    job = load_job(tmp_path / "q.kmd", machine, JobSetup("pcb-drill"))
     traces = []
     for paused in (False, True):
         ticker = Ticker.simulated(machine, traced=True)

@@ -8,7 +8,8 @@ import urwid
 
 from drillctl.ui.app import App
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView, Problems, ToolView, Watch
-from drillctl.viewmodel.jobs import AlignmentReport, Asked, MeasuredHole, RecentJob, UnfinishedJob
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
+from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
 
 MOTIONS = {"go_on", "start", "run_queue", "initialise", "jog", "go_to", "set_base", "resume"}
@@ -74,7 +75,7 @@ class FakeConsole:
     def machines(self) -> Sequence[tuple[str, str]]:
         return [("pcb-drill", "the paper's"), ("boiler-drum", "the large one")]
 
-    def load(self, file: str, asked: Asked, watch: Watch) -> Problems:
+    def load(self, file: str, asked: JobOptions, watch: Watch) -> Problems:
         if not self.answer:
             self.loaded = replace(BOARD, file=file)
         return self._keep("load", file, asked)

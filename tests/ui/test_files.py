@@ -14,7 +14,8 @@ from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
-from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob, Site, UnfinishedJob
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
+from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
 from tests.support.messages import screen_templates
 from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 
@@ -40,10 +41,10 @@ def opened(console: FakeConsole | None = None, size: tuple[int, int] = (80, 24))
     return program
 
 
-def asked(program: Program) -> Asked:
+def asked(program: Program) -> JobOptions:
     """As the board was asked for last."""
     wanted = next(request[2] for request in reversed(program.console.asked) if request[0] == "load")
-    assert isinstance(wanted, Asked)
+    assert isinstance(wanted, JobOptions)
     return wanted
 
 
@@ -102,14 +103,14 @@ def test_how_to_drill_is_asked_and_shown(folder: Path) -> None:
     program.press("w")
     typed(program, "0.5", "0,2", "T3 2", "drills.toml")
     program.press("enter")
-    wanted = Asked(peck_mm=0.5, spot_mm=0.2, skip_tools=(2, 3), drills=str(folder / "drills.toml"))
+    wanted = JobOptions(peck_mm=0.5, spot_mm=0.2, skip_tools=(2, 3), drills=str(folder / "drills.toml"))
     assert asked(program) == wanted
     for told in ("In pecks of 0.5 mm", "A spot of 0.2 mm first", "Without tools T2 T3", "Drills at hand: "):
         assert told in program.text()
     program.press("w")
     typed(program, "", "", "", "", wiped=120)
     program.press("enter")
-    assert asked(program) == Asked()
+    assert asked(program) == JobOptions()
 
 
 @pytest.mark.parametrize(("field", "text"), [(0, "deep"), (1, "inf"), (2, "T1 x")])
@@ -125,8 +126,8 @@ def test_what_cannot_be_read_is_said_in_the_form(folder: Path, field: int, text:
 
 
 def test_recent_jobs_are_opened_with_their_settings_by_one_key(folder: Path) -> None:
-    settings = Asked(mirror="x", panel=PanelOf(2, 1, 40.0, 0.0))
-    jobs = [RecentJob(str(folder / "four.drl"), settings), RecentJob("/gone/two.drl", Asked())]
+    settings = JobOptions(mirror="x", panel=PanelOf(2, 1, 40.0, 0.0))
+    jobs = [RecentJob(str(folder / "four.drl"), settings), RecentJob("/gone/two.drl", JobOptions())]
     program = Program(FakeConsole(recent_jobs=jobs))
     program.press("f", "l")
     assert "1 four.drl  in X  Panel: 2 x 1" in program.text() and "2 two.drl" in program.text()
@@ -135,7 +136,7 @@ def test_recent_jobs_are_opened_with_their_settings_by_one_key(folder: Path) -> 
     assert "4 holes, 40.00 x 20.00 mm" in program.text()
     program.console.answer = ("/gone/two.drl: can't be read: No such file or directory",)
     program.press("l", "down", "enter")
-    assert "Refused" in program.text() and asked(program) == Asked()
+    assert "Refused" in program.text() and asked(program) == JobOptions()
 
 
 def test_holes_behind_the_end_can_be_asked_for(folder: Path) -> None:
@@ -147,21 +148,21 @@ def test_holes_behind_the_end_can_be_asked_for(folder: Path) -> None:
 
 
 def test_a_list_of_recent_jobs_with_a_value_that_is_not_known_is_shown(folder: Path) -> None:
-    settings = Asked(order="shortest", after_end="sell")
+    settings = JobOptions(rotate_deg=33.0)
     program = Program(FakeConsole(recent_jobs=[RecentJob(str(folder / "four.drl"), settings)]), (130, 40))
     program.press("f", "l")
-    assert "four.drl  shortest  sell" in program.text()
-    program.press("1", "r")
-    assert asked(program).order == "file"
+    assert "four.drl  33.0" in program.text()
+    program.press("1", "t")
+    assert asked(program).rotate_deg == 0.0
 
 
 def test_another_board_is_not_placed_by_what_was_measured_on_the_last(folder: Path) -> None:
     (folder / "more.drl").write_text("M48\n")
-    settings = Asked(mirror="x", measured=(MeasuredHole(0, 0, 1, 1),), skip_tools=(2,))
+    settings = JobOptions(mirror="x", align=(MeasuredHole(0, 0, 1, 1),), skip_tools=(2,))
     jobs = [RecentJob(str(folder / "four.drl"), settings)]
     program = Program(FakeConsole(recent_jobs=jobs))
     program.press("f", "l", "1", "down", "enter")
-    assert asked(program) == Asked(mirror="x")
+    assert asked(program) == JobOptions(mirror="x")
 
 
 @pytest.mark.parametrize("language", words.LANGUAGES)
@@ -382,7 +383,7 @@ def test_an_example_board_is_loaded_by_its_number(first: tuple[str, ...]) -> Non
     board = examples.boards()[0]
     assert f"1 board {board.name}" in program.text()
     program.press("1")
-    assert program.console.asked == [("load", str(board), Asked())]
+    assert program.console.asked == [("load", str(board), JobOptions())]
     assert isinstance(program.app.screens[-1], Drilling)
 
 

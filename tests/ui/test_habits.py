@@ -17,7 +17,7 @@ from drillctl.ui.widgets.finder import Found, fits, fitting
 from drillctl.ui.widgets.keys import FRAME_KEYS
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import THEMES, shades
-from drillctl.viewmodel.jobs import Asked
+from drillctl.viewmodel.job_options import JobOptions
 from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 from tests.ui.whole import Watched, at_home
 
@@ -147,7 +147,7 @@ def test_each_example_board_is_understood_without_a_doubt(tmp_path: Path, monkey
     console = Watched()
     try:
         for file in boards():
-            assert super(Watched, console).load(str(file), Asked()) == ()
+            assert super(Watched, console).load(str(file), JobOptions()) == ()
             board = console.board()
             assert board is not None and not board.warnings and board.confidence == 1.0, file
             assert len(board.tools) >= 3, file

@@ -25,7 +25,8 @@ from drillctl.ui.terminal.charts import COLOURS, NO_COLOUR, ChartLook, picture_l
 from drillctl.ui.terminal.image_file import picture_bytes
 from drillctl.ui.widgets import texts
 from drillctl.ui.widgets.dialogs import Field
-from drillctl.viewmodel.jobs import Asked, RecentJob, Site, UnfinishedJob
+from drillctl.viewmodel.job_options import JobOptions
+from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
 from tests.ui.whole import BLINKER, SCREENS, at_home
@@ -59,7 +60,7 @@ def test_whatever_the_console_says() -> None:
     """Machine, axes, wires, sensors, outputs, command, fault, notices, board, tools, warnings, jobs, answers."""
     view = nasty(replace(VIEW, notices=("a", "b"), command="KMD_BAZA"))
     console = FakeConsole(view, nasty(BOARD), answer=(NASTY, NASTY))
-    console.recent_jobs = [RecentJob(NASTY, Asked())]
+    console.recent_jobs = [RecentJob(NASTY, JobOptions())]
     console.unfinished_jobs = [UnfinishedJob(NASTY, NASTY, NASTY, 1, 4, (2,), True, True, None, THERE, THERE)]
     program = Program(console)
     for keys in ((), ("i",), ("esc",), ("f1",), ("esc",), ("f9", "down"), ("esc",), ("f2",), ("l",), ("esc",)):

@@ -16,7 +16,8 @@ from drillctl.ui.pcb_drill.files import CHOICES, Files
 from drillctl.ui.pcb_drill.side_window import side_pages
 from drillctl.ui.screens.jog_controls import JOG_SIZES, MM, STEPS
 from drillctl.ui.widgets.texts import Line
-from drillctl.viewmodel.console import Asked, MachineView, ToolWanted
+from drillctl.viewmodel.console import MachineView, ToolWanted
+from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.records import Progress
 from tests.ui.fake_console import BOARD, VIEW, WIRES, FakeConsole, Program
 
@@ -255,7 +256,7 @@ def test_folders_are_entered_and_left(folder: Path) -> None:
 def test_loading_tells_format_reason_tools_size_estimate_and_warnings(folder: Path) -> None:
     program = files_program(size=(130, 40))
     program.press("down", "down", "enter")
-    assert program.console.asked == [("load", str(folder / "four.drl"), Asked())]
+    assert program.console.asked == [("load", str(folder / "four.drl"), JobOptions())]
     text = program.text()
     for told in ("4 holes, 40.00 x 20.00 mm", "Excellon decimal, mm decimal (90%): the numbers carry points",
                  "else: inch decimal", "T1", "0.800 mm", "Estimate 0:10", "warning: four.drl:3: no end of program",
@@ -266,13 +267,13 @@ def test_loading_tells_format_reason_tools_size_estimate_and_warnings(folder: Pa
 def test_placing_reads_the_file_anew_and_a_refused_one_changes_nothing(folder: Path) -> None:
     program = files_program()
     program.press("down", "down", "enter", "m", "t")
-    assert program.console.asked[-1][2] == Asked(mirror="x", rotate_deg=90.0)
+    assert program.console.asked[-1][2] == JobOptions(mirror="x", rotate_deg=90.0)
     program.console.answer = ("beyond the reach: X 400 mm",)
     program.press("v", *["backspace"] * 3, *"400 0", "enter")
     assert "beyond the reach" in program.text()
     program.console.answer = ()
     program.press("enter", "r")
-    assert program.console.asked[-1][2] == Asked(mirror="x", rotate_deg=90.0, order="nearest")
+    assert program.console.asked[-1][2] == JobOptions(mirror="x", rotate_deg=90.0, order="nearest")
 
 
 def test_every_key_of_files_does_something(folder: Path) -> None:
@@ -291,7 +292,7 @@ def test_every_choice_comes_back_to_its_first_value(folder: Path) -> None:
         program = files_program()
         keys = {key.argument: key.names[0] for key in Files.keys if key.method == "cycle"}
         program.press(*[keys[choice.field]] * len(choice.values), "down", "down", "enter")
-        assert program.console.asked == [("load", str(folder / "four.drl"), Asked())]
+        assert program.console.asked == [("load", str(folder / "four.drl"), JobOptions())]
 
 
 def test_what_can_not_be_read_is_named(folder: Path) -> None:

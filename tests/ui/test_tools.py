@@ -8,7 +8,7 @@ import pytest
 
 from drillctl.cli import main
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library
@@ -36,7 +36,7 @@ def silent(progress: Progress) -> None:
 
 
 def board() -> Job:
-    return load_job(BLINKER, Library.standard().machine("pcb-drill"), JobOptions("pcb-drill"))
+    return load_job(BLINKER, Library.standard().machine("pcb-drill"), JobSetup("pcb-drill"))
 
 
 def test_each_tool_is_asked_for_before_its_first_hole() -> None:

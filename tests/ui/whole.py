@@ -19,7 +19,7 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
 from drillctl.ui import app, background
 from drillctl.viewmodel.console import Problems, Watch
-from drillctl.viewmodel.jobs import Asked
+from drillctl.viewmodel.job_options import JobOptions
 from tests.ui.fake_console import Paper
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
@@ -62,7 +62,7 @@ class Watched(MachineConsole):
         self.moved: list[tuple[str, set[str]]] = []
         self.stops = 0
 
-    def load(self, file: str, asked: Asked, watch: Watch = unwatched) -> Problems:
+    def load(self, file: str, asked: JobOptions, watch: Watch = unwatched) -> Problems:
         return super().load(str(BLINKER), asked, watch)
 
     def start(self, dry: bool) -> Problems:

@@ -7,9 +7,9 @@ from drillctl.generation.boiler_drum.stores import find_part, has_stores, number
 from drillctl.generation.boiler_drum.text import Part, is_sentences, read_part
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.waits import Waits
-from drillctl.generation.wishes import Wishes
+from drillctl.generation.work_settings import WorkSettings
 from drillctl.language import Message
 from drillctl.machine import Machine
 
@@ -34,11 +34,11 @@ def part_of(path: Path, machine: Machine, ram: Path | None) -> Part:
     return find_part(number, machine, ram)
 
 
-def load_part(path: Path, machine: Machine, options: JobOptions, wishes: Wishes, waits: Waits) -> Job:
+def load_part(path: Path, machine: Machine, setup: JobSetup, settings: WorkSettings, waits: Waits) -> Job:
     """A part program as a job; nothing of it is placed or ordered. Raises JobError with file and line, or with the
     store and its cell.
     """
-    part = part_of(path, machine, wishes.store)
+    part = part_of(path, machine, settings.store)
     program = part_program(part, machine)
     return Job(path.name if not part.in_store else part.source, program, machine,
                warnings=tuple(tool_in_wall(part, machine)))  # fmt: skip

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.waits import ORDERING, Waits, reading
-from drillctl.generation.wishes import Wishes
+from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import WorkList, build
 from drillctl.language import Message
 from drillctl.machine import Machine
@@ -21,26 +21,26 @@ if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile, DrillFileError
 
 
-def load_board(path: Path, machine: Machine, options: JobOptions, wishes: Wishes, waits: Waits) -> Job:
+def load_board(path: Path, machine: Machine, setup: JobSetup, settings: WorkSettings, waits: Waits) -> Job:
     """A drill file as a job, read, placed and ordered by its options. Raises JobError or PlacingError."""
     from drillctl.generation.drillfile import DrillFileError, read
 
     try:
         advance = waits(reading(path.name))
-        found = read(path, fmt=options.format, after_end=options.after_end, advance=advance)
+        found = read(path, fmt=setup.options.format, after_end=setup.options.after_end, advance=advance)
     except DrillFileError as error:
         raise refusal(path, error) from error
     drill_file = replace(found, name=str(path))
-    work = build(drill_file, wishes, machine, waits(ORDERING))
+    work = build(drill_file, settings, machine, waits(ORDERING))
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
-    return Job(path.name, board_program(work, machine, wishes), machine, work, warnings)
+    return Job(path.name, board_program(work, machine, settings), machine, work, warnings)
 
 
-def without_holes(job: Job, done: set[int], options: JobOptions) -> Job:
+def without_holes(job: Job, done: set[int], setup: JobSetup) -> Job:
     """What is left of a board when these holes, by number, are drilled: initialised anew, from the same base."""
     assert job.work is not None
     work = job.work.without(done)
-    return replace(job, work=work, program=board_program(work, job.machine, options.wishes(job.machine)))
+    return replace(job, work=work, program=board_program(work, job.machine, setup.work_settings(job.machine)))
 
 
 def refusal(path: Path, error: "DrillFileError") -> JobError:

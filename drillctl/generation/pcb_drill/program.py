@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 
 from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
 from drillctl.generation.sequences import Records, numbered, record
-from drillctl.generation.wishes import Wishes
+from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import Group, WorkList, positioning_axes
 from drillctl.kmd import RECORD, Op
 from drillctl.kmd.commands import Flag
 from drillctl.machine import Machine
 
 
-def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
+def board_program(work: WorkList, machine: Machine, settings: WorkSettings) -> Records:
     """The program of a job, dtype RECORD; at the end the head is up and back at the working base."""
     spindle = dict(machine.outputs).get("spindle")
-    drill = drill_stroke(machine, wishes.peck_mm)
-    passes = [drill] if wishes.spot_mm is None else [spot_stroke(machine, wishes.spot_mm), drill]
-    parts = [record(Op.INICJALIZACJA), *_base(wishes, machine)]
+    drill = drill_stroke(machine, settings.peck_mm)
+    passes = [drill] if settings.spot_mm is None else [spot_stroke(machine, settings.spot_mm), drill]
+    parts = [record(Op.INICJALIZACJA), *_base(settings, machine)]
     here = np.zeros(2, np.int64)
     for group in work.groups:
         parts += [*_switch(spindle, 0), record(Op.NARZEDZIE, [group.number])]  # hands are at the chuck meanwhile
@@ -33,11 +33,11 @@ def board_program(work: WorkList, machine: Machine, wishes: Wishes) -> Records:
     return numbered(parts)
 
 
-def _base(wishes: Wishes, machine: Machine) -> list[Records]:
+def _base(settings: WorkSettings, machine: Machine) -> list[Records]:
     """Initialisation leaves the base at machine zero; one elsewhere is gone to and taken again."""
-    if not any(wishes.base_steps):
+    if not any(settings.base_steps):
         return []
-    return [_gotos(np.array([wishes.base_steps], np.int64), machine), record(Op.BAZA)]
+    return [_gotos(np.array([settings.base_steps], np.int64), machine), record(Op.BAZA)]
 
 
 def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:

@@ -10,10 +10,11 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from drillctl.generation.job_options import BAD_VALUES, FilePath
+from drillctl.generation.job_setup import BAD_VALUES
 from drillctl.jobs.journal.chain import NO_SEAL
 from drillctl.language import Message, Refusal, message_of
 from drillctl.plant.choice import GREATEST_SEED
+from drillctl.viewmodel.job_options import FilePath
 from drillctl.viewmodel.jobs import Site
 
 DONE = "done"

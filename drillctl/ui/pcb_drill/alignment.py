@@ -19,7 +19,7 @@ from drillctl.ui.widgets.dialogs import Answered
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView
-from drillctl.viewmodel.jobs import Asked, MeasuredHole
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 
 WIDTH = 78
 NONE_TO_SPARE = 3  # holes that fix shift, turn, scale and shear just so: their residuals are 0, whatever was measured
@@ -44,7 +44,7 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
     )
 
     def __init__(
-        self, console: Console, shell: Shell, board: BoardView, options: Asked,
+        self, console: Console, shell: Shell, board: BoardView, options: JobOptions,
         accept: Callable[[tuple[MeasuredHole, ...], Answered], object],
     ):  # fmt: skip
         JogControls.__init__(self, console)

@@ -1,4 +1,4 @@
-"""A board and what was asked of it, in words. Functions of Asked and BoardView; shown by the Files screen."""
+"""A board and its options in words. Functions of JobOptions and BoardView; shown by the Files screen."""
 
 from itertools import zip_longest
 from pathlib import Path
@@ -10,14 +10,14 @@ from drillctl.language.figures import clock
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.typed import BY_OPTION
 from drillctl.viewmodel.console import BoardView
-from drillctl.viewmodel.jobs import Asked
+from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.records import ToolEstimate
 
 LEFT_COLUMNS = 24
 
 
 class PlacingChoice(NamedTuple):
-    """A way to place or drill a board: a field of Asked, its label, its values with the word for each."""
+    """A way to place or drill a board: a field of JobOptions, its label, its values with the word for each."""
 
     field: str
     label: str
@@ -27,7 +27,7 @@ class PlacingChoice(NamedTuple):
 CHOICES = (
     PlacingChoice("mirror", N_("Mirror"), ((None, N_("no")), ("x", N_("in X")), ("y", N_("in Y")))),
     PlacingChoice("rotate_deg", N_("Turn"), ((0.0, "0°"), (90.0, "90°"), (180.0, "180°"), (270.0, "270°"))),
-    PlacingChoice("origin", N_("Origin"), (("base", N_("lowest hole")), ("file", N_("file zero")))),
+    PlacingChoice("origin", N_("Origin"), ((None, N_("lowest hole")), ("file", N_("file zero")))),
     PlacingChoice(
         "order",
         N_("Order"),
@@ -41,7 +41,7 @@ CHOICES = (
 )
 
 
-def option_lines(options: Asked) -> list[str]:
+def option_lines(options: JobOptions) -> list[str]:
     """The options that always have a value, two a line; then those that were set beside them."""
     pairs = [f"{_('Format')}: {format_word(options.format)}"]
     pairs += [f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES] + [_offset(options)]
@@ -49,11 +49,11 @@ def option_lines(options: Asked) -> list[str]:
     return [*lines, *_further(options)]
 
 
-def _offset(options: Asked) -> str:
+def _offset(options: JobOptions) -> str:
     return "{}: {:g} {:g} mm".format(_("Offset"), *options.offset_mm)
 
 
-def _chosen(choice: PlacingChoice, options: Asked) -> str:
+def _chosen(choice: PlacingChoice, options: JobOptions) -> str:
     """The word for what was chosen; a list of recent jobs may hold values that can't be chosen."""
     value = getattr(options, choice.field)
     return _(dict(choice.values).get(value, str(value)))
@@ -70,9 +70,9 @@ def format_name(option: str) -> str:
     return f"{name} ({option})" if option else name
 
 
-def recent_line(file: str, options: Asked) -> str:
+def recent_line(file: str, options: JobOptions) -> str:
     """The line of a job opened before: the file, and the options that differ from the usual ones."""
-    usual = Asked()
+    usual = JobOptions()
     unusual_choices = [
         _chosen(choice, options) for choice in CHOICES if getattr(options, choice.field) != getattr(usual, choice.field)
     ]
@@ -81,7 +81,7 @@ def recent_line(file: str, options: Asked) -> str:
     return "  ".join([Path(file).name, *unusual, str(Path(file).parent)])
 
 
-def _further(options: Asked) -> list[str]:
+def _further(options: JobOptions) -> list[str]:
     lines = []
     if panel := options.panel:
         text = _("Panel: {columns} x {rows}, {x:g} by {y:g} mm")

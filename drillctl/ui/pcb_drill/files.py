@@ -6,11 +6,11 @@ shown of a board comes from its BoardView alone.
 
 import os
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import urwid
+from msgspec.structs import replace
 
 from drillctl.files.inputs import real_path
 from drillctl.language import Message
@@ -28,7 +28,8 @@ from drillctl.ui.widgets.dialogs import Answered, Field
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Icon, Size, Text
 from drillctl.viewmodel.console import Console, Problems, Watch
-from drillctl.viewmodel.jobs import Asked, MeasuredHole, PanelOf, RecentJob
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
+from drillctl.viewmodel.jobs import RecentJob
 
 BY_FIELD = {choice.field: choice for choice in CHOICES}
 
@@ -58,7 +59,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False, folder: Path | None = None):
         self._console, self._shell = console, shell
-        self._options, self._loaded = Asked(), Path()
+        self._options, self._loaded = JobOptions(), Path()
         self._picture = BoardPicture(plain)
         self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
         facts = urwid.ListBox(self._rows)
@@ -94,7 +95,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         if not jobs:
             self._shell.message(_("Recent"), [_("No file has been opened yet.")])
             return
-        lines = [recent_line(job.file, job.asked) for job in jobs]
+        lines = [recent_line(job.file, job.options) for job in jobs]
         self._shell.choose(_("Recent"), lines, lambda index: self._open_again(jobs[index]))
 
     def examples(self) -> None:
@@ -110,7 +111,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             if not problems:
                 self._shell.show("drilling")
 
-        self._read(file, replace(self._options, measured=(), skip_tools=()), opened)
+        self._read(file, replace(self._options, align=None, skip_tools=()), opened)
 
     def unfinished(self) -> None:
         """Offers to resume the jobs that were interrupted."""
@@ -120,7 +121,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def load(self, file: Path) -> None:
         """Loads a file. Holes measured on another board, and its tools left out, do not apply to it."""
         same = file == self._loaded
-        self._read(file, self._options if same else replace(self._options, measured=(), skip_tools=()), self._tell)
+        self._read(file, self._options if same else replace(self._options, align=None, skip_tools=()), self._tell)
 
     def cycle(self, field: str) -> None:
         """The next value of a choice; the first one after a value that can't be chosen."""
@@ -200,10 +201,10 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         self._change(answered, **changes)
 
     def _place_by(self, measured: tuple[MeasuredHole, ...], answered: Answered) -> None:
-        """The holes say where the board lies; only whether it lies face down was asked beside them."""
-        usual = Asked()
+        """The holes say where the board lies; of the other options only a mirror, the board's side, is kept."""
+        usual = JobOptions()
         placed = {"origin": usual.origin, "rotate_deg": usual.rotate_deg, "offset_mm": usual.offset_mm}
-        self._change(answered, measured=measured, **(placed if measured else {}))
+        self._change(answered, align=measured or None, **(placed if measured else {}))
 
     def _open_again(self, job: RecentJob) -> None:
         file = Path(job.file)
@@ -213,7 +214,7 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
             if not problems:
                 self._browser.stand_on(file)
 
-        self._read(file, job.asked, opened)
+        self._read(file, job.options, opened)
 
     def _set_offset(self, text: str) -> None:
         pair = pair_mm(text)
@@ -231,17 +232,17 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         if problems:
             self._shell.message(_("Refused"), [translated(problem) for problem in problems])
 
-    def _read(self, file: Path, options: Asked, then: Answered) -> None:
+    def _read(self, file: Path, options: JobOptions, then: Answered) -> None:
         """Reads the file with these options beside the screen; without a file yet they are kept for the first one."""
 
         self._shell.work(
             lambda watch: self._load(file, options, watch), lambda problems: then(self._taken(file, options, problems))
         )
 
-    def _load(self, file: Path, options: Asked, watch: Watch) -> Problems:
+    def _load(self, file: Path, options: JobOptions, watch: Watch) -> Problems:
         return self._console.load(str(file), options, watch) if file.name else ()
 
-    def _taken(self, file: Path, options: Asked, problems: Problems) -> Problems:
+    def _taken(self, file: Path, options: JobOptions, problems: Problems) -> Problems:
         """Shows a board that was read without problems; returns these."""
         if not problems:
             self._options, self._loaded = options, file

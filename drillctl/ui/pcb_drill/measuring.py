@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.viewmodel.console import BoardView, Problems
-from drillctl.viewmodel.jobs import AlignmentReport, MeasuredHole
+from drillctl.viewmodel.job_options import MeasuredHole
+from drillctl.viewmodel.jobs import AlignmentReport
 
 PlaceMm = tuple[float, float]
 Align = Callable[[tuple[MeasuredHole, ...], bool], tuple[AlignmentReport | None, Problems]]

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeVar
 from drillctl.language import Message, message_of
 from drillctl.language.words import N_
 from drillctl.ui.widgets.dialogs import Accept, Answered
-from drillctl.viewmodel.jobs import PanelOf
+from drillctl.viewmodel.job_options import PanelOf
 
 
 class Format(NamedTuple):

@@ -13,7 +13,7 @@ from drillctl.generation.boiler_drum.program import moves, part_program, tool_in
 from drillctl.generation.boiler_drum.sentence import DIRECTIONS, LONGEST_TENTHS, Sentence, way
 from drillctl.generation.boiler_drum.text import LONGEST_LINE, MOST_SENTENCES, parse_part, part_text, read_part
 from drillctl.generation.errors import JobError
-from drillctl.generation.job_options import JobOptions
+from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.kmd import Op
 from drillctl.language import words
@@ -172,7 +172,7 @@ def test_the_carriage_that_moves_with_the_tool_in_the_wall_is_warned_about() -> 
 
 def test_a_sentence_is_one_move_with_its_number_and_its_gear(tmp_path: Path) -> None:
     (tmp_path / "p.sentences").write_text("8F0010\n8F0020\n610300\n")
-    program = load_job(tmp_path / "p.sentences", DRUM, JobOptions(DRUM.name)).program
+    program = load_job(tmp_path / "p.sentences", DRUM, JobSetup(DRUM.name)).program
     kept = program[program["opcode"] == Op.RUCH_D]
     assert kept["tag"].tolist() == [1, 2, 3]
     assert kept["floor_ticks"].tolist() == [interval_ticks(gear, DRUM.axes[0], DRUM.tick_hz) for gear in (15, 15, 1)]

@@ -1,7 +1,7 @@
 """What generation works with, made of a job's options: where the board lies, how it is drilled, the drills at hand.
 
 Rule: plain values, checked here against themselves; against file and machine they are checked by worklist.py and
-strokes.py. Made by ``JobOptions.wishes`` alone.
+strokes.py. Made by ``JobSetup.work_settings`` alone.
 """
 
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ LEAST_PECK_MM = 0.05
 
 
 @dataclass(frozen=True)
-class Wishes:
+class WorkSettings:
     """Order is 'file', 'nearest' or 'optimised'; peck and spot are depths below the board's surface, None = none.
 
     base_steps  the working base that the job is drilled from: X and Y from machine zero

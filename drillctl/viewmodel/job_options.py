@@ -1,0 +1,68 @@
+"""The options of a job, as a person sets them on the command line or on a screen: how its file is read, where the
+board lies, how it is drilled.
+
+Rule: one shape for the verbs, the screens, the list of recent jobs and the journal; in files the options have the
+names of the command line. ``generation/job_setup.py`` adds the machine and the working base that a job is made for.
+"""
+
+from typing import Annotated, NamedTuple
+
+import msgspec
+
+from drillctl.viewmodel.choices import AfterEnd, Mirror, Order, Origin
+
+MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
+FilePath = Annotated[str, msgspec.Meta(min_length=1, pattern=r"\A[^\x00]*\Z")]  # no argument of a program has a NUL
+Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
+NAMES_IN_FILES = {"rotate_deg": "rotate", "offset_mm": "offset", "peck_mm": "peck", "spot_mm": "spot"}
+
+
+class MeasuredHole(NamedTuple):
+    """A hole of the board, in the file's coordinates, and where it was found, from machine zero."""
+
+    file_x_mm: Millimetres
+    file_y_mm: Millimetres
+    machine_x_mm: Millimetres
+    machine_y_mm: Millimetres
+
+
+class PanelOf(NamedTuple):
+    """The same board, so many times along X and Y, at these pitches."""
+
+    columns: int
+    rows: int
+    pitch_x_mm: float
+    pitch_y_mm: float
+
+
+class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename=NAMES_IN_FILES):
+    """Paths are absolute. The types are what the command line takes; they are checked where a file or a screen gives
+    the values (``JobSetup.checked``, ``RecentJobs.read``), and not when a record is made.
+
+    origin             None: the lowest X and Y of the board come to lie at the working base
+    align              an alignment file, or the measured holes themselves; these alone say where the board lies
+    peck_mm, spot_mm   depths below the board's surface
+    drills             the file of the drills at hand
+    after_end          what becomes of holes behind the end of the program (M30)
+    store              the file of a store of workpieces, instead of the machine's own RAM
+    """
+
+    format: str | None = None
+    origin: Origin | None = None
+    mirror: Mirror | None = None
+    rotate_deg: float = 0.0
+    offset_mm: tuple[float, float] = (0.0, 0.0)
+    align: FilePath | tuple[MeasuredHole, ...] | None = None
+    panel: PanelOf | None = None
+    order: Order = "file"
+    skip_tools: tuple[int, ...] = ()
+    drills: FilePath | None = None
+    peck_mm: float | None = None
+    spot_mm: float | None = None
+    after_end: AfterEnd = "refuse"
+    store: FilePath | None = None
+
+    @property
+    def measured(self) -> tuple[MeasuredHole, ...]:
+        """The measured holes that place the board; none where a file lists them, or none were measured."""
+        return self.align if isinstance(self.align, tuple) else ()
