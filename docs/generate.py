@@ -8,6 +8,7 @@ from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, LETTERS, MM_PER_
 from drillctl.kmd import COMMANDS, FAULTS, Reaction
 from drillctl.kmd.commands import Spec
 from drillctl.machine import Library, shipped_tables
+from drillctl.machine.reactions import FIXED, NO_RETURN, NOT_KEPT
 from drillctl.viewmodel import FAULT_WORDS
 
 ROW = "| {} | `{}` | {} |"
@@ -36,7 +37,8 @@ REACTIONS = {
     Reaction.STOP: "brakes down the ramp and stops",
     Reaction.DROP: "outputs safe in the same tick",
     Reaction.STOP_AND_RETURN: "brakes, head up, home by the sensors",
-    Reaction.MACHINE: "as the machine's file says: outputs safe at once, or pulses stopped and current held",
+    Reaction.MACHINE: "as the machine's file says: outputs safe at once (`drop`), pulses stopped and current held "
+    "(`hold`), or down the ramps (`brake`)",
 }
 
 
@@ -55,23 +57,36 @@ def faults_page() -> str:
     parts = [MADE.format("drillctl/kmd/faults.py and drillctl/viewmodel/fault_texts.py"), "", "# Faults", ""]
     parts += [
         "A fault stops the job, empties the queue, and stays until it is acknowledged.",
-        "*Position kept* holds where the position was known.",
+        "*Position kept* holds where the position was known. A machine's file may set another reaction",
+        "(`brake`, `hold`, `drop`, `return`) and keep the position or not ([TABLES.md](TABLES.md)), but",
+        "for what is refused below.",
         "",
     ]
     for spec in FAULTS.values():
         words = FAULT_WORDS[spec.fault]
         kept = "kept" if spec.position_kept else "lost"
         if spec.reaction is Reaction.MACHINE:
-            kept = "lost where the outputs drop; where they hold, kept from states 0 and 1"
+            kept = "lost where the outputs drop; where they hold, kept from states 0 and 1; where they brake, kept"
         parts += [
             f"## {spec.fault.value} {spec.fault.name}",
             "",
             f"- Cause: {words.cause}.",
             f"- Remedy: {words.remedy}.",
             f"- Reaction: {REACTIONS[spec.reaction]}. Position {kept}.",
+            *_bounds(spec.fault.name),
             "",
         ]
     return "\n".join(parts)
+
+
+def _bounds(name: str) -> list[str]:
+    """What a machine's file can't set of a fault."""
+    found = [
+        ("Another reaction is refused", FIXED.get(name)),
+        ("A position that is kept is refused", NOT_KEPT.get(name)),
+        ("`return` is refused", NO_RETURN.get(name)),
+    ]
+    return [f"- {what}: {why}." for what, why in found if why]
 
 
 def states_page() -> str:

@@ -60,7 +60,7 @@ class PortLayout:
 
     axis_outputs   by axis: the output bits of its wires
     other_outputs  the named outputs (spindle, lamps)
-    inputs         the sensors
+    inputs         the sensors and other inputs
     card_address   of the first card, from the machine's file
     """
 

@@ -39,7 +39,7 @@ def look_at_port(machine: Machine, spec: str) -> PortReport:
 
 def sensors_of(machine: Machine, inputs: int) -> tuple[tuple[str, bool], ...]:
     """Each sensor by name, True where it is reached, from an input image."""
-    return tuple((s.name, inputs >> s.bit & 1 == s.active_level) for s in machine.sensors)
+    return tuple((s.name, inputs >> s.bit & 1 == s.active_level) for s in machine.input_lines)
 
 
 def _listened(driver: Driver) -> int:
@@ -75,7 +75,7 @@ class MachinePort:
         machine, port = self._console.machine, self.port()
         if port.real:
             reached = int(self._console.link.status()["sensors"])
-            inputs = tuple((sensor.name, bool(reached >> sensor.bit & 1)) for sensor in machine.sensors)
+            inputs = tuple((sensor.name, bool(reached >> sensor.bit & 1)) for sensor in machine.input_lines)
             return PortReport(port.in_use, (Message("this port is in use: the machine runs on it"),), inputs)
         if problems := self._console.busy():
             return PortReport(port.configured, problem=problems[0])

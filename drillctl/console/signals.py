@@ -74,10 +74,10 @@ def signals_of(machine: Machine, reached: int, image: int) -> list[SignalView]:
 
 
 def _inputs(machine: Machine, reached: int) -> Iterator[SignalView]:
-    for sensor in machine.sensors:
-        on = reached >> sensor.bit & 1
-        level = sensor.active_level if on else 1 - sensor.active_level
-        yield SignalView("input", sensor.name, sensor.bit, level, sensor.active_level)
+    for line in machine.input_lines:
+        on = reached >> line.bit & 1
+        level = line.active_level if on else 1 - line.active_level
+        yield SignalView("input", line.name, line.bit, level, line.active_level)
 
 
 def _outputs(machine: Machine, image: int) -> Iterator[SignalView]:

@@ -66,7 +66,7 @@ def machine_view(
         axes=tuple(
             _axis_view(axis, i, status, image, base_steps[i], link.measured) for i, axis in enumerate(machine.axes)
         ),
-        sensors=tuple((s.name, bool(int(status["sensors"]) >> s.bit & 1)) for s in machine.sensors),
+        sensors=tuple((s.name, bool(int(status["sensors"]) >> s.bit & 1)) for s in machine.input_lines),
         outputs=tuple((name, bool(image >> bit & 1)) for name, bit in machine.outputs),
         lost_steps=tuple(status["lost"].tolist()[: len(machine.axes)]) if link.measured else None,
         late=int(status["late"]),

@@ -58,9 +58,9 @@ class Axis:
     __slots__ = (
         "base", "bits", "clear_mask", "column", "column_in_step", "columns_per_step", "count", "direction",
         "direction_sign", "drive", "drive_patterns", "followers", "forcing", "halves", "high", "hold_bits",
-        "hold_patterns", "interval", "least", "length", "limits", "low", "made", "min_interval", "most", "motion",
-        "position", "ramp", "ramped_from", "reach", "seek_mask", "span", "state", "strokes", "target", "travelled",
-        "up", "wait", "wires",
+        "hold_patterns", "interval", "least", "length", "limits", "low", "made", "met", "min_interval", "most",
+        "motion", "position", "ramp", "ramped_from", "reach", "seek_mask", "span", "state", "strokes", "target",
+        "travelled", "up", "wait", "wires",
     )  # fmt: skip
 
     def __init__(self, table: AxisTable, limits: tuple[int, int, int], reach: tuple[int, int] | None = None):
@@ -88,6 +88,7 @@ class Axis:
         self.drive = table.motor.pulse is not None
         self.motion = REST
         self.seek_mask = self.clear_mask = 0
+        self.met = 0  # the direction in which it was moving when a limit line that it shares with others came on
         self.bits = self.hold_bits = 0  # the column that is out, and the same without its forcing bits
         self.followers: Followers | None = None
 

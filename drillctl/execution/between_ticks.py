@@ -17,9 +17,10 @@ from drillctl.machine import Machine
 
 TWO_CARDS = (1 << 64) - 1
 KEPT = (
-    "tick", "underruns", "inputs", "sensors", "switched", "image", "epoch", "done", "hole_begun", "holes_done", "tool",
+    "tick", "underruns", "inputs", "sensors", "shared_on", "switched", "image", "epoch", "done", "hole_begun",
+    "holes_done", "tool",
 )  # fmt: skip
-KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction", "least", "most")
+KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction", "least", "most", "met")
 
 
 # Of a numpy type: the letter that struct has for it.

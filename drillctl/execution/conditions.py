@@ -13,6 +13,9 @@ An *event* is a request, a fault, or what the tick itself sees: a command taken,
 row names a stage and an event, the stage that comes next, and what is done. A pair without a row changes nothing: a
 HOLD outside a job, a RESUME of what is not held, anything but a fault while latched.
 
+Inputs with an action (``[[input]]``) ask in every tick for as long as they are on: a pause is a HOLD, an emergency stop
+its fault, a stop INPUT_STOP, which unlike a STOP does nothing to a machine that has stopped already.
+
 Faults come as four events, after their reaction (kmd/faults.py): FAULT_STOP brakes, FAULT_RETURN brakes and then goes
 home, FAULT_DROP puts out the safe image in this tick, FAULT_FREEZE stops the pulses in this tick and holds the current.
 The first fault is the one that is shown; a further one never sends the machine home, it only stops it.
@@ -27,7 +30,7 @@ from enum import IntEnum
 from drillctl.execution import stops
 from drillctl.execution.controller import Controller, Stage
 from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
-from drillctl.kmd import FAULTS, Fault, Reaction
+from drillctl.kmd import Fault, Reaction
 from drillctl.kmd.queue import RequestBit
 
 IDLE, RUNNING, HOLDING, STOPPING, FAULT_STOPPING, RETURN_STOPPING, RETURNING, LATCHED = Stage
@@ -48,10 +51,11 @@ class Event(IntEnum):
     ACK = 8
     OUTPUT = 9
     PACE = 10
-    FAULT_STOP = 11
-    FAULT_RETURN = 12
-    FAULT_DROP = 13
-    FAULT_FREEZE = 14
+    INPUT_STOP = 11  # an input that asks for a stop is on
+    FAULT_STOP = 12
+    FAULT_RETURN = 13
+    FAULT_DROP = 14
+    FAULT_FREEZE = 15
 
 
 def occur(m: Controller, event: Event) -> None:
@@ -65,17 +69,15 @@ def occur(m: Controller, event: Event) -> None:
 
 def raise_fault(m: Controller, fault: int) -> None:
     """Ends the job and reacts to a fault, dtype kmd.Fault; the first one since the last acknowledgement is kept."""
-    spec = FAULTS[fault]
+    spec = m.reactions[fault]
     event = _REACTIONS[spec.reaction]
-    if event == Event.FAULT_FREEZE and m.machine.emergency_stop != "hold":
-        event = Event.FAULT_DROP
     if event == Event.FAULT_RETURN and not (m.position_known and m.homes_by_sensor):
         event = Event.FAULT_STOP
     if m.fault == Fault.NONE:
         m.fault = fault
         m.fault_kept = True
-    freezes_in_place = event == Event.FAULT_FREEZE and stops.stops_dead_in_place(m)
-    stops.keep_position(m, spec.position_kept or freezes_in_place)
+    in_place = event != Event.FAULT_FREEZE or stops.stops_dead_in_place(m)
+    stops.keep_position(m, spec.position_kept and in_place)
     occur(m, event)
 
 
@@ -90,6 +92,21 @@ def serve(m: Controller) -> None:
     for bit, event in _REQUESTS.items():
         if served & bit:
             occur(m, event)
+
+
+def serve_inputs(m: Controller) -> bool:
+    """Does what the machine's inputs ask for as long as they are on: an emergency stop that was acknowledged is raised
+    again, a job that was resumed is held again. Returns whether a fault was raised.
+    """
+    on = m.sensors & m.action_mask
+    pressed, m.estops = on & m.estop_mask & ~m.estops, on & m.estop_mask
+    if pressed:
+        raise_fault(m, Fault.EMERGENCY_STOP)
+    if on & m.stop_mask:
+        occur(m, Event.INPUT_STOP)
+    if on & m.pause_mask:
+        occur(m, Event.HOLD)
+    return pressed > 0
 
 
 def _no_action(m: Controller) -> None:
@@ -109,7 +126,7 @@ _REACTIONS: Mapping[Reaction, Event] = {
     Reaction.STOP: Event.FAULT_STOP,
     Reaction.STOP_AND_RETURN: Event.FAULT_RETURN,
     Reaction.DROP: Event.FAULT_DROP,
-    Reaction.MACHINE: Event.FAULT_FREEZE,
+    Reaction.HOLD: Event.FAULT_FREEZE,
 }
 _REQUESTS: Mapping[int, Event] = {
     RequestBit.STOP: Event.STOP,
@@ -139,6 +156,8 @@ TABLE: Mapping[tuple[int, int], tuple[Stage, Action]] = {
     **{(stage, Event.PAUSE): (stage, stops.restart_motors) for stage in Stage},
     **{(stage, Event.STOP): (STOPPING, stops.stop_job) for stage in _WITHOUT_FAULT},
     **{(stage, Event.STOP): (FAULT_STOPPING, stops.stop_job) for stage in _AFTER_FAULT},
+    **{(stage, Event.INPUT_STOP): (STOPPING, stops.stop_job) for stage in (RUNNING, HOLDING)},
+    **{(stage, Event.INPUT_STOP): (FAULT_STOPPING, stops.stop_job) for stage in (RETURN_STOPPING, RETURNING)},
     **{(stage, Event.FAULT_STOP): (FAULT_STOPPING, stops.stop_job) for stage in Stage},
     **{(stage, Event.FAULT_RETURN): (RETURN_STOPPING, stops.stop_job) for stage in _WITHOUT_FAULT},
     **{(stage, Event.FAULT_RETURN): (FAULT_STOPPING, stops.stop_job) for stage in (*_AFTER_FAULT, LATCHED)},

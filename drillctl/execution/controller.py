@@ -8,6 +8,7 @@ from enum import IntEnum
 from drillctl.execution.axis import Axis
 from drillctl.execution.line import Line
 from drillctl.kmd import Command, CommandQueue, Condition, Mailbox
+from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine
 from drillctl.ports import SAFE_IMAGE, Driver
 
@@ -29,6 +30,7 @@ CONDITIONS = (
     Condition.READY, Condition.READY, Condition.HOLDING, Condition.STOPPING, Condition.STOPPING, Condition.STOPPING,
     Condition.RETURNING, Condition.LATCHED,
 )  # fmt: skip
+ACTIONS = ("pause", "stop", "estop")  # of an ``[[input]]``
 
 
 class Controller:
@@ -37,7 +39,10 @@ class Controller:
     stage     a Stage; ``condition`` is what the status record shows of it, ``job`` whether a job is on. Only ``enter``
               changes the three
     inputs    the input image as latched
-    sensors   the same, 1 = reached, whatever the sensor's polarity
+    sensors   the same, 1 = reached or on, whatever the line's polarity
+    estops    inputs that asked for an emergency stop in the tick before, none once it was acknowledged
+    shared    input bits that several end sensors share; ``shared_on`` those that were on in the tick before
+    reactions what this machine does on each fault
     switched  output bits that are no axis's: spindle and the like
     elapsed   ticks of the current command, hold not counted
     underruns wakes in which a job's next command was missing
@@ -60,9 +65,14 @@ class Controller:
         )
         self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
         self.line = Line(self.axes)
-        self.polarity = sum(1 << s.bit for s in machine.sensors if s.active_level == 0)
-        self.sensor_mask = sum(1 << s.bit for s in machine.sensors)
-        self.pairs = tuple(axis.limits[1] | axis.limits[-1] for axis in self.axes if axis.limits[1] and axis.limits[-1])
+        self.polarity = sum(1 << line.bit for line in machine.input_lines if line.active_level == 0)
+        self.sensor_mask = sum(1 << line.bit for line in machine.input_lines)
+        self.pause_mask, self.stop_mask, self.estop_mask = (_asking(machine, what) for what in ACTIONS)
+        self.action_mask = self.pause_mask | self.stop_mask | self.estop_mask
+        self.shared = sum({1 << sensor.bit for sensor in machine.sensors if sensor.line})
+        self.pairs = tuple(filter(None, (_pair(axis, self.shared) for axis in self.axes)))
+        chosen = ((row.fault, row.do, row.position_kept) for row in machine.reactions)
+        self.reactions = reactions_of(machine.emergency_stop, chosen)
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
         self.homes_by_sensor = any(step.do == "seek" for step in machine.homing)
@@ -76,7 +86,7 @@ class Controller:
 
         self.tick = self.underruns = self.moving = self.running = self.served = self.gap = self.late = 0
         self.unseen = self.hot_until = self.cut_off = 0
-        self.inputs = self.sensors = 0
+        self.inputs = self.sensors = self.estops = self.shared_on = 0
         self.image = SAFE_IMAGE
         self.switched = 0
 
@@ -97,6 +107,19 @@ class Controller:
         """Sets the ticks a second; what is limited in seconds keeps its seconds."""
         self.tick_hz = tick_hz
         self.longest_drilling = self.machine.drilling_ticks_at(tick_hz)
+
+
+def _asking(machine: Machine, action: str) -> int:
+    """Input bits that ask for an action."""
+    return sum(1 << line.bit for line in machine.inputs if line.action == action)
+
+
+def _pair(axis: Axis, shared: int) -> int:
+    """The bits of an axis's two end sensors, which contradict each other when both are on; 0 where there are not two,
+    or one of them answers for others too.
+    """
+    far, near = axis.limits[1], axis.limits[-1]
+    return far | near if far and near and not (far | near) & shared else 0
 
 
 def _limits(machine: Machine, axis: int) -> tuple[int, int, int]:

@@ -54,9 +54,11 @@ def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
 
 
 def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:
-    """The sensor that ends the way, as an input bit. A head fed by a distance, where that is known, needs none."""
+    """The sensor that ends the way, as an input bit. A head fed by a distance, where that is known, needs none; one
+    that shares its line with other ends has none.
+    """
     by_distance = m.machine.drill_down_steps is not None and (direction == DOWN or m.position_known)
-    return 0 if by_distance else axis.limits[direction]
+    return 0 if by_distance else axis.limits[direction] & ~m.shared
 
 
 def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:

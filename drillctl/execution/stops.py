@@ -68,6 +68,7 @@ def acknowledge(m: Controller) -> None:
     """Forgets the fault, so that the next one is the first again."""
     m.fault = Fault.NONE
     m.fault_kept = False
+    m.estops = 0
 
 
 def set_output(m: Controller) -> None:

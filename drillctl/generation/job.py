@@ -80,4 +80,4 @@ class Job:
 
 def names_of(machine: Machine) -> Names:
     """What a machine calls its axes, outputs and inputs."""
-    return Names(machine.axis_names, dict(machine.outputs), {sensor.name: sensor.bit for sensor in machine.sensors})
+    return Names(machine.axis_names, dict(machine.outputs), {line.name: line.bit for line in machine.input_lines})

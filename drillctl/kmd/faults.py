@@ -1,11 +1,12 @@
 """Fault codes: what the machine does on each, and whether its position is still known. Texts: viewmodel/fault_texts.py.
 
 Rule: a code keeps its number. docs/FAULTS.md is made from this table. The reactions are our reading of the paper's
-section 3: "in chosen emergency states" the head returns to X=0, Y=0.
+section 3: "in chosen emergency states" the head returns to X=0, Y=0. A machine's file may set others, within what
+machine/reactions.py allows; ``reactions_of`` has what a machine does.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 
@@ -15,7 +16,8 @@ class Reaction(IntEnum):
     STOP = 0  # brake down the ramp
     DROP = 1  # the safe image in this tick
     STOP_AND_RETURN = 2  # brake, head up, then home by the sensors, while the position is known; else stop
-    MACHINE = 3  # what the machine's file says an emergency stop does: drop or hold
+    MACHINE = 3  # what the machine's file says an emergency stop does: drop, hold or brake
+    HOLD = 4  # no more pulses from this tick on, the current stays
 
 
 class Fault(IntEnum):
@@ -73,3 +75,24 @@ _ALL = (
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}
+
+# What a machine's file calls a reaction.
+_DOES: Mapping[str, Reaction] = {
+    "brake": Reaction.STOP,
+    "drop": Reaction.DROP,
+    "return": Reaction.STOP_AND_RETURN,
+    "hold": Reaction.HOLD,
+}
+
+
+def reactions_of(emergency_stop: str, chosen: Iterable[tuple[str, str, bool]]) -> Mapping[int, FaultSpec]:
+    """Returns what a machine does on each fault, by code: as FAULTS has it, but for those that its file has ``chosen``
+    (name, what it does, position kept) and for the emergency stop ("drop", "hold", "brake"). Where the current is held,
+    a position that is kept is kept from states 0 and 1 only.
+    """
+    stop = Fault.EMERGENCY_STOP
+    made: dict[int, FaultSpec] = dict(FAULTS)
+    made[stop] = FaultSpec(stop, _DOES[emergency_stop], position_kept=emergency_stop != "drop")
+    for name, does, kept in chosen:
+        made[Fault[name]] = replace(FAULTS[Fault[name]], reaction=_DOES[does], position_kept=kept)
+    return made

@@ -4,6 +4,7 @@ model.py     a machine as everyone else sees it
 phase.py     phase tables         ramp.py   the automaton and its one rule       motor.py   where windings pull a rotor
 dynamics.py  what the dynamic plant must know of a motor and its load
 config.py    machine files        shape.py   which keys may stand in one         parts.py   the tables that one names
+inputs.py    sensors and other inputs                                reactions.py what a file may say of a fault
 library.py   where all these are found                                  hazards.py   tables that are valid but dangerous
 travel.py    times and distances that follow from a ramp alone          settings.py  what the configuration screen shows
 edit.py      values, patterns and states changed in a table's text, comments kept

@@ -9,9 +9,11 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from drillctl.language import Message, known_words, nearest
+from drillctl.machine.inputs import sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
+from drillctl.machine.reactions import reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
@@ -27,10 +29,10 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     wiring, outputs = (source.numbers(getattr(raw, table), Bit, table) for table in ("wiring", "outputs"))
     axes = tuple(_axis(source, raw, index, wiring, parts) for index in range(len(raw.axis)))
     _check_wiring(source, wiring, outputs, axes)
-    _check_inputs(source, raw)
     _check_locked(source, raw)
     names = [axis.name for axis in axes]
-    sensors = tuple(_sensor(source, raw, index, axes) for index in range(len(raw.sensor)))
+    sensors, inputs = sensors_and_inputs(source, raw, axes)
+    homing = tuple(_homing(source, row, index, names, sensors) for index, row in enumerate(raw.homing))
     drill = raw.drill or DrillPart(axes=[names[-1]])
     drill_axes = _indexes(source, drill.axes, names, "drill", "axes")
     _check_depth(source, drill, [axes[index] for index in drill_axes])
@@ -43,18 +45,22 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         axes=axes,
         sensors=sensors,
         outputs=tuple(outputs.items()),
-        homing=tuple(_homing(source, row, index, names, sensors) for index, row in enumerate(raw.homing)),
+        homing=homing,
         drill_axes=drill_axes,
         drill_down_steps=drill.down,
         board_surface=_surfaces(source, raw.plant.board_surface, names),
         files=tuple(map(str, parts.files)),
         shipped=shipped,
         surroundings=Surroundings(raw.plant.scatter_mm, raw.plant.thrust_n, raw.plant.thrust_growth),
+        inputs=inputs,
+        reactions=reactions(source, raw, homing),
     )
 
 
 def _check_names(source: Source, raw: MachineFile) -> None:
-    for key, names in (("axis", [row.name for row in raw.axis]), ("sensor", [row.name for row in raw.sensor])):
+    sensors = [row.name for row in raw.sensor]
+    kinds = (("axis", [row.name for row in raw.axis]), ("sensor", sensors), ("input", [row.name for row in raw.input]))
+    for key, names in kinds:
         for index, name in enumerate(names):
             if name in names[:index]:
                 raise source.error(
@@ -65,6 +71,10 @@ def _check_names(source: Source, raw: MachineFile) -> None:
             raise source.error(
                 Message("axis {name}: traces use this name for their own", name=row.name), "axis", index, "name"
             )
+    for index, switch in enumerate(raw.input):
+        if switch.name in sensors:
+            reason = Message("input {name}: a sensor has this name already", name=switch.name)
+            raise source.error(reason, "input", index, "name")
     for name in raw.outputs:
         if not NAME.fullmatch(name):
             reason = Message("outputs: {name!r}: a name is letters, digits, - and _, no - or _ first", name=name)
@@ -142,20 +152,6 @@ def _check_wiring(
             taken[bit] = name
 
 
-def _check_inputs(source: Source, raw: MachineFile) -> None:
-    taken: dict[int, str] = {}
-    for index, sensor in enumerate(raw.sensor):
-        if sensor.bit in taken:
-            reason = Message(
-                "sensor {name}: input bit {bit} is {other}'s already",
-                name=sensor.name,
-                bit=sensor.bit,
-                other=taken[sensor.bit],
-            )
-            raise source.error(reason, "sensor", index, "bit")
-        taken[sensor.bit] = sensor.name
-
-
 def _check_locked(source: Source, raw: MachineFile) -> None:
     if not raw.locked:
         return
@@ -187,55 +183,18 @@ def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -
             )
 
 
-def _sensor(source: Source, raw: MachineFile, index: int, axes: tuple[AxisTable, ...]) -> Sensor:
-    row = raw.sensor[index]
-    (axis,) = _indexes(source, [row.axis], [a.name for a in axes], "sensor", index, "axis")
-    _check_other_end(source, raw, index)
-    table = axes[axis]
-    brake = table.ramp.top
-    room = row.edge - brake >= table.low_steps if row.end == "min" else row.edge + brake <= table.high_steps
-    if not room:
-        reason = Message(
-            "sensor {name}: edge {edge} leaves no room to brake ({brake} steps) inside the range {low}..{high}",
-            name=row.name,
-            edge=row.edge,
-            brake=brake,
-            low=table.low_steps,
-            high=table.high_steps,
-        )
-        raise source.error(reason, "sensor", index, "edge")
-    return Sensor(row.name, row.bit, row.active, axis, row.end, row.edge, row.hysteresis)
-
-
-def _check_other_end(source: Source, raw: MachineFile, index: int) -> None:
-    row = raw.sensor[index]
-    for other in raw.sensor[:index]:
-        if other.axis != row.axis:
-            continue
-        if other.end == row.end:
-            raise source.error(
-                Message("sensor {name}: {axis} has a {end} sensor already", name=row.name, axis=row.axis, end=row.end),
-                "sensor",
-                index,
-                "end",
-            )
-        low, high = (other, row) if row.end == "max" else (row, other)
-        if low.edge >= high.edge:
-            reason = Message(
-                "sensor {name}: edge {edge} of {low} must lie below edge {other} of {high}",
-                name=row.name,
-                edge=low.edge,
-                low=low.name,
-                other=high.edge,
-                high=high.name,
-            )
-            raise source.error(reason, "sensor", index, "edge")
-
-
 def _homing(source: Source, row: HomingRow, index: int, names: list[str], sensors: tuple[Sensor, ...]) -> HomingStep:
     axes = _indexes(source, row.axes, names, "homing", index, "axes")
-    sensed = {sensor.axis for sensor in sensors if sensor.end == row.end}
+    sensed = {sensor.axis: sensor for sensor in sensors if sensor.end == row.end}
     for axis in axes:
+        if row.do != "zero" and axis in sensed and sensed[axis].line:
+            reason = Message(
+                "homing: {what} needs a sensor with a bit of its own, and {sensor} shares input {line}",
+                what=row.do,
+                sensor=sensed[axis].name,
+                line=sensed[axis].line,
+            )
+            raise source.error(reason, "homing", index, "axes")
         if row.do != "zero" and axis not in sensed:
             reason = Message(
                 "homing: {what} needs a {end} sensor, and {axis} has none", what=row.do, end=row.end, axis=names[axis]

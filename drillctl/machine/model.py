@@ -58,6 +58,26 @@ class Sensor:
     end: str  # "min" or "max"
     edge_steps: int
     hysteresis_steps: int
+    line: str = field(default="", repr=False)  # the input whose bit it shares with other sensors; "" for its own bit
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """An input that belongs to no end of an axis; ``action`` is what it asks for as long as it is on."""
+
+    name: str
+    bit: int
+    active_level: int
+    action: str  # "none", "pause", "stop", "estop"
+
+
+@dataclass(frozen=True, slots=True)
+class FaultReaction:
+    """What a machine does on a fault, by the fault's name, in place of what every machine does."""
+
+    fault: str
+    do: str  # "brake", "hold", "drop", "return"
+    position_kept: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +123,7 @@ class Machine:
     name: str
     description: str
     tick_hz: int
-    emergency_stop: str  # "drop": outputs safe at once; "hold": pulses stop, the current stays
+    emergency_stop: str  # "drop": outputs safe at once; "hold": pulses stop, the current stays; "brake": down the ramps
     configuration: Configuration
     axes: tuple[AxisTable, ...]
     sensors: tuple[Sensor, ...]
@@ -115,6 +135,8 @@ class Machine:
     files: tuple[str, ...]  # that it was read from, its own first
     shipped: bool
     surroundings: Surroundings = field(default=Surroundings(), repr=False)  # the plant's: not in the digest
+    inputs: tuple[Input, ...] = field(default=(), repr=False)  # these two: in the digest where there are some
+    reactions: tuple[FaultReaction, ...] = field(default=(), repr=False)
 
     @property
     def file(self) -> str:
@@ -130,8 +152,13 @@ class Machine:
     def cards(self) -> int:
         """How many cards of 32 outputs and 32 inputs the wiring needs."""
         bits = [bit for axis in self.axes for bit in axis.wire_bits]
-        bits += [bit for _, bit in self.outputs] + [sensor.bit for sensor in self.sensors]
+        bits += [bit for _, bit in self.outputs] + [line.bit for line in self.input_lines]
         return max(bits) // CARD_BITS + 1
+
+    @property
+    def input_lines(self) -> tuple[Sensor | Input, ...]:
+        """What has an input bit of its own: the sensors that share none, then the inputs."""
+        return (*(sensor for sensor in self.sensors if not sensor.line), *self.inputs)
 
     def axis_index(self, name: str) -> int | None:
         """Returns the index of an axis by its name, or None."""
@@ -178,4 +205,6 @@ class Machine:
 
     def _unusual(self) -> str:
         """What decides a run and came later than the first digests, where it is not as it was before."""
-        return "".join(f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
+        strokes = (f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
+        rows = (f"{row!r}\n" for row in (*self.inputs, *self.reactions))
+        return "".join((*strokes, *rows))

@@ -18,6 +18,7 @@ Steps = Annotated[int, msgspec.Meta(ge=-100_000_000, le=100_000_000)]
 Positive = Annotated[int, msgspec.Meta(ge=1, le=1_000_000)]
 TickHz = Annotated[int, msgspec.Meta(ge=SLOWEST_TICK_HZ, le=FASTEST_TICK_HZ)]
 End = Literal["min", "max"]
+Level = Literal[0, 1]
 
 
 class Strict(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -41,15 +42,33 @@ class AxisRow(Strict, frozen=True):
 
 
 class SensorRow(Strict, frozen=True):
-    """``[[sensor]]``: a switch at one end of an axis."""
+    """``[[sensor]]``: a switch at one end of an axis, on an input bit of its own or on a ``line`` with others."""
 
     name: Name
-    bit: Bit
     axis: str
     end: End
     edge: Steps
     hysteresis: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
-    active: Literal[0, 1] = 1
+    active: Level | None = None
+    bit: Bit | None = None
+    line: str | None = None
+
+
+class InputRow(Strict, frozen=True):
+    """``[[input]]``: an input that belongs to no end of an axis, and what it asks for as long as it is on."""
+
+    name: Name
+    bit: Bit
+    active: Level = 1
+    action: Literal["none", "pause", "stop", "estop"] = "none"
+
+
+class ReactionRow(Strict, frozen=True):
+    """``[[reaction]]``: what the machine does on a fault, in place of what docs/FAULTS.md says."""
+
+    fault: str
+    do: Literal["brake", "hold", "drop", "return"]
+    position: Literal["kept", "lost"]
 
 
 class HomingRow(Strict, frozen=True):
@@ -96,10 +115,12 @@ class MachineFile(Strict, frozen=True):
     axis: Annotated[list[AxisRow], msgspec.Meta(min_length=1, max_length=8)]
     wiring: dict[str, Any]  # of Bit
     description: str = ""
-    emergency_stop: Literal["drop", "hold"] = "drop"
+    emergency_stop: Literal["drop", "hold", "brake"] = "drop"
     locked: list[str] = []  # names of settings that the configuration screen may not change
     configuration: ConfigurationPart = ConfigurationPart()
     sensor: list[SensorRow] = []
+    input: list[InputRow] = []
+    reaction: list[ReactionRow] = []
     outputs: dict[str, Any] = {}  # of Bit
     homing: list[HomingRow] = []
     drill: DrillPart | None = None

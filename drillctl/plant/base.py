@@ -3,11 +3,11 @@
 Rule: everything follows from the output images; the inputs follow from where the carriages are.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf
 
 from drillctl.machine import Machine
-from drillctl.plant.carriage import Carriage
+from drillctl.plant.carriage import Carriage, Switch
 from drillctl.plant.rotor import Rotor
 
 # Signals of an axis in a trace, by the suffix of the axis's name: the carriage's place in whole steps; the columns by
@@ -32,13 +32,16 @@ class Plant:
     def __init__(self, machine: Machine, rotors: Sequence[Rotor], carriages: Sequence[Carriage]):
         self.rotors, self.carriages = tuple(rotors), tuple(carriages)
         self.image = 0
-        self.inputs = 0
+        self._together = _lines([sensor for carriage in self.carriages for sensor in carriage.sensors])
+        self.inputs = sum(1 << line.bit for line in machine.inputs if line.active_level == 0)  # nothing is pressed
         self.touches = 0
         self._head = machine.drill_axes[0]
         self._surface = machine.board_surface[self._head]
         self._in_board = False
         for index in range(len(self.rotors)):
             self._carry(index)
+        for sensors in self._together.values():
+            self._answer(sensors[0])
         self.touches = 0  # a bit that starts in the board has not come down to it
 
     def drive(self, image: int) -> None:
@@ -78,12 +81,26 @@ class Plant:
             bounds.append((self._surface, inf) if self._in_board else (-inf, self._surface))
         return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
+    def _answer(self, sensor: Switch) -> None:
+        """Takes over the level of a sensor's wire; a line that several share is on where any of them is reached."""
+        levels = [each.level for each in self._together[sensor.bit]]
+        level = max(levels) if sensor.active_level else min(levels)
+        self.inputs = self.inputs | sensor.bit if level else self.inputs & ~sensor.bit
+
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)
         for sensor in self.carriages[index].sensors:
             if sensor.moved_to(steps):
-                self.inputs ^= sensor.bit
+                self._answer(sensor)
         if index == self._head and self._surface is not None:
             in_board = steps >= self._surface
             self.touches += in_board and not self._in_board
             self._in_board = in_board
+
+
+def _lines(sensors: Sequence[Switch]) -> Mapping[int, Sequence[Switch]]:
+    """Returns the sensors on each line, by the line's input bit."""
+    lines: dict[int, list[Switch]] = {}
+    for sensor in sensors:
+        lines.setdefault(sensor.bit, []).append(sensor)
+    return lines

@@ -16,14 +16,14 @@ class Switch:
         self.bit = 1 << sensor.bit
         self.level = 0
         self.reached = False
-        self._active_level = sensor.active_level
+        self.active_level = sensor.active_level
         self._outward = -1 if sensor.end == "min" else 1
         self._edge = float(sensor.edge_steps * self._outward)
         self._hysteresis = sensor.hysteresis_steps
 
     def moved_to(self, steps: float) -> bool:
         """Takes the carriage's new place; returns whether the wire's level has changed."""
-        level = self._active_level if self._answers(steps * self._outward) else 1 - self._active_level
+        level = self.active_level if self._answers(steps * self._outward) else 1 - self.active_level
         changed = level != self.level
         self.level = level
         return changed
@@ -36,7 +36,7 @@ class Switch:
     def recall(self, reached: bool) -> bool:
         """Sets the sensor to an earlier state; returns whether that changes the wire's level."""
         before, self.reached = self.level, reached
-        self.level = self._active_level if reached else 1 - self._active_level
+        self.level = self.active_level if reached else 1 - self.active_level
         return self.level != before
 
     def _answers(self, outward: float) -> bool:

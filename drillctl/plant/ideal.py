@@ -45,4 +45,4 @@ class IdealPlant(Plant):
             self._in_board = memory[0]
         for sensor, reached in zip(self.carriages[axis].sensors, memory[1:], strict=True):
             if sensor.recall(reached):
-                self.inputs ^= sensor.bit
+                self._answer(sensor)

@@ -205,5 +205,5 @@ def port_layout(machine: Machine) -> PortLayout:
         card_address=machine.configuration.card_address,
         axis_outputs=tuple(sum(1 << bit for bit in axis.wire_bits) for axis in machine.axes),
         other_outputs=sum(1 << bit for _, bit in machine.outputs),
-        inputs=sum(1 << sensor.bit for sensor in machine.sensors),
+        inputs=sum(1 << line.bit for line in machine.input_lines),
     )

@@ -191,10 +191,10 @@ def vcd_layout(machine: Machine) -> list[VcdVar]:
             layout.append(VcdVar(axis.name, wire, "wire", f"out.{bit // CARD_BITS}", bit=bit % CARD_BITS))
         for field in ("column", "position", "state"):
             layout.append(VcdVar(axis.name, field, "integer", f"{axis.name}.{field}"))
-    for sensor in machine.sensors:
-        card, bit = divmod(sensor.bit, CARD_BITS)
-        inverted = sensor.active_level == 0
-        layout.append(VcdVar("sensors", sensor.name, "wire", f"in.{card}", bit=bit, invert=inverted))
+    for line in machine.input_lines:
+        card, bit = divmod(line.bit, CARD_BITS)
+        inverted = line.active_level == 0
+        layout.append(VcdVar("sensors", line.name, "wire", f"in.{card}", bit=bit, invert=inverted))
     layout += [
         VcdVar("kmd", "seq", "integer", "kmd", part="seq"),
         VcdVar("kmd", "opcode", "integer", "kmd", part="opcode"),

@@ -28,6 +28,7 @@ RESUME         .               .               RUNNING         .               .
 ACK            .               .               .               .               .              .               .              IDLE
 OUTPUT         IDLE            .               .               .               .              .               .              .
 PACE           IDLE            RUNNING         HOLDING         STOPPING        FAULT_STOPPING RETURN_STOPPING RETURNING      LATCHED
+INPUT_STOP     .               STOPPING        STOPPING        .               .              FAULT_STOPPING  FAULT_STOPPING .
 FAULT_STOP     FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING FAULT_STOPPING  FAULT_STOPPING FAULT_STOPPING
 FAULT_RETURN   RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING FAULT_STOPPING FAULT_STOPPING  FAULT_STOPPING FAULT_STOPPING
 FAULT_DROP     LATCHED         LATCHED         LATCHED         LATCHED         LATCHED        LATCHED         LATCHED        LATCHED

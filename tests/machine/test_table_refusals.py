@@ -13,6 +13,7 @@ from drillctl.machine import Library, TableError
 
 NAMES = "a name is letters, digits, - and _, no - or _ first"
 REVERSE, ROW, DIRECTION = "[[reverse]]\n", 'pattern = "xxxxxx"\n', "[direction]\n"
+INPUT, REACTION = "[[input]]\nname = 'stop'\n", "[[reaction]]\nfault = "
 Row = tuple[str | None, ...]
 PHASE: list[Row] = [
     ('name = "a"\n', 'name = "a"\nvolt = 5\n', "wire[0]: unknown key volt", "volt = 5"),
@@ -115,6 +116,30 @@ MACHINE: list[Row] = [
     ('[drill]\naxes = ["z"]', '[drill]\naxes = ["z"]\ndown = 301', "drill: down 301 is outside 1..300 of z"),
     ('[drill]\naxes = ["z"]', '[drill]\naxes = ["z"]\ndown = 0', "drill: down 0 is outside 1..300 of z"),
     ("{ z = 200 }", "{ q = 200 }", "plant: no axis is named 'q'; there are x, z"),
+    ("[drill]", f"{INPUT}bit = 1\n[drill]", "input stop: input bit 1 is z_top's already", f"{INPUT}bit = 1"),
+    ("[drill]", f"{INPUT}bit = 4\n{INPUT}bit = 5\n[drill]", "input stop: a second one of this name",
+     f"{INPUT}bit = 4\n{INPUT}"[:-1]),
+    ("[drill]", f"{INPUT}bit = 4\naction = 'home'\n[drill]", "input[0].action: invalid enum value 'home'",
+     "action = 'home'"),
+    ("[drill]", f"{INPUT}bit = 128\n[drill]", "input[0].bit: expected int <= 127", "bit = 128"),
+    ("[drill]", "[[input]]\nname = 'x_min'\nbit = 4\n[drill]", "input x_min: a sensor has this name already",
+     "[[input]]\nname = 'x_min'"),
+    ("bit = 1\n", "line = 'stop'\n", "sensor z_top: no input is named 'stop'; there are none", "line = 'stop'"),
+    ("bit = 1\n", "", "sensor z_top: it has either a bit, or a line that it shares", 'hysteresis = 2\n\n[[sensor]]'),
+    ("[drill]", f"{REACTION}'LIMIT'\ndo = 'drop'\nposition = 'kept'\n[drill]",
+     "reaction LIMIT: the position can't be kept: a motor without current can be turned by hand", "[[reaction]]"),
+    ("[drill]", f"{REACTION}'RANGE'\ndo = 'brake'\nposition = 'kept'\n[drill]",
+     "reaction RANGE: the position can't be kept: it is the count of steps that has left the range", "[[reaction]]"),
+    ("[drill]", f"{REACTION}'HEAD_NOT_UP'\ndo = 'return'\nposition = 'lost'\n[drill]",
+     "reaction HEAD_NOT_UP: the machine can't return: the way home begins with raising the head", "[[reaction]]"),
+    ("[drill]", f"{REACTION}'PORT_LOST'\ndo = 'brake'\nposition = 'lost'\n[drill]",
+     "reaction PORT_LOST: it can't be chosen: the port is gone", "[[reaction]]"),
+    ("[drill]", f"{REACTION}'EMERGENCY_STOP'\ndo = 'brake'\nposition = 'kept'\n[drill]",
+     "reaction EMERGENCY_STOP: it can't be chosen: emergency_stop says what the machine does", "[[reaction]]"),
+    ("[drill]", f"{REACTION}'LIMITS'\ndo = 'brake'\nposition = 'kept'\n[drill]",
+     "reaction: no fault is named 'LIMITS'; there are BAD_COMMAND", "fault = 'LIMITS'"),
+    ("[drill]", 2 * f"{REACTION}'LIMIT'\ndo = 'brake'\nposition = 'kept'\n" + "[drill]", "reaction LIMIT: a second row",
+     f"{REACTION}'LIMIT'\ndo = 'brake'\nposition = 'kept'\n{REACTION}'LIMIT'"),
     ("{ z = 200 }", '{ z = "200" }', 'board_surface: "z": expected int, got str'),
     ("[plant]\nboard_surface = { z = 200 }", "[plant.board_surface]\nz = 2.5",
      'board_surface: "z": expected int, got float'),

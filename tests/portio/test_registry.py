@@ -73,7 +73,7 @@ def test_a_machines_wiring_is_its_bits(name: str) -> None:
     wiring = port_layout(machine)
     wires = [bit for axis in machine.axes for bit in axis.wire_bits]
     assert bits_of(wiring.outputs) == sorted([*wires, *(bit for _, bit in machine.outputs)])
-    assert bits_of(wiring.inputs) == sorted(sensor.bit for sensor in machine.sensors)
+    assert bits_of(wiring.inputs) == sorted(line.bit for line in machine.input_lines)
     assert wiring.cards == machine.cards
 
 

@@ -151,8 +151,8 @@ class Bench:
         return sum(1 << bit for wire, bit in named if wire.forcing)
 
     def input_bit(self, sensor: str) -> int:
-        """A sensor's bit in the input image."""
-        return next(1 << found.bit for found in self.machine.sensors if found.name == sensor)
+        """A sensor's or an input's bit in the input image."""
+        return next(1 << found.bit for found in self.machine.input_lines if found.name == sensor)
 
     def index(self, axis: str) -> int:
         """An axis's place in the machine's file."""

@@ -47,6 +47,7 @@ class Engine:
             and all(_rests(axis) for axis in m.axes)
             and all(self._world.stands(index, _travel(axis)) for index, axis in enumerate(m.axes))
             and not any(sensors & pair == pair for pair in m.pairs)
+            and not (sensors & (m.action_mask | m.shared) or m.estops)
         )
 
     def foresee(self, commands: NDArray[np.void]) -> Batch | None:
@@ -102,7 +103,7 @@ class Engine:
 def _rests(axis: Axis) -> bool:
     """Nothing is left of a move, a line or a stop; and a drive's direction wire is a wire as any other at rest."""
     alike = not axis.drive or axis.drive_patterns == axis.hold_patterns
-    return alike and axis.motion <= SETTLING and axis.followers is None
+    return alike and axis.motion <= SETTLING and axis.followers is None and not axis.met
 
 
 def _travel(axis: Axis) -> int:

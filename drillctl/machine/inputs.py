@@ -1,0 +1,112 @@
+"""The input side of a machine's file: end sensors, inputs that belong to no axis, and the line that sensors may share.
+
+Rule: a bit has one owner, a sensor or an ``[[input]]``; sensors that are wired together name the input as their line.
+"""
+
+from collections.abc import Sequence
+
+from drillctl.language import Message, known_words
+from drillctl.machine.model import AxisTable, Input, Sensor
+from drillctl.machine.shape import InputRow, MachineFile
+from drillctl.machine.source import Source
+
+
+def sensors_and_inputs(
+    source: Source, raw: MachineFile, axes: Sequence[AxisTable]
+) -> tuple[tuple[Sensor, ...], tuple[Input, ...]]:
+    """Returns the sensors and the inputs of a machine's file. Raises TableError."""
+    _check_bits(source, raw)
+    sensors = tuple(_sensor(source, raw, index, axes) for index in range(len(raw.sensor)))
+    return sensors, tuple(Input(row.name, row.bit, row.active, row.action) for row in raw.input)
+
+
+def _check_bits(source: Source, raw: MachineFile) -> None:
+    taken: dict[int, str] = {}
+    sensors = [("sensor", index, row.name, row.bit) for index, row in enumerate(raw.sensor)]
+    inputs = [("input", index, row.name, row.bit) for index, row in enumerate(raw.input)]
+    for kind, index, name, bit in (*sensors, *inputs):
+        if bit is None:
+            continue
+        if bit in taken:
+            told = {"kind": kind, "name": name, "bit": bit, "other": taken[bit]}
+            reason = Message("{kind} {name}: input bit {bit} is {other}'s already", **told)
+            raise source.error(reason, kind, index, "bit")
+        taken[bit] = name
+
+
+def _sensor(source: Source, raw: MachineFile, index: int, axes: Sequence[AxisTable]) -> Sensor:
+    row = raw.sensor[index]
+    names = [table.name for table in axes]
+    if row.axis not in names:
+        reason = Message("no axis is named {name!r}; {words}", name=row.axis, words=known_words(row.axis, names))
+        raise source.error(reason.at("sensor"), "sensor", index, "axis")
+    axis = names.index(row.axis)
+    line = _line(source, raw, index)
+    _check_other_end(source, raw, index)
+    _check_room(source, raw, index, axes[axis])
+    bit, active = (row.bit, 1 if row.active is None else row.active) if line is None else (line.bit, line.active)
+    assert bit is not None
+    return Sensor(row.name, bit, active, axis, row.end, row.edge, row.hysteresis, row.line or "")
+
+
+def _line(source: Source, raw: MachineFile, index: int) -> InputRow | None:
+    """Returns the input whose bit a sensor shares; None for a sensor with a bit of its own."""
+    row, names = raw.sensor[index], [line.name for line in raw.input]
+    if (row.bit is None) == (row.line is None):
+        reason = Message("sensor {name}: it has either a bit, or a line that it shares", name=row.name)
+        raise source.error(reason, "sensor", index)
+    if row.line is None:
+        return None
+    if row.line not in names:
+        words = known_words(row.line, names)
+        told = {"name": row.name, "line": row.line, "words": words}
+        reason = Message("sensor {name}: no input is named {line!r}; {words}", **told)
+        raise source.error(reason, "sensor", index, "line")
+    line = raw.input[names.index(row.line)]
+    if row.active is not None:
+        reason = Message("sensor {name}: its active level is that of input {line}", name=row.name, line=line.name)
+        raise source.error(reason, "sensor", index, "active")
+    if line.action != "none":
+        reason = Message("sensor {name}: input {line} has an action of its own", name=row.name, line=line.name)
+        raise source.error(reason, "sensor", index, "line")
+    return line
+
+
+def _check_room(source: Source, raw: MachineFile, index: int, table: AxisTable) -> None:
+    row, brake = raw.sensor[index], table.ramp.top
+    room = row.edge - brake >= table.low_steps if row.end == "min" else row.edge + brake <= table.high_steps
+    if not room:
+        reason = Message(
+            "sensor {name}: edge {edge} leaves no room to brake ({brake} steps) inside the range {low}..{high}",
+            name=row.name,
+            edge=row.edge,
+            brake=brake,
+            low=table.low_steps,
+            high=table.high_steps,
+        )
+        raise source.error(reason, "sensor", index, "edge")
+
+
+def _check_other_end(source: Source, raw: MachineFile, index: int) -> None:
+    row = raw.sensor[index]
+    for other in raw.sensor[:index]:
+        if other.axis != row.axis:
+            continue
+        if other.end == row.end:
+            raise source.error(
+                Message("sensor {name}: {axis} has a {end} sensor already", name=row.name, axis=row.axis, end=row.end),
+                "sensor",
+                index,
+                "end",
+            )
+        low, high = (other, row) if row.end == "max" else (row, other)
+        if low.edge >= high.edge:
+            reason = Message(
+                "sensor {name}: edge {edge} of {low} must lie below edge {other} of {high}",
+                name=row.name,
+                edge=low.edge,
+                low=low.name,
+                other=high.edge,
+                high=high.name,
+            )
+            raise source.error(reason, "sensor", index, "edge")
