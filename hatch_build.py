@@ -4,6 +4,7 @@ Rule: it can't fail. What is missing is said in one line (pip shows it with -v),
 the compiled form: the law then runs as Python.
 """
 
+import os
 import shutil
 import sys
 import tempfile
@@ -29,8 +30,8 @@ class KernelHook(BuildHookInterface):  # type: ignore[misc]
     """Called by hatchling for a wheel and for an editable install."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compiles the law beside its source and adds it to what is installed."""
-        if self.target_name != "wheel":
+        """Compiles the law beside its source and adds it to what is installed; not with DRILLCTL_KERNEL=plain."""
+        if self.target_name != "wheel" or os.environ.get("DRILLCTL_KERNEL") == "plain":
             return
         folder = Path(self.root, FOLDER)
         for old in folder.glob("_law.*"):

@@ -10,6 +10,8 @@ from types import ModuleType
 
 import pytest
 
+from drillctl.cli import main
+
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
 FOLDERS = ("docs/*.md", "docs/lab/*.md", "README.md", "CONTRIBUTING.md")
@@ -35,15 +37,16 @@ def test_generated_page_is_current(name: str) -> None:
     assert (ROOT / "docs" / name).read_text("utf-8") == generator().PAGES[name]()
 
 
-def test_readme_commands_run(tmp_path: Path) -> None:
+def test_readme_commands_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     (tmp_path / "tables").symlink_to(ROOT / "tables")
     commands = drillctl_lines()
     assert len(commands) >= 7
+    monkeypatch.chdir(tmp_path)
     for command in commands:
-        call = [sys.executable, "-m", "drillctl", *command[1:]]
-        done = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
-        assert done.returncode == 0, f"{command}: {done.stderr}"
+        assert main(command[1:]) == 0, f"{command}: {capsys.readouterr().err}"
 
 
 def test_readme_shows_what_the_example_prints() -> None:

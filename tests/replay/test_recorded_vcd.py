@@ -13,7 +13,7 @@ JOBS = Path(__file__).resolve().parents[2] / "examples"
     ("job", "machine"),
     [
         ("blinker.drl", "pcb-drill"), ("square.kmd", "pcb-drill-ramp-lab"), ("square.kmd", "cnc-shield"),
-        ("short-moves.kmd", "boiler-drum"), ("short-moves.kmd", "mega-28byj48"), ("square.kmd", "eight-axis"),
+        ("short-moves.kmd", "boiler-drum"), ("short-moves.kmd", "mega-28byj48"), ("short-moves.kmd", "eight-axis"),
     ],
 )  # fmt: skip
 def test_both_engines_write_the_same_bytes(

@@ -130,14 +130,14 @@ def dry() -> Iterator["terminals.Act"]:
     yield Act(menu("drilling", "dry_run"), (made(HOLES), at_rest("position known")))
 
 
-@pytest.fixture(params=words.LANGUAGES)
+@pytest.fixture
 def language(request: pytest.FixtureRequest) -> Iterator[str]:
     words.use(request.param)
     yield request.param
     words.use("en")
 
 
-@pytest.mark.parametrize("size", [(80, 24), (160, 50)], ids=str)
+@pytest.mark.parametrize(("language", "size"), [("en", (80, 24)), ("pl", (160, 50))], indirect=["language"], ids=str)
 def test_an_hour_at_the_machine(language: str, size: tuple[int, int], tmp_path: Path) -> None:
     (tmp_path / NAME).write_text(BOARD, "utf-8")
     terminal = terminals.Terminal("--pace", "free", "--tools", "ask", "--lang", language, folder=tmp_path, size=size)

@@ -14,7 +14,7 @@ import urwid
 
 from tests.ui.whole import Event, Whole, at_home
 
-EVENTS = 2000
+EVENTS = 500
 MANY_EVENTS = 10_000
 LONG = (pytest.mark.long, pytest.mark.timeout(900))  # a minute on an idle computer
 SIZES = [(80, 24), (160, 50), (60, 18), (40, 12)]

@@ -61,13 +61,17 @@ def test_real_files_without_their_declarations(real_files: list[dict]) -> None:
 
 @pytest.mark.parametrize("fmt", UNDECLARED)
 def test_real_boards_in_formats_nothing_declares(real_boards: list[DrillFile], fmt: str) -> None:
-    """At least 88 of 100 right in the rarest format (97 over all of them), and no wrong guess is silent."""
+    """At least 88 of 100 right in the rarest format (97 over all of them), and no wrong guess is silent.
+
+    A third of the boards in each format, another third in the next, so that each is written in five formats or six.
+    """
     right = 0
-    for board in real_boards:
+    boards = real_boards[UNDECLARED.index(fmt) % 3 :: 3]
+    for board in boards:
         found = decode(write(board, fmt, header=False), name=board.name)
         right += (same := alike(found, board))
         assert same or announced(found), board.name
-    assert right / len(real_boards) >= 0.88
+    assert right / len(boards) >= 0.88
 
 
 @pytest.mark.parametrize(
