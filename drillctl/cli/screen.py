@@ -120,11 +120,12 @@ class EditorScreens:
     def _tables(self, kind: "TableKind") -> "Maker":
         def made(console: "Console", shell: "Shell") -> "urwid.Widget":
             from drillctl.console.tables import TableFiles
+            from drillctl.lab.table_bench import TableBench
             from drillctl.machine.library import user_tables
             from drillctl.ui.screens.table_list import TableList
 
-            bench = TableFiles(self._library, user_tables(), lambda: self._console.machine)
-            return TableList(console, shell, bench, kind, self._plain)
+            files = TableFiles(self._library, user_tables(), lambda: self._console.machine)
+            return TableList(console, shell, files, kind, self._plain, TableBench(lambda: self._console.machine))
 
         return made
 

@@ -16,6 +16,8 @@
     tune.py           the search for the fastest ramp
     ramp_trials.py, retargeting.py   ramps tried and proved exact
 
+    table_bench.py   a table that is being edited, tried on the motors of a machine
+
     dynamic_rerun.py  a recorded run on the dynamic plant
     pictures.py       what is drawn of it; the pull-out curve
     tables.py         the tables that an operator names, and tables broken on purpose

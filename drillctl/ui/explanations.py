@@ -53,6 +53,11 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("A row for each wire, a column for each step of the cycle."),
         N_("x: the wire is on in that column; . it is off. Space turns it over."),
         N_("Wires above the lowest voltage force: they are on for one column."),
+        N_("Rotor: where it rests in each column; a higher bar pulls harder."),
+        N_("No bar: nothing holds it. One cycle should turn it by all columns."),
+        N_("F5 tries the table on bench motors, with moves of many lengths,"),
+        N_("and tells how many steps they lose; the machine doesn't move."),
+        N_("In a large window the saved table stands beside the changed one."),
         N_("Problems and warnings stand below; one with a problem isn't saved."),
     ),
     "Ramp": (
@@ -60,6 +65,9 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("and how many steps are needed to stop from it. The bar is the speed."),
         N_("State 0 is rest; signs + and - are the two directions."),
         N_("Type a number over the one under the cursor."),
+        N_("F5 tries the table on bench motors, with moves of many lengths,"),
+        N_("and tells how many steps they lose; the machine doesn't move."),
+        N_("In a large window the saved table stands beside the changed one."),
     ),
     "Configuration": (
         N_("The machine's file as fields: value, unit, range, and its meaning."),

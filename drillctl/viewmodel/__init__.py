@@ -6,6 +6,7 @@
     jobs.py        measured holes; recent and interrupted jobs
     records.py     Estimate before a job, Progress while it runs, Outcome when it is over
     tables.py      tables and queues as their editors see them
+    bench.py       a table tried on bench motors
     signals.py     signals, outputs by hand, single ticks; the port and a test of it
     plant.py       plant, faults and seed of the simulated machine
     scope.py       runs as the scope sees them

@@ -8,7 +8,8 @@ from typing import Any
 import urwid
 
 from drillctl.language import Message
-from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.bench import BenchReport, CyclePath, MotorRun, PathColumn
+from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.signals import SignalView
 from drillctl.viewmodel.tables import (
     Checked,
@@ -67,6 +68,9 @@ class Shell:
 
     def open(self, screen: urwid.Widget) -> None:
         self.opened.append(screen)
+
+    def work(self, work: Callable[[Watch], Problems], then: Callable[[Problems], object]) -> None:
+        then(work(lambda what: lambda done, total: None))
 
     def back(self) -> None:
         self.closed += 1
@@ -228,6 +232,27 @@ class Tables:
         names = [line.partition(" ")[0] for line in text.split("\n")]
         values = [typed if told.place == place else told.value for told in fields]
         return "\n".join(f"{name} {value}" for name, value in zip(names, values, strict=True)), ()
+
+
+class Bench:
+    """A motor x, which loses a step for every ``.`` in the first line of a text beyond the second. ``refusal``: why
+    nothing is tried. ``tried`` is what was."""
+
+    def __init__(self) -> None:
+        self.tried: list[str] = []
+        self.refusal: Problems = ()
+
+    def path(self, name: str, text: str) -> CyclePath:
+        marks = text.split("\n", maxsplit=1)[0].rsplit(maxsplit=1)[-1]
+        columns = tuple(PathColumn(float(place), 1.0 if mark == "x" else 0.0) for place, mark in enumerate(marks, 1))
+        return CyclePath("x", True, columns, float(marks.count("x")), len(marks), 100.0)
+
+    def run(self, kind: TableKind, name: str, text: str, watch: Watch) -> tuple[BenchReport | None, Problems]:
+        self.tried.append(text)
+        if self.refusal:
+            return None, self.refusal
+        lost = max(text.split("\n", maxsplit=1)[0].count(".") - 2, 0)
+        return BenchReport(500, True, (MotorRun("x", True, 2, lost, 30, (0.0, 0.5, float(lost))),)), ()
 
 
 class Queues:

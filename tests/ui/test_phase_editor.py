@@ -8,12 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from drillctl.console.tables import TableFiles
+from drillctl.language import Message
 from drillctl.machine import Library, shipped_tables
 from drillctl.ui.models.editing import MOST_STATES, History
 from drillctl.ui.models.phase_grid import LEAST_COLUMNS, PhaseGrid
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.viewmodel.tables import PhaseRow
 from tests.ui.editor_fakes import SIZE, Console, Shell, Tables, attributes_of, press, text_of
+from tests.ui.editor_fakes import Bench as Trial
 
 TABLE = "1a 5 xx..\n1b 5 ..xx\n24a 24 x.x."
 
@@ -306,3 +308,44 @@ def test_a_table_that_no_motor_uses_has_no_bits(bench: TableFiles, shell: Shell)
     press(editor, "b", "tab")
     assert shell.told == [("Not changed", ["No motor of the machine at hand uses this table."])]
     assert "motor" not in text_of(editor)
+
+
+@pytest.fixture
+def tried(shell: Shell, tables: Tables) -> tuple[PhaseEditor, Trial]:
+    trial = Trial()
+    return PhaseEditor(Console(), shell, tables, "one", bench=trial), trial
+
+
+def test_the_rotor_stands_below_the_columns_with_its_torque(tried: tuple[PhaseEditor, Trial]) -> None:
+    rows = text_of(tried[0], (80, 20)).split("\n")
+    places, torques = (next(row for row in rows if row.startswith(word)) for word in ("rotor", "torque"))
+    assert places.split()[-4:] == ["1", "2", "3", "4"] and torques.split()[1:] == ["█", "█"]
+    assert "warning: motor X: one cycle turns the rotor by 2 of 4 columns" in "\n".join(rows)
+
+
+@pytest.mark.parametrize("columns", [80, 98, 158, 218])
+def test_a_trial_says_what_was_lost_at_any_size_and_holds_for_its_table_alone(
+    tried: tuple[PhaseEditor, Trial], columns: int
+) -> None:
+    editor, trial = tried
+    press(editor, "f5")
+    assert "X" in text_of(editor, (columns, 30)) and "no step lost" in text_of(editor, (columns, 30))
+    press(editor, " ", "f5")
+    assert "LOST 1 of 30 steps" in text_of(editor, (columns, 30)) and trial.tried == [TABLE, editor.text]
+    press(editor, "right", " ")
+    assert "LOST" not in text_of(editor, (columns, 30))
+    press(editor, "u")
+    assert "LOST 1 of 30 steps" in text_of(editor, (columns, 30)), "it is the table that was tried"
+
+
+def test_where_there_is_room_the_saved_table_stands_beside_the_changed_one(tried: tuple[PhaseEditor, Trial]) -> None:
+    press(tried[0], " ", "f5")
+    row = next(row for row in text_of(tried[0], (158, 45)).split("\n") if "no step lost" in row)
+    assert row.index("no step lost") < row.index("LOST 1 of 30 steps")
+    assert "saved: rotor" in text_of(tried[0], (158, 45)) and "What it does" not in text_of(tried[0], (80, 20))
+
+
+def test_a_table_that_cannot_be_tried_is_refused_in_words(tried: tuple[PhaseEditor, Trial], shell: Shell) -> None:
+    tried[1].refusal = (Message("no motor has it"),)
+    press(tried[0], "f5")
+    assert shell.told == [("Not tried", ["no motor has it"])] and "LOST" not in text_of(tried[0])

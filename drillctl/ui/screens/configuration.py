@@ -16,6 +16,7 @@ from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Edit, Line, Text
+from drillctl.viewmodel.bench import Bench
 from drillctl.viewmodel.console import Console
 from drillctl.viewmodel.tables import FieldView, TableEditing
 
@@ -38,7 +39,11 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         Key(("f12",), "F12", "measure", N_("measures the scale of the axis under the cursor"), N_("Measure")),
     )
 
-    def __init__(self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False):
+    def __init__(
+        self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False,
+        bench: Bench | None = None,
+    ):  # fmt: skip
+        self._bench = bench
         self._console, self._shell, self._tables, self._name = console, shell, tables, name
         self._actions = TableActions(console, shell, tables, "machines")
         self._heading, self._below = Text(""), Text("")

@@ -9,15 +9,17 @@ from the list of tables.
 from collections.abc import Callable
 
 from drillctl.language.words import N_, _, translated
+from drillctl.ui.models.bench_lines import path_cells, path_charts, path_words
 from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid, WireBits
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Line, around
+from drillctl.viewmodel.bench import CyclePath
 from drillctl.viewmodel.tables import FieldView
 
 NAME_COLUMNS, VOLTS_COLUMNS, BIT_COLUMNS, CELL_COLUMNS = 12, 7, 5, 3
-FURTHER_ROWS = 3  # above and below the wires
+FURTHER_ROWS = 6  # above and below the wires
 
 
 class PhaseEditor(TableEditor):
@@ -102,14 +104,36 @@ class PhaseEditor(TableEditor):
             lines.insert(len(self._grid.rows), [("title", _("backwards"))])
             cursor += self._grid.lines[self._line].backwards
         window = around(cursor, len(lines), max(rows - FURTHER_ROWS, 1))
-        return [self._numbers(shown), *(lines[row] for row in window), [""], [self._place()]]
+        return [self._numbers(shown), *(lines[row] for row in window), *self._path_rows(shown), [self._place()]]
+
+    def picture(self, columns: int, rows: int) -> list[Line]:
+        """The rotor over one cycle, and the torque that holds it."""
+        return path_charts(self._path, self._saved_path, (columns, rows), self._plain)
+
+    def _path_rows(self, shown: range) -> list[Line]:
+        """Where the rotor rests in each column, and its torque there; then both in words."""
+        if not self._path.columns:
+            return [[""]]
+        places, torques = path_cells(self._path, shown, CELL_COLUMNS, self._plain)
+        margin = NAME_COLUMNS + VOLTS_COLUMNS + BIT_COLUMNS
+        labels = (_("rotor, in columns"), _("torque"))
+        rows: list[Line] = [
+            [("dark", f"{label:{margin}}"), ("good", cells)]
+            for label, cells in zip(labels, (places, torques), strict=True)
+        ]
+        return [*rows, path_words(self._path)]
 
     def _look(self) -> None:
+        self._path = self._path_of(self.text)
+        self._saved_path = self._path_of(self._saved)
         self._grid = PhaseGrid(tuple(self._tables.phase_rows(self.text)))
         machine = self._console.view().machine
         self._wires = WireBits(self._tables, self._tables.read("machines", machine), self._name)
         self._go(self._line, self._column)
         super()._look()
+
+    def _path_of(self, text: str) -> CyclePath:
+        return self._bench.path(self._name, text) if self._bench else CyclePath()
 
     @property
     def _axis(self) -> str:

@@ -37,6 +37,7 @@ class RampEditor(TableEditor):
         Key((), "0-9 -", "type", N_("types over the number"), N_("Number")),  # which one: see keypress
         *TABLE_KEYS,
     )
+    columns = 74
     _line = _field = 0  # the cursor, before the first look
     _typed: str | None = None  # the number being typed; None: the file's
 

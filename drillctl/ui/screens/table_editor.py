@@ -1,5 +1,6 @@
 """What all editors of tables have in common: a text with its history, checked as it changes, saved, reset, compared.
 
+Where there is room, what the table does to a motor is drawn beside it, and F5 tries it on motors of a bench.
 Rule: the text is the truth; what is drawn is drawn from it, and every edit gives a new text. A text with a problem is
 never saved. PhaseEditor and RampEditor are made of this.
 """
@@ -7,18 +8,25 @@ never saved. PhaseEditor and RampEditor are made of this.
 import urwid
 
 from drillctl.language.words import N_, _, translated
+from drillctl.ui.models.bench_lines import bench_lines, verdict
 from drillctl.ui.models.editing import History
+from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, titled, with_panel
 from drillctl.ui.widgets.texts import Line, boxed
-from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.bench import Bench, BenchReport
+from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.tables import Checked, TableEditing, TableKind, TextFinding
 
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid has it; a box has two
 MOST_FINDINGS = 6
 FURTHER_ROWS = 3  # the heading, and empty lines around the table
+CHARTS, PANEL_TEXT_ROWS = 3, 13  # of a panel: its charts, and the rows of everything else
+LEAST_CHART_ROWS, MOST_CHART_ROWS = 3, 12
 TABLE_KEYS = (
+    Key(("f5",), "F5", "try_out", N_("tries the table on motors of a bench: which moves lose steps"), N_("Try")),
     Key(("u",), "U", "undo", N_("takes the last change back"), N_("Undo")),
     Key(("r",), "R", "redo", N_("makes it again"), N_("Redo")),
     Key(("f2",), "F2", "save", N_("saves to your own copy; a table with a problem is never saved"), N_("Save")),
@@ -36,8 +44,14 @@ class TableEditor(urwid.Widget):
     kind: TableKind
     title: str
     keys: tuple[Key, ...] = TABLE_KEYS
+    columns = 62  # kept for the table where a panel stands beside it
 
-    def __init__(self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False):
+    def __init__(
+        self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False,
+        bench: Bench | None = None,
+    ):  # fmt: skip
+        self._bench = bench
+        self._reports: dict[str, BenchReport] = {}  # of texts that were tried
         self._console, self._shell, self._tables = console, shell, tables
         self._actions = TableActions(console, shell, tables, self.kind)
         self._name, self._plain = name, plain
@@ -61,9 +75,13 @@ class TableEditor(urwid.Widget):
         """Draws name, table and findings."""
         assert len(size) == 2
         columns, rows = size
-        verdict = self._verdict()
-        drawing = self.drawing(columns, rows - len(verdict) - FURTHER_ROWS)
-        return boxed([[("title", self._heading())], [""], *drawing, [""], *verdict], columns, rows)
+        beside = panel_columns(columns, self.columns) if self._bench else 0
+        left = columns - beside
+        tried = [] if beside else [verdict(self._report)] * (self._report is not None)
+        below = [line for long in [*self._verdict(), *tried] for line in folded(long, left)]
+        drawing = self.drawing(left, rows - len(below) - FURTHER_ROWS)
+        main = boxed([[("title", self._heading())], [""], *drawing, [""], *below], left, rows)
+        return with_panel(main, _("What it does"), self._beside(beside - BORDER_COLUMNS, rows), beside, rows)
 
     def keypress(self, size: Size, key: str) -> str | None:
         """Calls the method of a key in the table; Esc asks first where something is not saved."""
@@ -96,6 +114,48 @@ class TableEditor(urwid.Widget):
     def diff(self) -> None:
         """Shows what differs between the text on the screen and the shipped table."""
         self._actions.diff(self._name, self.text)
+
+    def try_out(self) -> None:
+        """Tries the table on the bench, and the saved one with it, so that both are seen side by side."""
+        if self._bench is None:
+            self._shell.message(_("Not tried"), [_("There are no motors to try it on.")])
+            return
+        bench, text = self._bench, self.text
+
+        def work(watch: Watch) -> Problems:
+            wanted = [each for each in dict.fromkeys((text, self._saved)) if each not in self._reports]
+            for each in wanted:
+                report, problems = bench.run(self.kind, self._name, each, watch)
+                if report is not None:
+                    self._reports[each] = report
+                elif each == text:
+                    return problems
+            return ()
+
+        self._shell.work(work, self._tried)
+
+    def picture(self, columns: int, rows: int) -> list[Line]:
+        """What else the panel shows of the table, above its trial, with charts of so many rows."""
+        return []
+
+    @property
+    def _report(self) -> BenchReport | None:
+        """The trial of the table as it stands on the screen."""
+        return self._reports.get(self.text)
+
+    def _tried(self, problems: Problems) -> None:
+        if problems:
+            self._shell.message(_("Not tried"), [translated(problem) for problem in problems])
+        self._invalidate()
+
+    def _beside(self, columns: int, rows: int) -> list[Line]:
+        """The lines of the panel."""
+        if columns <= 0:
+            return []
+        chart_rows = min(max((rows - PANEL_TEXT_ROWS) // CHARTS, LEAST_CHART_ROWS), MOST_CHART_ROWS)
+        trial = bench_lines(self._report, self._reports.get(self._saved), (columns, chart_rows), self._plain)
+        lines = [*self.picture(columns, chart_rows), titled(_("Bench"), columns), *trial]
+        return [line for long in lines for line in folded(long, columns)]
 
     def _give_up(self) -> None:
         """Discards the edits and closes the screen."""

@@ -14,10 +14,11 @@ from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import ORIGINS, Size
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Icon
+from drillctl.viewmodel.bench import Bench
 from drillctl.viewmodel.console import Console
 from drillctl.viewmodel.tables import TableEditing, TableEntry, TableKind
 
-Editor = Callable[[Console, Shell, TableEditing, str, bool], urwid.Widget]
+Editor = Callable[[Console, Shell, TableEditing, str, bool, Bench | None], urwid.Widget]
 EDITORS: Mapping[TableKind, Editor] = {"phase": PhaseEditor, "ramp": RampEditor, "machines": ConfigurationScreen}
 TITLES: Mapping[TableKind, str] = {
     "phase": N_("Phase tables"),
@@ -38,7 +39,11 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         Key(("delete",), "Del", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
     )
 
-    def __init__(self, console: Console, shell: Shell, tables: TableEditing, kind: TableKind, plain: bool = False):
+    def __init__(
+        self, console: Console, shell: Shell, tables: TableEditing, kind: TableKind, plain: bool = False,
+        bench: Bench | None = None,
+    ):  # fmt: skip
+        self._bench = bench
         self._console, self._shell, self._tables, self._plain = console, shell, tables, plain
         self._actions = TableActions(console, shell, tables, kind)
         self.kind, self.title = kind, TITLES[kind]
@@ -75,7 +80,7 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
         name = self._current
         if not unsaved(self._editors.get(name)):
             editor = EDITORS[self.kind]
-            self._editors[name] = editor(self._console, self._shell, self._tables, name, self._plain)
+            self._editors[name] = editor(self._console, self._shell, self._tables, name, self._plain, self._bench)
         self._shell.open(self._editors[name])
 
     def copy(self) -> None:

@@ -1,0 +1,161 @@
+"""A table on the bench, as lines: the rotor over one cycle, its torque, the steps that motors lost.
+
+Rule: functions of records and sizes. A loss is said in words and capitals, never by a colour alone.
+"""
+
+from collections.abc import Sequence
+from itertools import zip_longest
+
+from drillctl.language.words import N_, _
+from drillctl.ui.widgets.curves import curve_rows
+from drillctl.ui.widgets.figures import LEVELS, PLAIN_LEVELS
+from drillctl.ui.widgets.texts import Line, width_of
+from drillctl.viewmodel.bench import BenchReport, CyclePath, MotorRun
+
+Size = tuple[int, int]
+Bounds = tuple[float, float]
+LABEL_COLUMNS = 6  # left of a curve
+LEAST_HALF = 24  # columns from which two charts stand side by side
+NOT_TRIED = N_("F5 tries this table on motors of a bench; the machine does not move.")
+CHANGED_SINCE = N_("Changed since the last trial: F5 tries it again.")
+
+
+def path_cells(path: CyclePath, shown: range, cell: int, plain: bool) -> tuple[str, str]:
+    """The places of the rotor under the columns of a phase table, and its torque: a bar a column, none: it is free."""
+    columns = [path.columns[index] for index in shown if index < len(path.columns)]
+    places = "".join(f"{column.place:>{cell - 1}.0f} " for column in columns)
+    most = max((column.torque for column in path.columns), default=0.0)
+    levels = PLAIN_LEVELS if plain else LEVELS
+    bars = (levels[round(column.torque / most * (len(levels) - 1)) if most else 0] for column in columns)
+    return places, "".join(f"{bar:>{cell - 1}} " for bar in bars)
+
+
+def path_words(path: CyclePath) -> Line:
+    """How far one cycle turns the rotor, and the torque; as a warning where the turn is not that of a sound table."""
+    if not path.columns:
+        return []
+    turned = _("motor {motor}: one cycle turns the rotor by {turned:.0f} of {wanted} columns").format(
+        motor=path.motor.upper(), turned=path.turned, wanted=path.wanted
+    )
+    if round(path.turned) != path.wanted:
+        return [("warning", _("warning: ") + turned)]
+    return [turned, ", ", torque_words(path)]
+
+
+def torque_words(path: CyclePath) -> str:
+    """The least and the greatest torque of the columns: in mN m, or in single windings where they aren't known."""
+    torques = [column.torque for column in path.columns]
+    low, high = min(torques), max(torques)
+    if path.torque_mnm is None:
+        return _("torque {low:.2f} to {high:.2f} of one winding's").format(low=low, high=high)
+    return _("torque {low:.0f} to {high:.0f} mN m").format(low=low * path.torque_mnm, high=high * path.torque_mnm)
+
+
+def path_charts(path: CyclePath, saved: CyclePath, size: Size, plain: bool) -> list[Line]:
+    """The rotor's place over the cycle, and its torque, each as a curve; those of the saved table to their left where
+    they differ. ``size``: columns of the panel, rows of a curve.
+    """
+    if not path.columns:
+        return [[_("no motor of the machine at hand has windings for this table")]]
+    columns, rows = size
+    if saved == path or not saved.columns:
+        return _path_charts(path, "", size, plain)
+    half = (columns - 2) // 2
+    before = _path_charts(saved, _("saved"), (half, rows), plain)
+    return side_by_side(before, _path_charts(path, _("now"), (half, rows), plain), half + 2)
+
+
+def _path_charts(path: CyclePath, title: str, size: Size, plain: bool) -> list[Line]:
+    places = [0.0, *(column.place for column in path.columns)]
+    unit = path.torque_mnm or 1.0
+    torques = [column.torque * unit for column in path.columns]
+    told = _("torque, mN m") if path.torque_mnm else _("torque, windings")
+    heading = f"{title}: " if title else ""
+    return [
+        *_chart(heading + _("rotor, in columns"), _held(places), _spanned(0.0, *places, path.wanted), size, plain),
+        *_chart(heading + told, _held(torques), (0.0, max(2 * unit, *torques)), size, plain),
+    ]
+
+
+def _chart(
+    title: str, values: Sequence[float], bounds: Bounds, size: Size, plain: bool, look: str = "lit"
+) -> list[Line]:
+    """A curve with a title above it and its bounds to its left."""
+    columns, rows = size
+    drawn = curve_rows(values, max(columns - LABEL_COLUMNS, 1), rows, plain, bounds)
+    labels = [
+        f"{bounds[1]:{LABEL_COLUMNS - 1}.4g} ",
+        *[" " * LABEL_COLUMNS] * (rows - 2),
+        f"{bounds[0]:{LABEL_COLUMNS - 1}.4g} ",
+    ]
+    lines: list[Line] = [[("dark", label), (look, row)] for label, row in zip(labels, drawn, strict=True)]
+    return [[("dark", f"{'':{LABEL_COLUMNS}}{title}")], *lines]
+
+
+def _spanned(*values: float) -> Bounds:
+    return min(values), max(values)
+
+
+def _held(places: Sequence[float]) -> list[float]:
+    """Each place several times: a rotor steps from column to column, it does not slide."""
+    return [place for place in places for _repeat in range(8)]
+
+
+def verdict(report: BenchReport | None) -> Line:
+    """In one line, what each motor lost."""
+    if report is None:
+        return []
+    parts: Line = [_("bench at {hz} Hz: ").format(hz=report.tick_hz)]
+    for run in report.runs:
+        parts.append(("danger" if run.lost else "good", f"{run.motor.upper()} {lost_words(run)}  "))
+    return parts
+
+
+def lost_words(run: MotorRun) -> str:
+    """What a motor lost, in its worst move."""
+    if not run.lost:
+        return _("no step lost")
+    return _("LOST {lost} of {steps} steps").format(lost=abs(run.lost), steps=abs(run.steps))
+
+
+def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Size, plain: bool) -> list[Line]:
+    """The trial of the table on the screen; to its left that of the saved one, where it is another and was tried.
+    ``size``: columns of the panel, rows of a curve.
+    """
+    columns, rows = size
+    if report is None:
+        return [[_(NOT_TRIED if saved is None else CHANGED_SINCE)]]
+    if saved is None or saved == report or columns < 2 * LEAST_HALF:
+        return _bench(report, _("now"), size, plain, _bounds(report))
+    half, bounds = (columns - 2) // 2, _bounds(saved, report)
+    before = _bench(saved, _("saved"), (half, rows), plain, bounds)
+    return side_by_side(before, _bench(report, _("now"), (half, rows), plain, bounds), half + 2)
+
+
+def _bench(report: BenchReport, title: str, size: Size, plain: bool, bounds: Bounds) -> list[Line]:
+    worst = report.worst
+    heading: Line = [("title", _("{title}, at {hz} Hz").format(title=title, hz=report.tick_hz))]
+    told: list[Line] = [_run_line(run) for run in report.runs]
+    kind: list[Line] = [] if worst.dynamic else [[("dark", _("ideal motors: no dynamics are known"))]]
+    other: list[Line] = [] if report.in_use else [[("dark", _("no motor here has this table; tried on one that fits"))]]
+    caption = _("behind, in steps: {motor}, {steps:+d} steps").format(motor=worst.motor.upper(), steps=worst.steps)
+    chart = _chart(caption, worst.behind, bounds, size, plain, "danger" if worst.lost else "good")
+    return [heading, *told, *kind, *other, *chart]
+
+
+def _run_line(run: MotorRun) -> Line:
+    moves = _("{moves} moves").format(moves=run.moves)
+    return [("title", f"{run.motor.upper():3}"), ("danger" if run.lost else "good", lost_words(run)), f", {moves}"]
+
+
+def _bounds(*reports: BenchReport) -> Bounds:
+    """What the charts of these reports span, alike for all: at least a step to either side."""
+    values = [value for report in reports for value in report.worst.behind]
+    return min(-1.0, *values), max(1.0, *values)
+
+
+def side_by_side(left: Sequence[Line], right: Sequence[Line], columns: int) -> list[Line]:
+    """Two groups of lines, the right one from column ``columns`` on."""
+    nothing: Line = []
+    pairs = zip_longest(left, right, fillvalue=nothing)
+    return [[*one, " " * max(columns - width_of(one), 0), *other] for one, other in pairs]
