@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from drillctl.cli import jobs, options
+from drillctl.cli import jobs, options, streams
 from drillctl.cli.operating import waiting
 from drillctl.language import json_text
 
@@ -26,6 +26,8 @@ def call(arguments: argparse.Namespace) -> int:
 
     machine = options.machine(arguments)
     job = jobs.load(arguments.job, jobs.job_setup(arguments), machine)
+    for warning in job.warnings:
+        streams.tell(f"warning: {warning}")
     with waiting() as wait:
         estimated = estimate(job, arguments.engine, wait)
     print(json_text(estimated.as_dict(), 2) if arguments.json else "\n".join(estimate_lines(estimated)))

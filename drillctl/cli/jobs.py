@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import streams
+from drillctl.cli import options, streams
 from drillctl.cli.operating import waiting
 from drillctl.files.inputs import real_path
-from drillctl.viewmodel.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
+from drillctl.viewmodel.choices import AFTER_END, MIRRORED, MOST_ORDER_SECONDS, ORDERS, ORIGINS
 
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
@@ -38,6 +38,8 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     placing.add_argument("--panel", type=_panel, metavar="CxR:PX,PY", help="step and repeat, e.g. 3x2:40,30 (mm)")
     drilling = verb.add_argument_group("drilling")
     drilling.add_argument("--order", choices=ORDERS, default="file", help="order of each tool's holes")
+    seconds = "let --order optimised look for a shorter way for S seconds at most; default: until none is found"
+    drilling.add_argument("--order-seconds", type=_seconds, metavar="S", help=seconds)
     drilling.add_argument("--skip-tools", type=_numbers, default=frozenset(), metavar="N,N", help="tools not to drill")
     drilling.add_argument("--drills", type=Path, metavar="FILE", help="file of the drills at hand")
     drilling.add_argument("--peck", type=float, metavar="MM", help="drill in pecks of MM, retracting between them")
@@ -86,6 +88,7 @@ def _job_options(arguments: argparse.Namespace) -> "JobOptions":
         align=_absolute(arguments.align),
         panel=arguments.panel and PanelOf(*arguments.panel),
         order=arguments.order,
+        order_seconds=arguments.order_seconds,
         skip_tools=tuple(sorted(arguments.skip_tools)),
         drills=_absolute(arguments.drills),
         peck_mm=arguments.peck,
@@ -125,6 +128,10 @@ def _show_alignment(alignment: "Alignment") -> None:
     )
     for warning in alignment.warnings:
         streams.tell(f"warning: {warning}")
+
+
+def _seconds(text: str) -> float:
+    return options.number(text, 0.0, MOST_ORDER_SECONDS)
 
 
 def _pair(text: str) -> tuple[float, float]:

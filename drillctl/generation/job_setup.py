@@ -67,6 +67,15 @@ class JobSetup(msgspec.Struct, frozen=True):
         options = fields.pop("options")
         return {**fields, **options}
 
+    def as_ordered(self, order_steps: int | None) -> "JobSetup":
+        """The setup that makes a job again whose search for an order was cut short after so many steps; the same for
+        None. A clock would cut it elsewhere the next time.
+        """
+        if order_steps is None:
+            return self
+        ordered = msgspec.structs.replace(self.options, order_seconds=None, order_steps=order_steps)
+        return msgspec.structs.replace(self, options=ordered)
+
     def reading(self) -> tuple[str | None, str]:
         """How the drill file is read: its format, and what becomes of holes behind M30."""
         return self.options.format, self.options.after_end
@@ -97,6 +106,8 @@ class JobSetup(msgspec.Struct, frozen=True):
             spot_mm=options.spot_mm,
             base_steps=self.base,
             store=Path(options.store) if options.store else None,
+            order_seconds=options.order_seconds,
+            order_steps=options.order_steps,
         )
 
     def _placing(self, machine: Machine) -> Placing:

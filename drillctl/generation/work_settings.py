@@ -22,6 +22,8 @@ class WorkSettings:
     base_steps  the working base that the job is drilled from: X and Y from machine zero
     store       the file of the RAM in which workpieces are looked up; None: the machine's own
 
+    order_seconds, order_steps  for how long 'optimised' may look for a shorter way; None: to the end of its search
+
     Raises JobError for a depth that would never come to an end.
     """
 
@@ -33,6 +35,8 @@ class WorkSettings:
     spot_mm: float | None = None
     base_steps: tuple[int, int] = (0, 0)
     store: Path | None = None
+    order_seconds: float | None = None
+    order_steps: int | None = None
 
     def __post_init__(self) -> None:
         for name, depth_mm in ((Message("peck depth"), self.peck_mm), (Message("spot depth"), self.spot_mm)):

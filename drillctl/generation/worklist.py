@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from drillctl.generation.drills import Drill, drill_problems
 from drillctl.generation.errors import JobError
-from drillctl.generation.order import TravelCost, plan_groups
+from drillctl.generation.order import Budget, TravelCost, plan_groups
 from drillctl.generation.placing import Affine, boards
 from drillctl.generation.waits import Advance, ignored
 from drillctl.generation.work_settings import WorkSettings
@@ -59,6 +59,7 @@ class WorkList:
     """Holes in drilling order, grouped by tool; ``steps`` (n, 2) are X and Y from the working base.
 
     number (n,)  the holes' numbers in the whole job, from 1; what is left of a job keeps them
+    order_steps  after how many steps the search for a shorter order was cut short; None where it came to its end
     """
 
     groups: tuple[Group, ...]
@@ -66,13 +67,16 @@ class WorkList:
     steps: Integers
     boards: tuple[Affine, ...]
     number: Integers
+    order_steps: int | None = None
 
     def without(self, done: set[int]) -> "WorkList":
         """What is left when these holes, by number, are drilled."""
         left = np.flatnonzero(~np.isin(self.number, list(done)))
         bounds = [(int(np.searchsorted(left, g.start)), int(np.searchsorted(left, g.stop)), g) for g in self.groups]
         groups = tuple(replace(group, start=start, stop=stop) for start, stop, group in bounds if stop > start)
-        return WorkList(groups, self.hits.take(left), self.steps[left], self.boards, self.number[left])
+        return WorkList(
+            groups, self.hits.take(left), self.steps[left], self.boards, self.number[left], self.order_steps
+        )
 
 
 def build(drill_file: "DrillFile", settings: WorkSettings, machine: Machine, advance: Advance = ignored) -> WorkList:
@@ -92,8 +96,10 @@ def build(drill_file: "DrillFile", settings: WorkSettings, machine: Machine, adv
     steps = np.rint(placed_mm * scale).astype(np.int64)
     _check_reach(drill_file, hits, steps, settings.base_steps, machine)
     groups = _groups(drill_file, hits, settings)
-    order = _order(groups, steps, settings.order, machine, axes, advance)
-    return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1))
+    budget = Budget(settings.order_seconds, settings.order_steps)
+    order = _order(groups, steps, settings, machine, budget, advance)
+    order_steps = budget.steps if budget.cut else None
+    return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1), order_steps)
 
 
 def positioning_axes(machine: Machine) -> tuple[int, int]:
@@ -169,14 +175,48 @@ def _groups(drill_file: "DrillFile", hits: Hits, settings: WorkSettings) -> tupl
     )
 
 
+def approaches(steps: Integers, here: Integers, backlash_steps: Integers) -> Integers:
+    """Where to go first, so that the last motion of each axis is forward: (n, 2), the hole itself where it is so."""
+    came_from = np.concatenate([here[None], steps[:-1]])
+    return steps - np.where(steps < came_from, backlash_steps, 0)
+
+
+def backlash_of(machine: Machine) -> Integers:
+    """(2,): the backlash of X and Y, in steps."""
+    return np.array([machine.axes[axis].backlash_steps for axis in positioning_axes(machine)])
+
+
 def _order(
-    groups: tuple[Group, ...], steps: Integers, how: str, machine: Machine, axes: tuple[int, int], advance: Advance
+    groups: tuple[Group, ...],
+    steps: Integers,
+    settings: WorkSettings,
+    machine: Machine,
+    budget: Budget,
+    advance: Advance,
 ) -> NDArray[np.intp]:
-    """Rows of ``steps`` in drilling order; the head starts at the working base."""
-    tables = [_travel(machine, axis, int(np.ptp([0, *steps[:, k]]))) for k, axis in enumerate(axes)]
+    """Rows of ``steps`` in drilling order; the head starts at the working base and goes back there."""
+    backlash, base = backlash_of(machine), np.zeros(2, np.int64)
+    reach = np.ptp([base, *steps], axis=0) + backlash
+    axes = positioning_axes(machine)
+    travel = TravelCost(*(_travel(machine, axis, int(longest)) for axis, longest in zip(axes, reach, strict=True)))
     parts = [steps[group.start : group.stop] for group in groups]
-    orders = plan_groups(parts, TravelCost(*tables), how, np.zeros(2, np.int64), advance)
+    passes = 1 if settings.spot_mm is None else 2
+
+    def cost(orders: list[Integers]) -> int:
+        tools = [part[order] for part, order in zip(parts, orders, strict=True) for _ in range(passes)]
+        return _driven_ticks(np.concatenate(tools), backlash, travel)
+
+    orders = plan_groups(parts, travel, settings.order, base, base, cost=cost, budget=budget, advance=advance)
     return np.concatenate([group.start + order for group, order in zip(groups, orders, strict=True)])
+
+
+def _driven_ticks(holes: Integers, backlash_steps: Integers, travel: TravelCost) -> int:
+    """Ticks of the moves from the base through these holes and back, those that take up backlash among them."""
+    base = np.zeros((1, 2), np.int64)
+    before = approaches(holes, base[0], backlash_steps)
+    there = travel.between(np.concatenate([base, holes[:-1]]), before)
+    taken_up = np.where((before != holes).any(axis=1), travel.between(before, holes), 0)
+    return int((there + taken_up).sum() + travel.between(holes[-1:], base).sum())
 
 
 def _travel(machine: Machine, axis: int, longest_steps: int) -> Integers:

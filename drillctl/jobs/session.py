@@ -47,7 +47,9 @@ class Session:
 
     def journalled(self, file: Path, journal: Path | None, setup: JobSetup) -> "Session":
         """The same with a journal for a job made from ``file``; in the user's state folder where no place is given."""
-        head = head_of(file, self.job, setup.as_journalled())
+        work = self.job.work
+        ordered = setup.as_ordered(None if work is None else work.order_steps)
+        head = head_of(file, self.job, ordered.as_journalled())
         return replace(self, journal=journal or default_journal(file), start_from=head)
 
     @property

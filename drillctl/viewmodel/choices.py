@@ -13,4 +13,5 @@ AfterEnd = Literal["refuse", "ignore", "drill"]
 ORIGINS: tuple[str, ...] = get_args(Origin)
 MIRRORED: tuple[str, ...] = get_args(Mirror)
 ORDERS: tuple[str, ...] = get_args(Order)
+MOST_ORDER_SECONDS = 86_400
 AFTER_END: tuple[str, ...] = get_args(AfterEnd)

@@ -9,11 +9,13 @@ from typing import Annotated, NamedTuple
 
 import msgspec
 
-from drillctl.viewmodel.choices import AfterEnd, Mirror, Order, Origin
+from drillctl.viewmodel.choices import MOST_ORDER_SECONDS, AfterEnd, Mirror, Order, Origin
 
 MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
 FilePath = Annotated[str, msgspec.Meta(min_length=1, pattern=r"\A[^\x00]*\Z")]  # no argument of a program has a NUL
 Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
+OrderSeconds = Annotated[float, msgspec.Meta(ge=0, le=MOST_ORDER_SECONDS)]
+OrderSteps = Annotated[int, msgspec.Meta(ge=0, le=2**62)]
 NAMES_IN_FILES = {"rotate_deg": "rotate", "offset_mm": "offset", "peck_mm": "peck", "spot_mm": "spot"}
 
 
@@ -42,6 +44,8 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     origin             None: the lowest X and Y of the board come to lie at the working base
     align              an alignment file, or the measured holes themselves; these alone say where the board lies
     peck_mm, spot_mm   depths below the board's surface
+    order_seconds      for how long an optimised order may be looked for; None: until it is found
+    order_steps        for how many steps, in place of seconds: of a job whose search the seconds have cut short
     drills             the file of the drills at hand
     after_end          what becomes of holes behind the end of the program (M30)
     store              the file of a store of workpieces, instead of the machine's own RAM
@@ -55,6 +59,8 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     align: FilePath | tuple[MeasuredHole, ...] | None = None
     panel: PanelOf | None = None
     order: Order = "file"
+    order_seconds: OrderSeconds | None = None
+    order_steps: OrderSteps | None = None
     skip_tools: tuple[int, ...] = ()
     drills: FilePath | None = None
     peck_mm: float | None = None

@@ -6,11 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from drillctl.generation.order import improve
+from drillctl.generation.order import loop
 from drillctl.generation.order.improve import Improver
 from drillctl.generation.order.neighbours import find_neighbours
 from drillctl.generation.order.path import Path
 from drillctl.generation.order.plan import path_ticks
+from drillctl.generation.order.stops import Stops
 from drillctl.generation.order.travel import TravelCost
 
 RAMP_TICKS = np.array([0, 7, 11, 18, 17, 24, 20, 27, *range(29, 5022)])
@@ -93,10 +94,11 @@ def test_undo_restores_what_was_kept(turns: list[tuple[int, int]]) -> None:
 
 
 @settings(deadline=None)
-@given(clustered)
+@given(clustered.filter(lambda points: len(points) > 1))
 def test_ticks_said_to_be_saved_are_saved(points: NDArray[np.int64]) -> None:
     order = list(range(len(points)))
-    improver = Improver(points, TRAVEL, find_neighbours(points, TRAVEL, 8), order)
+    stops = Stops.of([points[1:]], points[0])
+    improver = Improver(stops, TRAVEL, find_neighbours(points, TRAVEL, 8).pairs(), order)
     saved = improver.settle(order)
     after = improver.path.order[:-1]
     assert sorted(after) == order and after[0] == 0 and improver.path.order[-1] == len(points)
@@ -105,9 +107,11 @@ def test_ticks_said_to_be_saved_are_saved(points: NDArray[np.int64]) -> None:
 
 
 @settings(deadline=None)
-@given(clustered)
+@given(clustered.filter(lambda points: len(points) > 1))
 def test_pairs_worked_out_one_by_one_are_those_of_the_matrix(points: NDArray[np.int64]) -> None:
     """Small boards have all pairs beforehand, large ones by and by."""
-    by_and_by = improve._rows_by_axis(points, TRAVEL)
-    beforehand = improve.loop_rows(points, TRAVEL)
+    half = 1 + len(points) // 2
+    stops = Stops.of([points[1:half], [], points[half:]], points[0], end=(5, 5))
+    by_and_by = loop.rows_by_pair(stops, TRAVEL)
+    beforehand = loop.loop_rows(stops, TRAVEL)
     assert [[row[other] for other in range(len(row))] for row in by_and_by] == [list(row) for row in beforehand]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from drillctl.generation.order.travel import Steps, Ticks, TravelCost
 
+Near = tuple[int, int]  # a hole, and the ticks to it
 LEAF_SIZE = 32
 NEVER = np.iinfo(np.int64).max  # ticks of a hole to itself: it is no neighbour of its own
 
@@ -25,6 +26,11 @@ class Neighbours:
 
     index: NDArray[np.int64]
     ticks: Ticks
+
+    def pairs(self, first: int = 0) -> list[list[Near]]:
+        """The lists as plain numbers, for single looks; holes are counted from `first`."""
+        rows = zip((self.index + first).tolist(), self.ticks.tolist(), strict=True)
+        return [list(zip(holes, ticks, strict=True)) for holes, ticks in rows]
 
 
 def find_neighbours(points: Steps, travel: TravelCost, count: int) -> Neighbours:

@@ -1,9 +1,9 @@
-"""A short order: disturb a repaired path in one place, repair it again, keep it unless it got longer.
+"""A short path: disturb a repaired path in one place, repair it again, keep it unless it got longer.
 
-Rule: counted, not timed, and drawn from a fixed seed, so the same holes always give the same order; and
-never longer than the order it began with. The method is iterated local search with the double-bridge
-disturbance (Martin, Otto and Felten 1991), kept within a short stretch of the path so that its repair
-looks at a few dozen holes, however large the board. Called by `plan`.
+Rule: counted, and drawn from a fixed seed, so the same holes always give the same path, unless a budget of seconds
+cuts the search; and never longer than the path it began with. The method is iterated local search with the
+double-bridge disturbance (Martin, Otto and Felten 1991), kept within a short stretch of one tool's holes so that its
+repair looks at a few dozen holes, however large the board. Called by `plan`.
 """
 
 from __future__ import annotations
@@ -12,11 +12,12 @@ import random
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drillctl.generation.order.budget import Budget
 from drillctl.generation.order.improve import Improver
-from drillctl.generation.order.neighbours import find_neighbours
-from drillctl.generation.order.travel import Steps, TravelCost
+from drillctl.generation.order.neighbours import Near, find_neighbours
+from drillctl.generation.order.stops import Stops, Tour
+from drillctl.generation.order.travel import TravelCost
 from drillctl.generation.waits import Advance, ignored
 
 NEIGHBOURS = 8
@@ -31,43 +32,51 @@ SEED = 1996
 Draw = Callable[[], float]  # a number from 0 up to, not including, 1
 
 
-def optimised_order(
-    points: Steps, travel: TravelCost, order: NDArray[np.int64], advance: Advance = ignored
-) -> NDArray[np.int64]:
-    """Shorten `order`, a path through all of `points` (n, 2) in steps; row 0, the start, stays first.
+def optimised_path(stops: Stops, travel: TravelCost, path: Tour, budget: Budget, advance: Advance = ignored) -> Tour:
+    """Shorten `path`, which goes through all stops tool by tool, as far as `budget` allows.
 
     `advance` is called with how many of the rounds are done.
     """
-    improver = Improver(points, travel, find_neighbours(points, travel, NEIGHBOURS), order.tolist())
-    improver.settle(range(len(points)))
-    holes = len(points) - 1
-    if holes > 1:  # a single hole has nothing to change places with
-        draw = random.Random(SEED).random  # the one method whose numbers no later Python may change
-        rounds = rounds_of(holes)
-        for done in range(rounds):
-            _round(improver, holes, draw)
-            advance(done + 1, rounds)
+    improver = Improver(stops, travel, near_in_tool(stops, travel), path.tolist())
+    improver.settle(range(len(path)), budget)
+    draw = random.Random(SEED).random  # the one method whose numbers no later Python may change
+    rounds = [tool for tool in stops.tools for _ in range(rounds_of(len(tool)))]
+    for done, tool in enumerate(rounds):
+        if not budget.allows():
+            break
+        _disturb(improver, tool, draw)
+        advance(done + 1, len(rounds))
     return np.array(improver.path.order[:-1])
 
 
+def near_in_tool(stops: Stops, travel: TravelCost) -> list[list[Near]]:
+    """Of each stop the nearest others of its own tool; the start belongs to the first tool."""
+    near: list[list[Near]] = []
+    for tool in stops.tools:
+        first = len(near)
+        near += find_neighbours(stops.points[first : tool.stop], travel, NEIGHBOURS).pairs(first)
+    return near
+
+
 def rounds_of(holes: int) -> int:
-    """How many disturbances are tried on a group of so many holes."""
-    return min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS, MOST_ROUNDS_TIMES_HOLES // holes)
+    """How many disturbances are tried on a tool of so many holes; a single hole has nothing to change places with."""
+    return min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS, MOST_ROUNDS_TIMES_HOLES // holes) if holes > 1 else 0
 
 
-def _round(improver: Improver, holes: int, draw: Draw) -> None:
+def _disturb(improver: Improver, tool: range, draw: Draw) -> None:
     """Disturb, repair, and go back if that made the path longer; an equally long other path is kept."""
     improver.path.keep()
-    lost, touched = _swap_stretches(improver, *_neighbouring_stretches(holes, draw))
+    lost, touched = _swap_stretches(improver, *_neighbouring_stretches(tool, draw))
     if improver.settle(touched) < lost:
         improver.path.undo()
 
 
-def _neighbouring_stretches(holes: int, draw: Draw) -> tuple[int, int, int]:
-    """Two stretches side by side, drawn at random: positions first..middle-1 and middle..end-1."""
+def _neighbouring_stretches(tool: range, draw: Draw) -> tuple[int, int, int]:
+    """Two stretches side by side, drawn at random: positions first..middle-1 and middle..end-1 among a tool's."""
+    holes = len(tool)
     longest = min(LONGEST_STRETCH, holes // 2)
     one, two = 1 + int(draw() * longest), 1 + int(draw() * longest)
-    first = 1 + int(draw() * (holes - one - two + 1))  # position 0 is the start and stays
+    first = tool.start + int(draw() * (holes - one - two + 1))
     return first, first + one, first + one + two
 
 

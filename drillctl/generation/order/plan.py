@@ -1,7 +1,7 @@
-"""Always to the nearest hole that is left; of equally near ones to the one that stands first in the file.
+"""The front door of the package: in which order holes are drilled, for one tool or for one tool after the other.
 
-Rule: exact. A list of near holes answers most times; once all of those are done, every hole left is tried.
-Called by `plan`, and by it as the starting point of `optimise`.
+Rule: the holes stay with their tools, and the tools in the order given. `optimised` is never longer than the other
+orders.
 """
 
 from __future__ import annotations
@@ -11,33 +11,16 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drillctl.generation.order.neighbours import find_neighbours
-from drillctl.generation.order.optimise import optimised_order, rounds_of
-from drillctl.generation.order.travel import OrderError, Steps, TravelCost, as_steps
+from drillctl.generation.order.budget import Budget
+from drillctl.generation.order.nearest import nearest_path
+from drillctl.generation.order.optimise import optimised_path
+from drillctl.generation.order.stops import Stops, Tour
+from drillctl.generation.order.travel import OrderError, TravelCost
 from drillctl.generation.waits import Advance, ignored
+from drillctl.viewmodel.choices import ORDERS
 
-LIST_LENGTH = 8
-
-
-def nearest_order(points: Steps, travel: TravelCost, advance: Advance = ignored) -> NDArray[np.int64]:
-    """Order of `points` (n, 2) in steps: row 0 is where the tool stands and comes first, the rest follow."""
-    near = find_neighbours(points, travel, LIST_LENGTH).index.tolist()
-    left = np.ones(len(points), bool)
-    left[0] = False
-    order = [0]
-    while len(order) < len(points):
-        here = order[-1]
-        listed = next((there for there in near[here] if left[there]), None)
-        there = _search_all(here, left, points, travel) if listed is None else listed
-        left[there] = False
-        order.append(there)
-        advance(len(order), len(points))
-    return np.array(order)
-
-
-def _search_all(here: int, left: NDArray[np.bool_], points: Steps, travel: TravelCost) -> int:
-    remaining = np.flatnonzero(left)
-    return int(remaining[travel.between(points[here], points[remaining]).argmin()])
+Orders = list[NDArray[np.int64]]  # of each tool: row numbers of its holes
+Cost = Callable[[Orders], int]
 
 
 def plan(
@@ -45,79 +28,54 @@ def plan(
 ) -> NDArray[np.int64]:
     """The order in which to drill `points` (n, 2) in steps, beginning from `start` (2,): row numbers, (n,).
 
-    `how` is a key of HOWS; `advance` is called with how far the work is. Raises OrderError for any other, and for
+    `how` is one of ORDERS; `advance` is called with how far the work is. Raises OrderError for any other, and for
     holes the travel tables don't reach.
     """
-    if how not in HOWS:
-        raise OrderError(f"order {how!r} is not known; give {', '.join(HOWS)}")
-    holes = as_steps(points)
-    if not len(holes):
-        return np.zeros(0, np.int64)
-    stops = _stops(holes, start)
-    travel.check_reach(stops)
-    order = HOWS[how](stops, travel, advance)[1:] - 1
-    advance(1, 1)  # a single hole has no rounds to tell of
-    return order
+    return plan_groups([points], travel, how, start, advance=advance)[0]
 
 
 def plan_groups(
-    groups: Sequence[ArrayLike], travel: TravelCost, how: str, start: ArrayLike, advance: Advance = ignored
-) -> list[NDArray[np.int64]]:
-    """`plan` for one tool after the other, each beginning where the one before ended; one order a group."""
-    weights = [_weight(len(points)) for points in map(as_steps, groups)]
-    orders = []
-    here = np.asarray(start)
-    for number, points in enumerate(groups):
-        order = plan(points, travel, how, here, _share(advance, weights, number))
-        orders.append(order)
-        if len(order):
-            here = as_steps(points)[order[-1]]
-    return orders
+    groups: Sequence[ArrayLike],
+    travel: TravelCost,
+    how: str,
+    start: ArrayLike,
+    end: ArrayLike | None = None,
+    *,
+    cost: Cost | None = None,
+    budget: Budget | None = None,
+    advance: Advance = ignored,
+) -> Orders:
+    """The orders of one tool after the other; a tool's holes are one group, perhaps empty.
+
+    end     where the machine goes after the last hole; None: the way there is not counted
+    cost    what orders take, for whom this is more than the way: `optimised` is then the best of all by this cost
+    budget  how long `optimised` may improve its order; without one it works to its end
+    """
+    if how not in ORDERS:
+        raise OrderError(f"order {how!r} is not known; give {', '.join(ORDERS)}")
+    stops = Stops.of(groups, start, end)
+    stops.check_reach(travel)
+    if how == "optimised" and stops.tools:
+        return _best(stops, travel, cost, budget or Budget(), advance)
+    path = _file_path(stops) if how == "file" else nearest_path(stops, travel, advance)
+    advance(1, 1)
+    return stops.orders(path)
 
 
-def _weight(holes: int) -> int:
-    """About how long a tool's holes take to be put in order, beside another's."""
-    return rounds_of(holes) if holes else 0
-
-
-def _share(advance: Advance, weights: Sequence[int], number: int) -> Advance:
-    """An Advance for group ``number``, which counts as its share of the whole."""
-    before, whole = sum(weights[:number]), max(sum(weights), 1)
-
-    def part(done: int, total: int) -> None:
-        advance(before + weights[number] * done // total, whole)
-
-    return part
+def _best(stops: Stops, travel: TravelCost, cost: Cost | None, budget: Budget, advance: Advance) -> Orders:
+    """Begin with the shorter of the two cheap paths, since repairs only ever shorten; and take the best of all."""
+    cheap = sorted((_file_path(stops), nearest_path(stops, travel)), key=lambda path: stops.length_ticks(path, travel))
+    found = [optimised_path(stops, travel, cheap[0], budget, advance), *cheap]
+    advance(1, 1)
+    orders = [stops.orders(path) for path in found]
+    return orders[0] if cost is None else min(orders, key=cost)
 
 
 def path_ticks(points: ArrayLike, order: ArrayLike, travel: TravelCost, start: ArrayLike) -> int:
     """Travel ticks from `start` through all of `points` in this order."""
-    stops = _stops(as_steps(points)[np.asarray(order, np.int64)], start)
-    return _length_ticks(stops, travel)
+    stops = Stops.of([points], start)
+    return stops.length_ticks(np.concatenate([[0], 1 + np.asarray(order, np.int64)]), travel)
 
 
-def _stops(holes: Steps, start: ArrayLike) -> Steps:
-    """The start as row 0, then the holes."""
-    return np.vstack([as_steps(np.reshape(start, (1, 2))), holes])
-
-
-def _length_ticks(stops: Steps, travel: TravelCost) -> int:
-    return int(travel.between(stops[:-1], stops[1:]).sum())
-
-
-def _file_order(stops: Steps, travel: TravelCost, advance: Advance) -> NDArray[np.int64]:
-    return np.arange(len(stops))
-
-
-def _optimised(stops: Steps, travel: TravelCost, advance: Advance) -> NDArray[np.int64]:
-    """Begin with the shorter of the two cheap orders, since repairs only ever shorten."""
-    cheap = [_file_order(stops, travel, ignored), nearest_order(stops, travel)]
-    lengths = [_length_ticks(stops[order], travel) for order in cheap]
-    return optimised_order(stops, travel, cheap[int(np.argmin(lengths))], advance)
-
-
-HOWS: dict[str, Callable[[Steps, TravelCost, Advance], NDArray[np.int64]]] = {
-    "file": _file_order,
-    "nearest": nearest_order,
-    "optimised": _optimised,
-}
+def _file_path(stops: Stops) -> Tour:
+    return np.arange(len(stops.points))

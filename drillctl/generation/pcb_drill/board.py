@@ -32,7 +32,7 @@ def load_board(path: Path, machine: Machine, setup: JobSetup, settings: WorkSett
         raise refusal(path, error) from error
     drill_file = replace(found, name=str(path))
     work = build(drill_file, settings, machine, waits(ORDERING))
-    warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work))
+    warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work), *_order_warnings(path, settings, work))
     return Job(path.name, board_program(work, machine, settings), machine, work, warnings)
 
 
@@ -53,6 +53,19 @@ def file_warnings(path: Path, drill_file: "DrillFile") -> list[Message]:
     warnings = [warning.reason.at(path, warning.line) for warning in drill_file.warnings]
     routs = drill_file.routs
     return [*warnings, Message("{count} milled cuts are not drilled", count=routs).at(path)] if routs else warnings
+
+
+def _order_warnings(path: Path, settings: WorkSettings, work: WorkList) -> list[Message]:
+    """A line where the seconds for the order were over before its search was."""
+    if settings.order_seconds is None or work.order_steps is None:
+        return []
+    return [
+        Message(
+            "the order was improved for {seconds:g} s, as asked for, and may be longer than without --order-seconds; "
+            "another run may find another order (a journal keeps this one)",
+            seconds=settings.order_seconds,
+        ).at(path)
+    ]
 
 
 def _life_warnings(path: Path, work: WorkList) -> list[Message]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
 from drillctl.generation.sequences import Records, numbered, record
 from drillctl.generation.work_settings import WorkSettings
-from drillctl.generation.worklist import Group, WorkList, positioning_axes
+from drillctl.generation.worklist import Group, WorkList, approaches, backlash_of, positioning_axes
 from drillctl.kmd import RECORD, Op
 from drillctl.kmd.commands import Flag
 from drillctl.machine import Machine
@@ -43,7 +43,7 @@ def _base(settings: WorkSettings, machine: Machine) -> list[Records]:
 def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
     """The holes of a tool: to each a go (two where backlash is taken up), then the stroke."""
     steps = work.steps[group.start : group.stop]
-    before = _before(steps, here, machine)
+    before = approaches(steps, here, backlash_of(machine))
     blocks = np.zeros((len(steps), len(stroke) + 2), dtype=RECORD)
     blocks[:, 0] = _gotos(before, machine)
     blocks[:, 1] = _gotos(steps, machine)
@@ -52,13 +52,6 @@ def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64
     kept = np.ones(blocks.shape, bool)
     kept[:, 0] = (before != steps).any(axis=1)
     return blocks[kept]
-
-
-def _before(steps: NDArray[np.int64], here: NDArray[np.int64], machine: Machine) -> NDArray[np.int64]:
-    """Where to go first, so that the last motion of each axis is forward: (n, 2), the hole itself where it is so."""
-    backlash = np.array([machine.axes[axis].backlash_steps for axis in positioning_axes(machine)])
-    came_from = np.concatenate([here[None], steps[:-1]])
-    return steps - np.where(steps < came_from, backlash, 0)
 
 
 def _gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
