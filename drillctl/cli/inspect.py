@@ -34,12 +34,12 @@ def call(arguments: argparse.Namespace) -> int:
 
 def _is_part_program(arguments: argparse.Namespace) -> bool:
     """Returns whether it is a part program's file or a workpiece; the machine is read only where that depends on it."""
-    from drillctl.generation.boiler_drum.part import is_workpiece
-    from drillctl.generation.boiler_drum.stores import number_of
-    from drillctl.generation.boiler_drum.text import is_sentences
+    from drillctl.generation.boiler_drum.names import is_sentences, number_of
 
     if number_of(str(arguments.file)) is None:
         return is_sentences(arguments.file)
+    from drillctl.generation.boiler_drum.part import is_workpiece
+
     return is_workpiece(arguments.file, options.machine(arguments))
 
 
@@ -57,15 +57,16 @@ def _part_program(arguments: argparse.Namespace) -> int:
 
 def _drill_file(arguments: argparse.Namespace) -> int:
     from drillctl.generation.drillfile import DrillFileError, read, summary
-    from drillctl.generation.pcb_drill.board import refusal
     from drillctl.generation.waits import reading
-    from drillctl.ui.terminal.reports import inspect_lines
+    from drillctl.ui.terminal.drill_file_report import inspect_lines
 
     try:
         with waiting() as wait:
             advance = wait(reading(arguments.file.name))
             drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
     except DrillFileError as error:
+        from drillctl.generation.pcb_drill.board import refusal
+
         raise refusal(arguments.file, error) from error
     contents = summary(drill_file)
     if arguments.json:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
 from drillctl.language import Message, json_text
-from drillctl.viewmodel.fault_texts import local_tables
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
@@ -50,6 +49,8 @@ class LocalTables:
 
     def __call__(self, files: tuple[Path, ...]) -> None:
         """Prints one line for the files that were not named before."""
+        from drillctl.viewmodel.fault_texts import local_tables
+
         new = [str(file) for file in dict.fromkeys(files) if file not in self._named]
         self._named.update(files)
         if new:

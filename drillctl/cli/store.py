@@ -60,7 +60,7 @@ def _action(
 
 
 def _number(text: str) -> int:
-    from drillctl.generation.boiler_drum.stores import number_of
+    from drillctl.generation.boiler_drum.names import number_of
 
     found = number_of(text)
     if found is None:

@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
+from drillctl.generation.boiler_drum.names import is_sentences, number_of
 from drillctl.generation.boiler_drum.program import part_program, tool_in_wall
-from drillctl.generation.boiler_drum.stores import find_part, has_stores, number_of
-from drillctl.generation.boiler_drum.text import Part, is_sentences, read_part
+from drillctl.generation.boiler_drum.stores import find_part, has_stores
+from drillctl.generation.boiler_drum.text import Part, read_part
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup

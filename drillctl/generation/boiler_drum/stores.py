@@ -5,7 +5,6 @@ written whole before the call returns. A machine has stores where there is an EP
 its machines, or among the shipped tables.
 """
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +21,6 @@ from drillctl.machine import Machine
 
 EPROM, RAM = "EPROM", "RAM"
 LARGEST_BYTES = 256 * 1024
-_NUMBER = re.compile(r"0[1-9]|[1-9][0-9]", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -57,11 +55,6 @@ class Store:
             except JobError as error:
                 found += error.messages
         return found
-
-
-def number_of(text: str) -> int | None:
-    """Returns the number of a workpiece, 01 to 99 in two digits; None for any other text."""
-    return int(text) if _NUMBER.fullmatch(text) else None
 
 
 def has_stores(machine: Machine) -> bool:

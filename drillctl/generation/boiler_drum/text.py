@@ -13,7 +13,6 @@ from drillctl.generation.boiler_drum.sentence import CELLS, Fault, Sentence, fau
 from drillctl.generation.errors import JobError
 from drillctl.language import Message, message_of, one_line
 
-ENDING = ".sentences"
 LARGEST_BYTES = 1024 * 1024
 LONGEST_LINE = 1000
 MOST_SENTENCES = (8192 - 198 - 1) // CELLS  # what a store holds of one program (cells.py)
@@ -40,11 +39,6 @@ class Part:
         return Message("sentence {number}, cell {cell}: {reason}", number=number, cell=cell, reason=reason).at(
             self.source
         )
-
-
-def is_sentences(path: Path) -> bool:
-    """Returns whether a file is named as a part program."""
-    return path.suffix.lower() == ENDING
 
 
 def read_part(path: Path) -> Part:
