@@ -10,18 +10,17 @@ from enum import IntEnum, IntFlag
 
 import numpy as np
 
-MOST_AXES = 8
+MOST_AXES = 10  # eight that work, and room for those of a magazine
 MOST_ARGUMENT = 2**31 - 1
 
-# The wire form: 52 bytes, little-endian, whatever machine reads it.
+# The wire form: 60 bytes, little-endian, whatever machine reads it.
 RECORD = np.dtype(
     [
         ("sequence", "<u4"),  # counts up from 1 within a program
         ("epoch", "<u4"),  # raised by stop, emergency stop and fault: older commands are discarded
         ("opcode", "u1"),
         ("flags", "u1"),
-        ("axes", "u1"),  # mask: bit i = axis i of the machine's file
-        ("spare", "u1"),
+        ("axes", "<u2"),  # mask: bit i = axis i of the machine's file
         ("floor_ticks", "<i4"),  # slowest allowed interval between steps, 0 = none
         ("tag", "<i4"),  # the hole's number in the job, from 1; 0 = none
         ("args", "<i4", (MOST_AXES,)),  # by axis for moves, else as the command's form says
@@ -153,5 +152,5 @@ class Command:
     def load(self, record: np.void) -> None:
         """Overwrites this command with a record of dtype RECORD."""
         row = record.item()
-        self.sequence, self.epoch, self.opcode, self.flags, self.axes, _, self.floor_ticks, self.tag = row[:8]
+        self.sequence, self.epoch, self.opcode, self.flags, self.axes, self.floor_ticks, self.tag = row[:7]
         self.args[:] = record["args"].tolist()

@@ -62,13 +62,13 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
         if spec.op is Op.PREDKOSC:
             floor_ticks = args[0]
         moves = spec.form in (ArgumentForm.XY, ArgumentForm.MOVES) or spec.op in (Op.WIERTLO_DOL, Op.WIERTLO_GORA)
-        program[count] = (count + 1, 0, spec.op, spec.flags, axes, 0, floor_ticks if moves else 0, 0, args)
+        program[count] = (count + 1, 0, spec.op, spec.flags, axes, floor_ticks if moves else 0, 0, args)
         count += 1
         ended = spec.op is Op.KONIEC
     if not count:
         raise KmdError(file, 1, 1, Message("no command in it; a queue that does nothing is KMD_KONIEC alone"))
     if not ended:
-        program[count] = (count + 1, 0, Op.KONIEC, 0, 0, 0, 0, 0, (0,) * MOST_AXES)
+        program[count] = (count + 1, 0, Op.KONIEC, 0, 0, 0, 0, (0,) * MOST_AXES)
     return program[: count + (not ended)]
 
 

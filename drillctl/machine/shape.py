@@ -112,7 +112,7 @@ class MachineFile(Strict, frozen=True):
 
     name: Name
     tick_hz: TickHz
-    axis: Annotated[list[AxisRow], msgspec.Meta(min_length=1, max_length=8)]
+    axis: Annotated[list[AxisRow], msgspec.Meta(min_length=1, max_length=10)]  # kmd.commands.MOST_AXES
     wiring: dict[str, Any]  # of Bit
     description: str = ""
     emergency_stop: Literal["drop", "hold", "brake"] = "drop"

@@ -30,16 +30,16 @@ def test_the_command_set_is_the_agreed_one_and_each_has_an_opcode_of_its_own() -
     assert all(name == spec.name and spec.meaning for name, spec in COMMANDS.items())
 
 
-def test_a_record_is_52_bytes_little_endian(names: Names) -> None:
-    assert RECORD.itemsize == 52
+def test_a_record_is_60_bytes_little_endian(names: Names) -> None:
+    assert RECORD.itemsize == 60
     record = parse_program("KMD_PREDKOSC 770\nKMD_LINIA z=-2 x=258", names)[1]
     expected = bytes.fromhex(
         "02000000" "00000000"  # sequence, epoch
-        "09" "03" "05" "00"  # opcode, flags (absolute, linked), axes x and z, spare
+        "09" "03" "0500"  # opcode, flags (absolute, linked), axes x and z
         "02030000" "00000000"  # floor_ticks, tag
         "02010000" "00000000" "feffffff"  # arguments by axis
     )  # fmt: skip
-    assert record.tobytes() == expected + bytes(20)
+    assert record.tobytes() == expected + bytes(28)
 
 
 def test_flags_tell_absolute_from_relative_and_lines_from_moves() -> None:
@@ -51,14 +51,15 @@ def test_flags_tell_absolute_from_relative_and_lines_from_moves() -> None:
 def test_take_overwrites_one_command_in_place() -> None:
     queue, command = Queue(), Command()
     one = records(1)
-    one["opcode"], one["args"] = Op.RUCH, [[1, -2, 3, -4, 5, -6, 7, -(2**31)]]
-    one["epoch"], one["tag"], one["floor_ticks"], one["axes"], one["flags"] = 4, 9, 6, 255, 3
+    every_axis = [1, -2, 3, -4, 5, -6, 7, 8, -9, -(2**31)]
+    one["opcode"], one["args"] = Op.RUCH, [every_axis]
+    one["epoch"], one["tag"], one["floor_ticks"], one["axes"], one["flags"] = 4, 9, 6, 1023, 3
     args = command.args
     assert queue.put(one) == 1 and queue.take(command)
-    assert command.args is args and args == [1, -2, 3, -4, 5, -6, 7, -(2**31)]
+    assert command.args is args and args == every_axis
     fields = ("sequence", "epoch", "opcode", "flags", "axes", "floor_ticks", "tag")
     told = tuple(getattr(command, field) for field in fields)
-    assert told == (1, 4, Op.RUCH, 3, 255, 6, 9)
+    assert told == (1, 4, Op.RUCH, 3, 1023, 6, 9)
     assert all(type(value) is int for value in (*told, *args))
 
 

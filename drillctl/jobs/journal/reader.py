@@ -11,6 +11,9 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drillctl.files.inputs import opened, read_bytes, real_path
 from drillctl.generation.job import Job
 from drillctl.jobs.journal.account import Account, Head, OutOfPlace, head_of_line, site_of_line
@@ -23,6 +26,7 @@ MAGIC = b'{"drillctl-journal": '  # how the first line begins
 VERSION = re.compile(rb'\{"drillctl-journal": (\d{1,9}), ')
 FINISHED = re.compile(rb'\{"ended": "done"(, "chain": "[0-9a-f]{16}")?\}\n')  # the last line, of version 1 too
 LAST_LINE_BYTES = 64
+EIGHT_AXES_BYTES = 52  # of a record with eight arguments
 LARGEST_JOURNAL_BYTES = 256 * 1024 * 1024
 
 
@@ -77,10 +81,18 @@ def head_of(file: Path, job: Job, options: Mapping[str, Any]) -> Head:
             file_digest = hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError as error:
         raise JournalError(Message("can't be read: {why}", why=message_of(error)).at(file)) from error
-    program_digest = hashlib.sha256(job.program.tobytes()).hexdigest()
+    program_digest = hashlib.sha256(_records_of(job.program)).hexdigest()
     machine = job.machine
     where = str(real_path(file))
     return Head(where, file_digest, program_digest, machine.name, machine.digest, job.holes_total, options)
+
+
+def _records_of(program: NDArray[np.void]) -> bytes:
+    """The records of a program without the arguments of axes past the eighth, where none is used: journals of the time
+    when a record had room for eight axes keep their digest.
+    """
+    rows = np.ascontiguousarray(program).view(np.uint8).reshape(len(program), -1)
+    return (rows if rows[:, EIGHT_AXES_BYTES:].any() else rows[:, :EIGHT_AXES_BYTES]).tobytes()
 
 
 def check_same(journal: Path, then: Head, now: Head) -> None:
