@@ -1,4 +1,4 @@
-"""``python -m drillctl``."""
+"""Runs the command line for ``python -m drillctl``."""
 
 import sys
 

@@ -69,7 +69,7 @@ def _number(text: str) -> int:
 
 
 def _stores(arguments: argparse.Namespace) -> "tuple[Store, Store]":
-    """Returns RAM and EPROM."""
+    """Returns the machine's two stores: RAM, then EPROM."""
     from drillctl.generation.boiler_drum.stores import read_eprom, read_ram
 
     machine = options.machine(arguments)

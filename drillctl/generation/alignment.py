@@ -3,7 +3,7 @@
 Rule: no more is read from the measurements than they can carry. Two holes, or holes on one line, give a
 shift and a turn; three that span both directions give scale and shear too. What is left over is shown
 hole by hole, and whatever looks implausible is said in `warnings`, never mended in silence.
-Called by the wiring of `--align FILE`; the map it finds goes into `placing.Placing`.
+The map goes into `placing.Placing`.
 """
 
 from __future__ import annotations

@@ -9,8 +9,6 @@ from a TOML file (``--drills``):
     diameter_mm = 0.8
     life_hits = 2000             # optional: holes until it is blunt
     used_hits = 150              # optional: holes it has made
-
-Called by worklist.py.
 """
 
 from collections.abc import Iterator

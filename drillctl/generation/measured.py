@@ -1,7 +1,7 @@
 """Holes measured on a board that lies on the machine, and the file that lists them.
 
-Rule: a line is four numbers in millimetres, or it is refused by file, line and column. Called by alignment, which finds
-out how the board lies.
+Rule: a line is four numbers in millimetres, or it is refused by file, line and column. How the board lies is
+found out in alignment.py.
 """
 
 import re

@@ -2,7 +2,6 @@
 
 Rule: one map per board, made once from what the operator asked for, and the same map backwards tells
 where in the file a hole that was made belongs. Units are millimetres throughout; steps come later.
-Called by whoever turns holes into commands, and by whoever reports the holes that were made;
 `alignment.py` makes the maps that come from measured holes.
 """
 

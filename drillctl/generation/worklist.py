@@ -1,7 +1,7 @@
 """The work list: what is drilled with which tool, where, in steps from the working base, in drilling order.
 
 Rule: holes that the machine can't reach are refused here, each by name, before anything moves. Slots become chains
-of holes, panels become boards. Called by job.py.
+of holes, panels become boards.
 """
 
 from dataclasses import dataclass, replace

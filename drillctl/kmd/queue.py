@@ -21,7 +21,7 @@ class CommandQueue(Protocol):
     """A bounded FIFO of command records, in one process or between two: generation puts, execution takes."""
 
     def __len__(self) -> int:
-        """How many records wait."""
+        """How many records wait in the queue."""
 
     @property
     def room(self) -> int:
@@ -178,7 +178,7 @@ class Requests:
         return self._line_up(hand_of(bit, value))
 
     def set_rate(self, tick_hz: int) -> bool:
-        """Requests PACE, as ``set_output``."""
+        """Requests this tick rate (PACE), in Hz, as ``set_output`` requests an output."""
         return self._line_up(pace_of(tick_hz))
 
     def take(self) -> int:

@@ -4,7 +4,7 @@ visible.py    characters that a terminal would obey, or not show at all, as esca
 nearest.py    the word that was probably meant
 messages.py   a template and its fields; the root of all refusals
 words.py      the operator's language: catalogues, messages translated
-figures.py    durations, numbers, millimetres
+number_text.py  durations, numbers and millimetres as people type and read them
 """
 
 from drillctl.language.messages import Message, Refusal, joined, message_of, verbatim

@@ -29,7 +29,7 @@ class PlantForecast:
 
     @property
     def inputs(self) -> int:
-        """The input image."""
+        """The input image, as the driver latches it."""
         return self._plant.inputs
 
     def stands(self, axis: int, travel: int) -> bool:

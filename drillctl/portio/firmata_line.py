@@ -119,7 +119,7 @@ class FirmataLine:
         self._earlier = [message for message in self._earlier if not isinstance(message, Firmware | Version)]
 
     def close(self) -> None:
-        """Closes the serial line."""
+        """Closes the serial line to the board."""
         self._serial.close()
 
     def _next(self, kind: type[MessageT], wait_s: float) -> MessageT | None:

@@ -23,7 +23,7 @@ class SimulatedCard:
         self.plant.drive(SAFE_IMAGE)
 
     def close(self) -> None:
-        """Sets all outputs low."""
+        """Sets all outputs low; there is nothing to release."""
         self.safe()
 
 

@@ -59,13 +59,13 @@ class SignalRecorder(Recorder):
         self._kept: dict[int, list[tuple[Values, Values]]] = {}
 
     def set(self, index: int, tick: int, value: int) -> None:
-        """As a Recorder does."""
+        """Notes a signal's value from this tick on, as a Recorder does."""
         if self._last[index] != value:
             self._last[index] = value
             self._kept.setdefault(index, []).append((np.array([tick]), np.array([value])))
 
     def extend(self, index: int, ticks: Values, values: Values) -> None:
-        """As a Recorder does."""
+        """Notes a signal's values from these ticks on, as a Recorder does."""
         if len(ticks):
             self._last[index] = int(values[-1])
             self._kept.setdefault(index, []).append((ticks, values))

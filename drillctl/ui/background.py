@@ -75,7 +75,7 @@ class _Task(Thread):
         self.start()
 
     def run(self) -> None:
-        """Runs in the thread."""
+        """Does the work; runs in the thread beside the screen."""
         try:
             self.problems = self._work(self._begin)
         except Exception as error:  # raised again where the screen's loop sees it

@@ -1,6 +1,6 @@
 """What options of a job may be, by name: one table for the command line, the screens, journals, and layer 2.
 
-Rule: nothing heavy is imported here. Used by job_options.py beside it, cli/jobs.py and generation/.
+Rule: nothing heavy is imported here.
 """
 
 from typing import Literal, get_args

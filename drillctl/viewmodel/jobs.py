@@ -66,7 +66,7 @@ class Site:
 
     @property
     def message(self) -> Message:
-        """The site in words."""
+        """The site as a message: port, pace and plant."""
         known = {"port": self.port, "pace": self.pace, "plant": self.plant, "seed": self.seed}
         if self.real:
             return Message("port {port}, pace {pace}", **known)

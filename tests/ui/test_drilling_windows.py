@@ -11,7 +11,7 @@ from drillctl.ui.models.speeds import Speeds
 from drillctl.ui.pcb_drill.machine_window import machine_pages
 from drillctl.ui.pcb_drill.motor_strip import motor_pages
 from drillctl.ui.pcb_drill.tool_list import tool_lines
-from drillctl.ui.widgets.figures import LIGHT, PLAIN, bar, gauge, large, strip
+from drillctl.ui.widgets.text_graphics import LIGHT, PLAIN, bar, gauge, large, strip
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import MachineView, ToolView
 from drillctl.viewmodel.records import Progress, ToolEstimate

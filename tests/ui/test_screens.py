@@ -8,7 +8,7 @@ import pytest
 import urwid
 
 from drillctl.language import words
-from drillctl.language.figures import pair_mm
+from drillctl.language.number_text import pair_mm
 from drillctl.ui.models.board_work import Work
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.drilling import Drilling

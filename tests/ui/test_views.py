@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from drillctl.kmd import FAULTS, Fault
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.ui.terminal import wait
 from drillctl.ui.terminal.progress import ProgressView
 from drillctl.ui.terminal.reports import summary_lines

@@ -43,7 +43,7 @@ class Sentence(NamedTuple):
 
     @property
     def axis(self) -> str:
-        """The axis that moves."""
+        """The name of the axis that the sentence moves."""
         return DIRECTIONS[self.direction].axis
 
     @property

@@ -69,7 +69,7 @@ class Machine:
         self.tools.current = NO_TOOL
 
     def end_header(self) -> None:
-        """% or M95."""
+        """Ends the header, at a line of ``%`` or ``M95``."""
         self.in_header = False
 
     def set_units(self, units: str, source: str) -> None:
@@ -87,7 +87,7 @@ class Machine:
         self.mm = mm
 
     def select(self, number: int) -> None:
-        """T in the body."""
+        """Takes the tool of a T in the body as the one in hand."""
         self.tools.select(number, self.line)
         self.tool_in_rout = self.routing
 

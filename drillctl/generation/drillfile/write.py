@@ -1,7 +1,7 @@
 """Writes a clean drill file. Rule: what `decode` reads back is the same board, to the format's resolution.
 
 Excellon with a header that declares everything; or the header-less body of OrCAD and PADS, which declares
-nothing; either as ASCII or as EIA tape code. Called by the command line's convert and by tests.
+nothing; either as ASCII or as EIA tape code.
 """
 
 from __future__ import annotations

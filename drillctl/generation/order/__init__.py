@@ -12,7 +12,7 @@
     plan.py        the front door: one tool, or one tool after the other
 
 Rule: whole numbers only, and no clock but that of a budget of seconds, so the same holes always give the same order.
-It knows steps and ticks, no millimetres and no machine. Called by whoever makes a job out of a drill file.
+It knows steps and ticks, no millimetres and no machine.
 """
 
 from drillctl.generation.order.budget import Budget

@@ -81,7 +81,7 @@ class WithChanges(Sequence[int]):
         self._row, self._tool, self._tools = row, tool, tools
 
     def __len__(self) -> int:
-        """All stops and END."""
+        """How many places it has: all stops and END."""
         return len(self._row)
 
     def __getitem__(self, other: int) -> int:  # type: ignore[override]  # never asked for a slice
@@ -104,7 +104,7 @@ class PairByPair(Sequence[int]):
         self._ticks_x, self._ticks_y, self._end, self._to_end = ticks_x, ticks_y, len(x), to_end
 
     def __len__(self) -> int:
-        """All holes and END."""
+        """How many places it has: all holes and END."""
         return self._end + 1
 
     def __getitem__(self, other: int) -> int:  # type: ignore[override]  # never asked for a slice

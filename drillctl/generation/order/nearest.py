@@ -1,7 +1,6 @@
 """Always to the nearest hole of the tool that is left; of equally near ones to the one that stands first in the file.
 
 Rule: exact. A list of near holes answers most times; once all of those are done, every hole left is tried.
-Called by `plan`.
 """
 
 from __future__ import annotations

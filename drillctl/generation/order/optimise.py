@@ -3,7 +3,7 @@
 Rule: counted, and drawn from a fixed seed, so the same holes always give the same path, unless a budget of seconds
 cuts the search; and never longer than the path it began with. The method is iterated local search with the
 double-bridge disturbance (Martin, Otto and Felten 1991), kept within a short stretch of one tool's holes so that its
-repair looks at a few dozen holes, however large the board. Called by `plan`.
+repair looks at a few dozen holes, however large the board.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ class Bit:
 
     @property
     def mounted(self) -> bool:
-        """Whether there is one."""
+        """Whether a drill is in the spindle."""
         return self.columns[law.MOUNTED] != 0.0
 
     @property

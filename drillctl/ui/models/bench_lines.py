@@ -8,7 +8,7 @@ from itertools import zip_longest
 
 from drillctl.language.words import N_, _
 from drillctl.ui.widgets.curves import curve_rows
-from drillctl.ui.widgets.figures import LEVELS, PLAIN_LEVELS
+from drillctl.ui.widgets.text_graphics import LEVELS, PLAIN_LEVELS
 from drillctl.ui.widgets.texts import Line, width_of
 from drillctl.viewmodel.bench import BenchReport, CyclePath, MotorRun
 

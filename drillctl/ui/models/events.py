@@ -6,7 +6,7 @@ Rule: a function of the views alone, so that the same run gives the same list. T
 from collections import deque
 from collections.abc import Iterator
 
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.language.words import N_, _, translated
 from drillctl.viewmodel.console import MachineView
 

@@ -3,6 +3,7 @@
     drilling.py    the machine at work: jog, base, start, hold, stop       board_view.py   the picture of the board
     drilling_windows.py its windows, by the size of the terminal
     board_layers.py what lies in each cell of that picture                 rulers.py       what stands around it
+    window_lines.py lines that the machine's window shares in its forms
     side_window.py the paper's window at the right of it                   unfinished.py   jobs that were interrupted
     machine_window.py the same with large figures, where there is room     tool_list.py    the tools of the board
     motor_strip.py the motors side by side

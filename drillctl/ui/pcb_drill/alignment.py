@@ -10,7 +10,7 @@ from textwrap import wrap
 import urwid
 
 from drillctl.language import Message
-from drillctl.language.figures import pair_mm
+from drillctl.language.number_text import pair_mm
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.measuring import LEAST_HOLES, Measuring, PlaceMm
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls

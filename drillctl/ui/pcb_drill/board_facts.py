@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.typed import BY_OPTION
 from drillctl.viewmodel.console import BoardView

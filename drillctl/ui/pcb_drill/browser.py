@@ -33,7 +33,7 @@ class Browser(urwid.ListBox[int]):
         urwid.connect_signal(self._rows, "modified", self._moved)
 
     def go_to(self, folder: Path) -> None:
-        """Shows another folder."""
+        """Lists the files of another folder."""
         self.folder = real_path(folder)
         found = list(self._found())
         self._paths = [path for path, _name in found]

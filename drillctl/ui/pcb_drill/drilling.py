@@ -9,7 +9,7 @@ from pathlib import Path
 import urwid
 
 from drillctl.language import Message
-from drillctl.language.figures import clock, pair_mm
+from drillctl.language.number_text import clock, pair_mm
 from drillctl.language.words import N_, _
 from drillctl.ui.pcb_drill.board_view import STEP
 from drillctl.ui.pcb_drill.drilling_windows import DrillingWindows
@@ -160,7 +160,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.acknowledge(), _("acknowledged"))
 
     def files(self) -> None:
-        """Opens the Files screen."""
+        """Opens the Files screen on top."""
         self._shell.show("files")
 
     def examples(self) -> None:
@@ -182,7 +182,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._say("body", _("zoom {zoom:g}").format(zoom=round(self._windows.picture.zoom(ZOOMS[way]), 1)))
 
     def whole_board(self) -> None:
-        """Shows the whole board."""
+        """Zooms out until the whole board is seen."""
         self._windows.picture.whole()
         self._say("body", _("the whole board"))
 

@@ -55,6 +55,6 @@ def open_sheet(file: Path, shell: Shell) -> None:
 
 
 def _title(file: Path) -> str:
-    """``3 ramps`` for ``03-ramps.md``."""
+    """The title of a sheet by its file: ``3 ramps`` for ``03-ramps.md``."""
     number, _dash, name = file.stem.partition("-")
     return f"{int(number)} {name.replace('-', ' ')}"

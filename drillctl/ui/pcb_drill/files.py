@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from drillctl.files.inputs import real_path
 from drillctl.language import Message
-from drillctl.language.figures import pair_mm
+from drillctl.language.number_text import pair_mm
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.board_facts import CHOICES, board_lines, format_name, is_warning, option_lines, recent_line

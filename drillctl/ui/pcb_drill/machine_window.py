@@ -1,20 +1,12 @@
 """The machine's window where there is room: how far the job is, the commands to come, and the place in large figures.
 
-Rule: as side_window.py has it, whose lines it shares.
+Rule: a function of the machine's view and the job's progress; nothing is told by colour alone.
 """
 
 from drillctl.language.words import _
-from drillctl.ui.pcb_drill.side_window import (
-    apart,
-    hole_text,
-    labelled,
-    lamps,
-    numbered_pages,
-    tick_lines,
-    time_text,
-    tool_text,
-)  # fmt: skip
-from drillctl.ui.widgets.figures import gauge, large
+from drillctl.ui.pcb_drill.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
+from drillctl.ui.widgets.pages import apart, numbered_pages
+from drillctl.ui.widgets.text_graphics import gauge, large
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView
 from drillctl.viewmodel.records import Progress

@@ -9,7 +9,7 @@ from itertools import zip_longest
 from drillctl.language.words import _
 from drillctl.ui.models.speeds import Speeds
 from drillctl.ui.screens.machine_lines import phase_table
-from drillctl.ui.widgets.figures import bar, strip
+from drillctl.ui.widgets.text_graphics import bar, strip
 from drillctl.ui.widgets.texts import Line, width_of
 from drillctl.viewmodel.console import AxisView, MachineView
 

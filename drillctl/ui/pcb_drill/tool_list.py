@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.language.words import _
-from drillctl.ui.widgets.figures import bar
+from drillctl.ui.widgets.text_graphics import bar
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import BoardView, MachineView
 

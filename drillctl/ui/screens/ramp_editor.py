@@ -55,7 +55,7 @@ class RampEditor(TableEditor):
             self._take(typed)
 
     def rub_out(self) -> None:
-        """Removes the last digit."""
+        """Removes the last digit of the number being typed."""
         self._take(self._shown()[:-1])
 
     def more(self) -> None:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from drillctl.language.figures import number
+from drillctl.language.number_text import number
 from drillctl.language.words import _
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.table_actions import TableActions

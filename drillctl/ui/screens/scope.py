@@ -156,7 +156,7 @@ class Scope(urwid.Widget):
         self._with_rows(self._rows.all().only(row for row, signal in enumerate(signals) if signal.group == group))
 
     def show_all(self) -> None:
-        """Shows every row again."""
+        """Shows the rows that were hidden, too."""
         self._with_rows(self._rows.all())
 
     def _look_at(self, source: ScopeSource) -> None:

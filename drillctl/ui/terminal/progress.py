@@ -9,7 +9,7 @@ from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.viewmodel import Progress
 
 if TYPE_CHECKING:

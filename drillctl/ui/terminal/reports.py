@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.viewmodel import Estimate, Outcome, ToolEstimate
 from drillctl.viewmodel.reports import Bar, LatencyReport, Lateness
 

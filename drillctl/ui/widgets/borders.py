@@ -26,5 +26,5 @@ def use(plain: bool) -> None:
 
 
 def lines() -> Lines:
-    """The lines in use."""
+    """The characters that frames are drawn with now."""
     return _used

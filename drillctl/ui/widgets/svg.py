@@ -36,7 +36,7 @@ def svg(columns: int, rows: Sequence[Sequence[Run]], ground: str) -> str:
 
 
 def _row(number: int, runs: Sequence[Run], ground: str) -> str:
-    """Grounds first, then letters."""
+    """One row of text as SVG: backgrounds first, then letters."""
     placed = list(_placed(runs))
     grounds = [_ground(number, column, run) for column, run in placed if run.ground != ground]
     return "<g>" + "".join([*grounds, *(_letters(number, column, run) for column, run in placed)]) + "</g>"

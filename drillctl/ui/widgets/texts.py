@@ -47,7 +47,7 @@ class Icon(urwid.SelectableIcon):
     """A line of a list that can have the cursor."""
 
     def set_text(self, markup: Any) -> None:
-        """Shows another text, escaped."""
+        """Shows another text, its control characters escaped."""
         super().set_text(shown(markup))
 
 
@@ -79,7 +79,7 @@ class Box(urwid.LineBox[urwid.Widget]):
         )  # fmt: skip
 
     def set_title(self, text: Any) -> None:
-        """Shows another title, escaped."""
+        """Shows another title, its control characters escaped."""
         super().set_title(shown(text))
 
 

@@ -3,7 +3,7 @@
 import time
 
 from drillctl.language import Message, one_line
-from drillctl.language.figures import clock
+from drillctl.language.number_text import clock
 from drillctl.language.words import _, translated
 
 SURE_FROM = 0.01  # the share that must be done before the time left is worth showing

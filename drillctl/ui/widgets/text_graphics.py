@@ -1,4 +1,4 @@
-"""Figures three rows high and bars, as text: for what is read from across a room."""
+"""Digits three rows high, bars and charts, as text: for what is read from across a room."""
 
 from drillctl.language.words import _
 
