@@ -22,7 +22,7 @@ from drillctl.console.views import machine_list, machine_view, plant_in_words
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
 from drillctl.generation.waits import unwatched
-from drillctl.kmd import Condition, KmdError, Request, is_idle, parse_program
+from drillctl.kmd import Condition, KmdError, Op, Request, is_idle, parse_program
 from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
@@ -33,6 +33,7 @@ from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
 
 BUSY = Message("the machine is at work; hold or stop it first")
+ZERO_ONLY = Message("only the return to zero is allowed now (KMD_POWROT)")
 
 
 class MachineConsole:
@@ -128,7 +129,7 @@ class MachineConsole:
         """Changes the machine or its port by ``how``; refused while something moves. Board and base are forgotten where
         another ticker runs afterwards.
         """
-        if not self.link.lost() and (problems := self.busy()):
+        if not self.link.lost() and (problems := self._occupied()):
             return problems
         before = self.link, self.machine
         problems = how(self.used)
@@ -192,7 +193,8 @@ class MachineConsole:
             program = parse_program(text, names_of(self.machine), "queue")
         except KmdError as error:
             return error.messages
-        if problems := self.busy():
+        returns = Op(int(program["opcode"][0])) == Op.POWROT
+        if problems := self._occupied() if returns else self.busy():
             return problems
         self._job.begin(Job("queue", program, self.machine))
         return ()
@@ -200,6 +202,10 @@ class MachineConsole:
     def initialise(self) -> Problems:
         """Goes to machine zero, which becomes the working base."""
         return self.run_queue("KMD_INICJALIZACJA\n")
+
+    def return_to_zero(self) -> Problems:
+        """Goes back to machine zero, the heads first, by the count of steps."""
+        return self.run_queue("KMD_POWROT\n")
 
     def set_base(self) -> Problems:
         """Makes the present place of X and Y the working base."""
@@ -259,6 +265,11 @@ class MachineConsole:
 
     def busy(self) -> Problems:
         """Why nothing new can be begun now; empty where it can."""
+        zero_only = self.link.status()["condition"] == Condition.ZERO_ONLY
+        return self._occupied() or ((ZERO_ONLY,) if zero_only else ())
+
+    def _occupied(self) -> Problems:
+        """Why not even a return to zero can be begun now; empty where it can."""
         status = self.link.status()
         if self.link.lost():
             return (Message("the ticker's process is gone; acknowledge, and it is started anew"),)

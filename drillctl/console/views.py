@@ -25,6 +25,7 @@ CONDITIONS = {
     Condition.STOPPING: "stopping",
     Condition.RETURNING: "returning",
     Condition.LATCHED: "latched",
+    Condition.ZERO_ONLY: "zero_only",
 }
 
 FOLLOWING = 3  # commands that are shown behind the one in execution

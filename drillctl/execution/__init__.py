@@ -9,6 +9,7 @@
     commands.py    how each KMD command starts and ends
     heads.py       the same for those of the drilling heads
     homing.py      initialisation, by the machine's table of steps
+    return_to_zero.py  KMD_POWROT, by the count of steps
     limit_checks.py  sensors, ranges, times
     clock.py       the paced clock, and what a gap in time does
     between_ticks.py  writes the status record; edited tables for a machine that rests

@@ -74,7 +74,7 @@ class Axis:
         self.low, self.high, self.span = table.low_steps, table.high_steps, table.span_steps
         self.limits = limits  # input bits of the end sensors: index 1 for +, -1 for - (0 unused)
         self.reach = reach or (self.low, self.high)  # where it can be sent: its range short of its limit sensors
-        self.up = max(0, self.reach[0])  # where a head that is fed by a distance waits between holes
+        self.up = max(0, self.reach[0])  # the return to zero ends here; a head fed by a distance waits here
         self.wires = sum(1 << bit for bit in table.wire_bits)
         self.forcing, self.halves = _forcing(table), _halves(table)
         self.drive_patterns = _patterns(table, forcing=True)

@@ -12,6 +12,7 @@ from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
 from drillctl.execution.heads import heads_lowered, heads_raised, lower_heads, raise_heads
 from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
+from drillctl.execution.return_to_zero import begin_return, carry_return
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
 from drillctl.ports import with_bits
@@ -25,12 +26,18 @@ def start_next(m: Controller) -> bool:
             m.busy = True
             occur(m, Event.COMMAND)
             m.elapsed = 0
-            started = _STARTED.get(command.opcode)
-            fault = started(m, command) if started else Fault.BAD_COMMAND
+            fault = _start(m, command)
             if fault:
                 raise_fault(m, fault)
             return True
     return False
+
+
+def _start(m: Controller, command: Command) -> int:
+    if m.zero_first and command.opcode != Op.POWROT:
+        return Fault.ONLY_ZERO
+    started = _STARTED.get(command.opcode)
+    return started(m, command) if started else Fault.BAD_COMMAND
 
 
 def finish(m: Controller) -> None:
@@ -193,6 +200,7 @@ _STARTED: Mapping[int, Handler] = {
     Op.NARZEDZIE: _tool,
     Op.FAZY_WYL: _release,
     Op.KONIEC: _nothing,
+    Op.POWROT: begin_return,
 }
 _ENDED: Mapping[int, Handler] = {
     Op.WIERTLO_DOL: heads_lowered,
@@ -201,4 +209,5 @@ _ENDED: Mapping[int, Handler] = {
     Op.CZEKAJ: _waited,
     Op.CZEKAJ_WE: _answered,
     Op.KONIEC: _end,
+    Op.POWROT: carry_return,
 }

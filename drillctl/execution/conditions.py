@@ -1,8 +1,9 @@
 """What the machine does on each event at each stage: one table, ``TABLE``, and ``occur``, which follows it.
 
-A controller is always at one *stage*. The status record shows eight stages as five conditions (controller.py):
+A controller is always at one *stage*. The status record shows nine stages as six conditions (controller.py):
 
     READY      IDLE (no job) or RUNNING (from a job's first command to KMD_KONIEC)
+    ZERO_ONLY  no job, and the first command that is taken must be the return to zero (KMD_POWROT)
     HOLDING    braking or resting on hold; command, targets and job stay
     STOPPING   braking down the ramps after STOP; or FAULT_STOPPING, after a fault; or RETURN_STOPPING, after a fault
                that sends the machine home
@@ -33,7 +34,7 @@ from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
 from drillctl.kmd import Fault, Reaction
 from drillctl.kmd.queue import RequestBit
 
-IDLE, RUNNING, HOLDING, STOPPING, FAULT_STOPPING, RETURN_STOPPING, RETURNING, LATCHED = Stage
+IDLE, ZERO_ONLY, RUNNING, HOLDING, STOPPING, FAULT_STOPPING, RETURN_STOPPING, RETURNING, LATCHED = Stage
 Action = Callable[[Controller], None]
 
 
@@ -56,6 +57,7 @@ class Event(IntEnum):
     FAULT_RETURN = 13
     FAULT_DROP = 14
     FAULT_FREEZE = 15
+    ZERO_FIRST = 16  # it rests without a job, after a fault after which the machine must return to zero
 
 
 def occur(m: Controller, event: Event) -> None:
@@ -78,6 +80,7 @@ def raise_fault(m: Controller, fault: int) -> None:
         m.fault_kept = True
     in_place = event != Event.FAULT_FREEZE or stops.stops_dead_in_place(m)
     stops.keep_position(m, spec.position_kept and in_place)
+    m.zero_first = m.zero_first or fault in m.only_zero_after
     occur(m, event)
 
 
@@ -109,6 +112,25 @@ def serve_inputs(m: Controller) -> bool:
     return pressed > 0
 
 
+def _finish_stop(m: Controller) -> None:
+    """At rest after a stop: the outputs beside the axes go off. A return that was cut short has lost the position."""
+    stops.finish_stop(m)
+    _bind_to_zero(m)
+
+
+def _acknowledge(m: Controller) -> None:
+    """Forgets the fault, so that the next one is the first again."""
+    stops.acknowledge(m)
+    _bind_to_zero(m)
+
+
+def _bind_to_zero(m: Controller) -> None:
+    """Without a known position there is no way back to zero, and the machine is not bound to it."""
+    m.zero_first = m.zero_first and m.position_known
+    if m.zero_first and not m.fault:
+        occur(m, Event.ZERO_FIRST)
+
+
 def _no_action(m: Controller) -> None:
     """Does nothing: only the stage changes."""
 
@@ -136,20 +158,22 @@ _REQUESTS: Mapping[int, Event] = {
     RequestBit.OUTPUT: Event.OUTPUT,
     RequestBit.PACE: Event.PACE,
 }
-_WITHOUT_FAULT = (IDLE, RUNNING, HOLDING, STOPPING)
+_WITHOUT_FAULT = (IDLE, ZERO_ONLY, RUNNING, HOLDING, STOPPING)
 _AFTER_FAULT = (FAULT_STOPPING, RETURN_STOPPING, RETURNING)
 
 TABLE: Mapping[tuple[int, int], tuple[Stage, Action]] = {
     (IDLE, Event.COMMAND): (RUNNING, _no_action),
+    (IDLE, Event.ZERO_FIRST): (ZERO_ONLY, _no_action),
+    (ZERO_ONLY, Event.COMMAND): (RUNNING, _no_action),
     (RUNNING, Event.JOB_END): (IDLE, _no_action),
     (RUNNING, Event.HOLD): (HOLDING, stops.hold_axes),
     (HOLDING, Event.RESUME): (RUNNING, stops.resume_axes),
-    (STOPPING, Event.REST): (IDLE, stops.finish_stop),
-    (FAULT_STOPPING, Event.REST): (LATCHED, stops.finish_stop),
+    (STOPPING, Event.REST): (IDLE, _finish_stop),
+    (FAULT_STOPPING, Event.REST): (LATCHED, _finish_stop),
     (RETURN_STOPPING, Event.REST): (RETURNING, begin_homing),
     (RETURNING, Event.REST): (RETURNING, _carry_home),
     (RETURNING, Event.HOME): (LATCHED, stops.arrive_home),
-    (LATCHED, Event.ACK): (IDLE, stops.acknowledge),
+    (LATCHED, Event.ACK): (IDLE, _acknowledge),
     (IDLE, Event.OUTPUT): (IDLE, stops.set_output),
     (IDLE, Event.PACE): (IDLE, stops.set_pace),
     **{(stage, Event.PACE): (stage, stops.ignore_pace) for stage in Stage if stage != IDLE},

@@ -7,7 +7,7 @@ from enum import IntEnum
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.line import Line
-from drillctl.kmd import Command, CommandQueue, Condition, Mailbox
+from drillctl.kmd import Command, CommandQueue, Condition, Fault, Mailbox
 from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine
 from drillctl.ports import SAFE_IMAGE, Driver
@@ -17,18 +17,19 @@ class Stage(IntEnum):
     """What a controller is about: the stages of the table in conditions.py."""
 
     IDLE = 0
-    RUNNING = 1
-    HOLDING = 2
-    STOPPING = 3
-    FAULT_STOPPING = 4
-    RETURN_STOPPING = 5
-    RETURNING = 6
-    LATCHED = 7
+    ZERO_ONLY = 1
+    RUNNING = 2
+    HOLDING = 3
+    STOPPING = 4
+    FAULT_STOPPING = 5
+    RETURN_STOPPING = 6
+    RETURNING = 7
+    LATCHED = 8
 
 
 CONDITIONS = (
-    Condition.READY, Condition.READY, Condition.HOLDING, Condition.STOPPING, Condition.STOPPING, Condition.STOPPING,
-    Condition.RETURNING, Condition.LATCHED,
+    Condition.READY, Condition.ZERO_ONLY, Condition.READY, Condition.HOLDING, Condition.STOPPING, Condition.STOPPING,
+    Condition.STOPPING, Condition.RETURNING, Condition.LATCHED,
 )  # fmt: skip
 ACTIONS = ("pause", "stop", "estop")  # of an ``[[input]]``
 
@@ -43,6 +44,8 @@ class Controller:
     estops    inputs that asked for an emergency stop in the tick before, none once it was acknowledged
     shared    input bits that several end sensors share; ``shared_on`` those that were on in the tick before
     reactions what this machine does on each fault
+    zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
+    return_rows the axes of the return to zero, in the order in which they go
     switched  output bits that are no axis's: spindle and the like
     elapsed   ticks of the current command, hold not counted
     underruns wakes in which a job's next command was missing
@@ -64,6 +67,8 @@ class Controller:
             Axis(table, _limits(machine, index), machine.reach(index)) for index, table in enumerate(machine.axes)
         )
         self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
+        others = tuple(axis for axis in self.axes if axis not in self.drill_axes)
+        self.return_rows = (self.drill_axes, others)
         self.line = Line(self.axes)
         self.polarity = sum(1 << line.bit for line in machine.input_lines if line.active_level == 0)
         self.sensor_mask = sum(1 << line.bit for line in machine.input_lines)
@@ -73,6 +78,7 @@ class Controller:
         self.pairs = tuple(filter(None, (_pair(axis, self.shared) for axis in self.axes)))
         chosen = ((row.fault, row.do, row.position_kept) for row in machine.reactions)
         self.reactions = reactions_of(machine.emergency_stop, chosen)
+        self.only_zero_after = frozenset(Fault[name] for name in machine.only_zero_after)
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
         self.homes_by_sensor = any(step.do == "seek" for step in machine.homing)
@@ -82,7 +88,7 @@ class Controller:
         self.enter(Stage.IDLE)
         self.busy = False
         self.elapsed = self.time_limit = 0
-        self.homing_row = 0
+        self.homing_row = self.return_row = 0
 
         self.tick = self.underruns = self.moving = self.running = self.served = self.gap = self.late = 0
         self.unseen = self.hot_until = self.cut_off = 0
@@ -92,7 +98,7 @@ class Controller:
 
         self.epoch = 0
         self.fault = 0
-        self.fault_kept = self.caught = False
+        self.fault_kept = self.caught = self.zero_first = False
         self.position_known = False
 
         self.done = self.hole_begun = self.holes_done = self.tool = 0

@@ -61,6 +61,7 @@ def freeze(m: Controller) -> None:
 def arrive_home(m: Controller) -> None:
     """The return after a fault is through: the position is known, and the current is held."""
     m.position_known = True
+    m.zero_first = False
     _hold_current(m)
 
 

@@ -50,6 +50,7 @@ class Op(IntEnum):
     NARZEDZIE = 16
     FAZY_WYL = 17
     KONIEC = 18
+    POWROT = 19
 
 
 class Flag(IntFlag):
@@ -125,6 +126,10 @@ _ALL = (
         "release the phases of all or the named axes: the position is lost",
     ),
     Spec("KMD_KONIEC", Op.KONIEC, ArgumentForm.NOTHING, "", "the end of the queue"),
+    Spec(
+        "KMD_POWROT", Op.POWROT, ArgumentForm.NOTHING, "",
+        "return to zero by the count of steps: the heads first, then all other axes",
+    ),
 )  # fmt: skip
 
 COMMANDS: Mapping[str, Spec] = {spec.name: spec for spec in _ALL}

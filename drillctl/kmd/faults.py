@@ -42,6 +42,7 @@ class Fault(IntEnum):
     HEARTBEAT_LOST = 16
     TICKER_LOST = 17
     PORT_SLOW = 18
+    ONLY_ZERO = 19
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,7 @@ _ALL = (
     FaultSpec(Fault.HEARTBEAT_LOST, Reaction.DROP, False),
     FaultSpec(Fault.TICKER_LOST, Reaction.DROP, False),
     FaultSpec(Fault.PORT_SLOW, Reaction.DROP, False),
+    FaultSpec(Fault.ONLY_ZERO, Reaction.STOP, True),
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

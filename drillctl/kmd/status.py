@@ -19,6 +19,7 @@ class Condition(IntEnum):
     STOPPING = 2  # braking to end the job
     RETURNING = 3  # after a fault: head up, then home
     LATCHED = 4  # a fault or an emergency stop waits to be acknowledged
+    ZERO_ONLY = 5  # after some faults: takes the return to zero, and no other command
 
 
 STATUS = np.dtype(
@@ -59,6 +60,14 @@ STATUS = np.dtype(
 )
 
 
+_AFTER_FAULT = (Condition.LATCHED, Condition.ZERO_ONLY)
+
+
+def takes_commands(condition: int) -> bool:
+    """Whether commands are taken from the queue in a condition, be it only one of them."""
+    return condition in (Condition.READY, Condition.ZERO_ONLY)
+
+
 def is_idle(condition: int, job: int, moving: int) -> bool:
     """Whether the machine rests outside a job and takes commands; arguments as in the status record."""
     return condition == Condition.READY and not job and not moving
@@ -68,7 +77,7 @@ def has_ended(condition: int, job: int, moving: int) -> bool:
     """Whether a job has ended (at KMD_KONIEC, by a stop, or latched by a fault) and everything rests; arguments as in
     the status record. Also true before the first command of a job: see ``is_over``.
     """
-    return is_idle(condition, job, moving) or (condition == Condition.LATCHED and not moving)
+    return is_idle(condition, job, moving) or (condition in _AFTER_FAULT and not moving)
 
 
 def is_complete(status: np.void, last_sequence: int) -> bool:

@@ -13,7 +13,7 @@ from drillctl.machine.inputs import sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
-from drillctl.machine.reactions import reactions
+from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
 from drillctl.machine.source import Source
@@ -54,6 +54,8 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         surroundings=Surroundings(raw.plant.scatter_mm, raw.plant.thrust_n, raw.plant.thrust_growth),
         inputs=inputs,
         reactions=reactions(source, raw, homing),
+        only_zero_after=only_zero_after(source, raw),
+        return_interval=raw.return_interval,
     )
 
 

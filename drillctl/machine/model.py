@@ -135,8 +135,10 @@ class Machine:
     files: tuple[str, ...]  # that it was read from, its own first
     shipped: bool
     surroundings: Surroundings = field(default=Surroundings(), repr=False)  # the plant's: not in the digest
-    inputs: tuple[Input, ...] = field(default=(), repr=False)  # these two: in the digest where there are some
+    inputs: tuple[Input, ...] = field(default=(), repr=False)  # these: in the digest where a machine has them
     reactions: tuple[FaultReaction, ...] = field(default=(), repr=False)
+    only_zero_after: tuple[str, ...] = field(default=(), repr=False)  # faults after which only KMD_POWROT is taken
+    return_interval: int = field(default=0, repr=False)  # the least ticks between steps of KMD_POWROT
 
     @property
     def file(self) -> str:
@@ -206,5 +208,5 @@ class Machine:
     def _unusual(self) -> str:
         """What decides a run and came later than the first digests, where it is not as it was before."""
         strokes = (f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
-        rows = (f"{row!r}\n" for row in (*self.inputs, *self.reactions))
-        return "".join((*strokes, *rows))
+        later = (*self.inputs, *self.reactions, self.only_zero_after, self.return_interval)
+        return "".join((*strokes, *(f"{value!r}\n" for value in later if value)))

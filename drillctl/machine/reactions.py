@@ -36,7 +36,7 @@ NO_RETURN: Mapping[str, Message] = {
 }
 ANY = (
     "LIMIT", "SOFT_LIMIT", "HOMING_REQUIRED", "DRILLING_TIME", "INPUT_TIMEOUT", "LINE_MISMATCH", "BAD_COMMAND",
-    "LATE_TICK",
+    "LATE_TICK", "ONLY_ZERO",
 )  # fmt: skip
 FAULT_NAMES = sorted({*ANY, *FIXED, *NOT_KEPT, *NO_RETURN})
 
@@ -53,6 +53,21 @@ def reactions(source: Source, raw: MachineFile, homing: Sequence[HomingStep]) ->
         if why := _wrong(row.fault, row.do, row.position, homing):
             raise source.error(Message("reaction {name}: {why}", name=row.fault, why=why), "reaction", index)
     return tuple(FaultReaction(row.fault, row.do, row.position == "kept") for row in raw.reaction)
+
+
+def only_zero_after(source: Source, raw: MachineFile) -> tuple[str, ...]:
+    """Returns the faults after which a machine takes only the return to zero. Raises TableError for one that loses the
+    position: there is no way back to zero then.
+    """
+    kept = {row.fault for row in raw.reaction if row.position == "kept"}
+    if raw.emergency_stop != "drop":
+        kept.add("EMERGENCY_STOP")
+    for name in raw.only_zero_after:
+        if name not in kept:
+            told = {"name": name, "words": known_words(name, sorted(kept))}
+            reason = Message("only_zero_after: no fault {name!r} keeps the position here; {words}", **told)
+            raise source.error(reason, "only_zero_after")
+    return tuple(raw.only_zero_after)
 
 
 def _wrong(fault: str, do: str, position: str, homing: Sequence[HomingStep]) -> Message | None:

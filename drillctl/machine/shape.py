@@ -116,6 +116,8 @@ class MachineFile(Strict, frozen=True):
     wiring: dict[str, Any]  # of Bit
     description: str = ""
     emergency_stop: Literal["drop", "hold", "brake"] = "drop"
+    only_zero_after: list[str] = []  # names of faults
+    return_interval: Annotated[int, msgspec.Meta(ge=0, le=1_000_000)] = 0
     locked: list[str] = []  # names of settings that the configuration screen may not change
     configuration: ConfigurationPart = ConfigurationPart()
     sensor: list[SensorRow] = []

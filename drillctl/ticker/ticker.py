@@ -12,7 +12,6 @@ from drillctl.execution import Controller, loaded, look, report, tick
 from drillctl.kmd import (
     STATUS,
     CommandQueue,
-    Condition,
     Gate,
     Mailbox,
     Queue,
@@ -20,6 +19,7 @@ from drillctl.kmd import (
     TickGate,
     has_ended,
     is_idle,
+    takes_commands,
 )
 from drillctl.machine import Machine
 from drillctl.plant import IDEAL_PLANT, Plant, PlantChoice
@@ -114,7 +114,7 @@ class Ticker:
     def waits(self) -> bool:
         """Whether ticks wait for the gate. Requests, a machine that brakes or returns, and hot windings don't wait."""
         shut = self.gate.paused and not self.gate.left
-        waits = shut and not self.requests.waiting and self.controller.condition == Condition.READY
+        waits = shut and not self.requests.waiting and takes_commands(self.controller.condition)
         return waits and not self.controller.hot_until
 
     @property

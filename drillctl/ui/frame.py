@@ -26,6 +26,7 @@ CONDITIONS = {
     "stopping": ("warning", N_("STOPPING")),
     "returning": ("warning", N_("RETURNING")),
     "latched": ("danger", N_("FAULT")),
+    "zero_only": ("warning", N_("ZERO ONLY")),
 }
 PAUSED = ("warning", N_("CLOCK STOPPED"))
 AT_WORK = ("good", N_("AT WORK"))  # while a job is under way that waits for nobody

@@ -176,6 +176,9 @@ class Console(Protocol):
     def initialise(self) -> Problems:
         """Raises the head, then moves to X=0, Y=0 by the limit sensors."""
 
+    def return_to_zero(self) -> Problems:
+        """Goes back to machine zero by the count of steps, the heads first."""
+
     def jog(self, axis: str, steps: int) -> Problems:
         """So many steps from here, with ramps; one further step waits. Asked as fast as a key held down repeats, it
         is one move, until the asking ends.
@@ -200,7 +203,7 @@ class Console(Protocol):
         """Ends the job; the position is kept."""
 
     def emergency_stop(self) -> Problems:
-        """Stops the machine immediately, in mid-step, and switches the outputs off. Never refused."""
+        """Stops the machine as its file says: outputs off, current held, or down the ramps. Never refused."""
 
     def acknowledge(self) -> Problems:
         """Acknowledges the fault, so that the machine can be used again."""

@@ -114,6 +114,10 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
             "lower tick_hz or use a faster line, and see that nothing else talks to the port; then initialise again"
         ),
     ),
+    Fault.ONLY_ZERO: FaultWords(
+        Message("a command came that is not the return to zero, the only one allowed after a limit or emergency stop"),
+        Message("acknowledge, and return to zero (KMD_POWROT) before anything else"),
+    ),
 }
 
 

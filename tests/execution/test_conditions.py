@@ -16,23 +16,24 @@ NEW_HZ = 300
 
 # By event, the stage that comes next from each stage; "." is the same one, and nothing is done.
 EXPECTED = """
-               IDLE            RUNNING         HOLDING         STOPPING        FAULT_STOPPING RETURN_STOPPING RETURNING      LATCHED
-COMMAND        RUNNING         .               .               .               .              .               .              .
-JOB_END        .               IDLE            .               .               .              .               .              .
-REST           .               .               .               IDLE            LATCHED        RETURNING       RETURNING      .
-HOME           .               .               .               .               .              .               LATCHED        .
-PAUSE          IDLE            RUNNING         HOLDING         STOPPING        FAULT_STOPPING RETURN_STOPPING RETURNING      LATCHED
-STOP           STOPPING        STOPPING        STOPPING        STOPPING        FAULT_STOPPING FAULT_STOPPING  FAULT_STOPPING .
-HOLD           .               HOLDING         .               .               .              .               .              .
-RESUME         .               .               RUNNING         .               .              .               .              .
-ACK            .               .               .               .               .              .               .              IDLE
-OUTPUT         IDLE            .               .               .               .              .               .              .
-PACE           IDLE            RUNNING         HOLDING         STOPPING        FAULT_STOPPING RETURN_STOPPING RETURNING      LATCHED
-INPUT_STOP     .               STOPPING        STOPPING        .               .              FAULT_STOPPING  FAULT_STOPPING .
-FAULT_STOP     FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING FAULT_STOPPING  FAULT_STOPPING FAULT_STOPPING
-FAULT_RETURN   RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING FAULT_STOPPING FAULT_STOPPING  FAULT_STOPPING FAULT_STOPPING
-FAULT_DROP     LATCHED         LATCHED         LATCHED         LATCHED         LATCHED        LATCHED         LATCHED        LATCHED
-FAULT_FREEZE   LATCHED         LATCHED         LATCHED         LATCHED         LATCHED        LATCHED         LATCHED        LATCHED
+                IDLE            ZERO_ONLY       RUNNING         HOLDING         STOPPING        FAULT_STOPPING  RETURN_STOPPING RETURNING       LATCHED
+COMMAND         RUNNING         RUNNING         .               .               .               .               .               .               .
+JOB_END         .               .               IDLE            .               .               .               .               .               .
+REST            .               .               .               .               IDLE            LATCHED         RETURNING       RETURNING       .
+HOME            .               .               .               .               .               .               .               LATCHED         .
+PAUSE           IDLE            ZERO_ONLY       RUNNING         HOLDING         STOPPING        FAULT_STOPPING  RETURN_STOPPING RETURNING       LATCHED
+STOP            STOPPING        STOPPING        STOPPING        STOPPING        STOPPING        FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  .
+HOLD            .               .               HOLDING         .               .               .               .               .               .
+RESUME          .               .               .               RUNNING         .               .               .               .               .
+ACK             .               .               .               .               .               .               .               .               IDLE
+OUTPUT          IDLE            .               .               .               .               .               .               .               .
+PACE            IDLE            ZERO_ONLY       RUNNING         HOLDING         STOPPING        FAULT_STOPPING  RETURN_STOPPING RETURNING       LATCHED
+INPUT_STOP      .               .               STOPPING        STOPPING        .               .               FAULT_STOPPING  FAULT_STOPPING  .
+FAULT_STOP      FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING
+FAULT_RETURN    RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING RETURN_STOPPING FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING  FAULT_STOPPING
+FAULT_DROP      LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED
+FAULT_FREEZE    LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED         LATCHED
+ZERO_FIRST      ZERO_ONLY       .               .               .               .               .               .               .               .
 """  # noqa: E501
 HEADER, *ROWS = (line.split() for line in EXPECTED.strip().splitlines())
 NEXT = {(Stage[at], Event[row[0]]): to for row in ROWS for at, to in zip(HEADER, row[1:], strict=True)}
@@ -52,7 +53,8 @@ class Watched(Bench):
     """A machine that holds its current in an emergency stop, and the stages that it enters."""
 
     def __init__(self) -> None:
-        super().__init__(replace(shipped("pcb-drill"), emergency_stop="hold"))
+        machine = replace(shipped("pcb-drill"), emergency_stop="hold", only_zero_after=("LINE_MISMATCH",))
+        super().__init__(machine)
         self.m.position_known = True
         self.entered: list[Stage] = []
         self._enter = self.m.enter
@@ -86,6 +88,10 @@ def at(stage: Stage) -> Watched:
         b = moving(fault=Fault.DRILLING_TIME if stage == Stage.RETURNING else Fault.INPUT_TIMEOUT)
         b.until(lambda: b.m.stage == stage)
         b.tick(3)
+    elif stage == Stage.ZERO_ONLY:
+        b = moving(fault=Fault.LINE_MISMATCH)
+        b.until(b.latched)
+        b.ask(Request.ACK).tick()
     else:
         b = {
             Stage.IDLE: Watched,
@@ -174,5 +180,5 @@ def test_commands_are_taken_where_the_table_says_so(stage: Stage) -> None:
     taken = len(b.ticker.queue)
     b.checked(3)
     assert b.entered[:1] == (expected(stage, Event.COMMAND) or b.entered[:1])
-    assert (Stage.RUNNING in b.entered) == (stage == Stage.IDLE)
-    assert (len(b.ticker.queue) < taken) == (stage == Stage.IDLE)
+    assert (Stage.RUNNING in b.entered) == (stage <= Stage.ZERO_ONLY)
+    assert (len(b.ticker.queue) < taken) == (stage <= Stage.ZERO_ONLY)

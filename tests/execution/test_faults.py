@@ -76,6 +76,14 @@ def unequal_line() -> Bench:
     return b.queue("KMD_LINIAd x=10 y=10; KMD_CZEKAJ 9")
 
 
+def bound_to_zero() -> Bench:
+    """After a fault that binds the machine to the return to zero, another command comes."""
+    b = Bench(replace(shipped("pcb-drill"), only_zero_after=("LINE_MISMATCH",))).ready()
+    raise_fault(b.m, Fault.LINE_MISMATCH)
+    b.finish()
+    return b.ask(Request.ACK).tick().queue("KMD_CZEKAJ 9")
+
+
 def no_such_command() -> Bench:
     b = ready()
     strange = b.program("KMD_CZEKAJ 9")
@@ -124,6 +132,7 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.HEARTBEAT_LOST: from_the_wiring(Fault.HEARTBEAT_LOST),
     Fault.TICKER_LOST: from_the_wiring(Fault.TICKER_LOST),
     Fault.PORT_SLOW: from_the_wiring(Fault.PORT_SLOW),
+    Fault.ONLY_ZERO: bound_to_zero,
 }
 every_fault = pytest.mark.parametrize("fault", PROVOKED, ids=lambda fault: fault.name)
 
@@ -182,6 +191,8 @@ def test_after_the_acknowledgement_the_machine_works_again(fault: Fault) -> None
     b.finish()
     b.card.stuck_high = b.card.stuck_low = 0
     b.ask(Request.ACK).tick()
+    if b.m.condition == Condition.ZERO_ONLY:
+        b.queue("KMD_POWROT").finish()
     assert (b.m.condition, b.m.fault) == (Condition.READY, Fault.NONE)
     b.queue("KMD_INICJALIZACJA; KMD_GOTO_X_Y 20 30")
     b.finish()

@@ -69,7 +69,7 @@ def test_a_fault_that_returns_goes_home_by_the_sensors() -> None:
 
 @pytest.mark.parametrize("name", ["pcb-drill", "boiler-drum", "eight-axis", "pcb-drill-ramp-lab"])
 def test_an_emergency_stop_that_brakes_keeps_position_and_current(name: str) -> None:
-    b = Bench(replace(shipped(name), emergency_stop="brake")).ready()
+    b = Bench(replace(shipped(name), emergency_stop="brake", only_zero_after=())).ready()
     b.queue("KMD_RUCHd x=200 y=100").tick(150).ask(Request.ESTOP).tick()
     assert (b.m.fault, b.m.condition) == (Fault.EMERGENCY_STOP, Condition.STOPPING)
     b.finish()

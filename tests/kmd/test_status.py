@@ -57,7 +57,8 @@ def test_a_machine_that_holds_brakes_or_returns_has_not_ended(condition: Conditi
 
 
 def test_a_latched_machine_has_ended_and_is_not_idle() -> None:
-    assert has_ended(Condition.LATCHED, 0, 0) and not is_idle(Condition.LATCHED, 0, 0)
+    for condition in (Condition.LATCHED, Condition.ZERO_ONLY):
+        assert has_ended(condition, 0, 0) and not has_ended(condition, 0, 1) and not is_idle(condition, 0, 0)
     assert is_idle(Condition.READY, 0, 0) and not is_idle(Condition.READY, 1, 0) and not is_idle(Condition.READY, 0, 1)
 
 

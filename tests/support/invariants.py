@@ -41,10 +41,11 @@ class Invariants:
             self._check_windings(axis, columns, motion)
         if m.position_known and not m.fault:
             assert now.inside or before.inside, "outside its travel for two ticks without a fault"
+        assert m.stage != Stage.ZERO_ONLY or (m.zero_first and m.position_known), "bound to a zero that is not known"
         if m.stage == Stage.LATCHED == before.stage:
             assert not m.moving and now.positions == before.positions, "something moves while latched"
             assert now.hold_bits in (before.hold_bits, (0,) * len(m.axes)), "neither held nor dropped"
-        if m.stage == Stage.IDLE:
+        if m.stage <= Stage.ZERO_ONLY:
             assert not m.moving and not m.busy, "something moves outside a job"
         self._before = now
         return False

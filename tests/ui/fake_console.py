@@ -12,7 +12,7 @@ from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
 
-MOTIONS = {"go_on", "start", "run_queue", "initialise", "jog", "go_to", "set_base", "resume"}
+MOTIONS = {"go_on", "start", "run_queue", "initialise", "return_to_zero", "jog", "go_to", "set_base", "resume"}
 FAULT = FaultReport(1, "EMERGENCY_STOP", "somebody pressed it", "look why", "lost")
 WIRES = tuple(
     (name, row, name in ("1a", "24a"))
@@ -124,6 +124,9 @@ class FakeConsole:
 
     def initialise(self) -> Problems:
         return self._keep("initialise")
+
+    def return_to_zero(self) -> Problems:
+        return self._keep("return_to_zero")
 
     def jog(self, axis: str, steps: int) -> Problems:
         return self._keep("jog", axis, steps)

@@ -27,6 +27,7 @@ CASES = {
     "at work": ({"moving": True, "at_work": True}, True, "at work: Space holds, X ends the job"),
     "ending": ({"condition": "stopping", "at_work": True}, True, "the job is being ended"),
     "returning": ({"condition": "returning", "fault": FAULT}, True, "the machine returns to a known position"),
+    "zero only": ({"condition": "zero_only"}, True, "only the return to zero is allowed: Alt-D R"),
     "paused": ({"paused": True}, True, "the clock is stopped"),
 }  # fmt: skip
 

@@ -76,6 +76,7 @@ BUSY = {
     "latched": {"condition": "latched", "fault": FAULT}, "held": {"condition": "held", "at_work": True},
     "a tool": {"tool_wanted": ToolWanted(2, 1.0), "at_work": True}, "at work": {"at_work": True, "moving": True},
     "returning": {"condition": "returning", "fault": FAULT}, "stopping": {"condition": "stopping"},
+    "zero only": {"condition": "zero_only"},
 }  # fmt: skip
 
 

@@ -17,6 +17,7 @@ BY_CONDITION = {
     "held": ("warning", N_("held")),
     "stopping": ("warning", N_("the job is being ended")),
     "returning": ("warning", N_("the machine returns to a known position")),
+    "zero_only": ("warning", N_("only the return to zero is allowed")),
 }
 
 Event = tuple[str, str, str]  # time, role of its meaning, text

@@ -151,6 +151,10 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         """Moves the axes to the limit sensors, which makes the position known."""
         self._answer(self._console.initialise(), _("initialisation"))
 
+    def return_to_zero(self) -> None:
+        """Goes back to machine zero by the count of steps, the head first."""
+        self._answer(self._console.return_to_zero(), _("return to zero"))
+
     def set_base(self) -> None:
         """Takes the position as the working base."""
         self._answer(self._console.set_base(), _("this place is the working base"))

@@ -41,6 +41,7 @@ DRILLING = Item(N_("&Drilling"), items=(
     Item(N_("The t&ool is in"), "drilling", "tool_changed"),
     Item(N_("&Basing"), items=BASING_ITEMS),
     Item(N_("&Initialisation"), "drilling", "initialise"),
+    Item(N_("&Return to zero"), "drilling", "return_to_zero"),
     Item(N_("&Acknowledge a fault"), "drilling", "acknowledge"),
 ))  # fmt: skip
 MENUS = (FILES, DRILLING, TESTS, configuration("drilling"), HELP)

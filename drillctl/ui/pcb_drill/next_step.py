@@ -14,7 +14,8 @@ from drillctl.viewmodel.console import BoardView, Console, MachineView
 
 ACTIONS: Mapping[str, tuple[str, str]] = {
     **{name: ("drilling", name) for name in (
-        "acknowledge", "tool_changed", "hold_or_resume", "stop", "initialise", "start", "dry_run", "examples",
+        "acknowledge", "tool_changed", "hold_or_resume", "stop", "initialise", "return_to_zero", "start", "dry_run",
+        "examples",
     )},
     "files": ("files", ""),
     "queue": ("queue_editor", ""),
@@ -37,6 +38,8 @@ ROWS = (
     Row(lambda view, board: view.condition == "latched", "danger",
         N_("FAULT {fault}: put its cause right, then {acknowledge} acknowledges it"),
         N_("a fault is latched: acknowledge it first")),
+    Row(lambda view, board: view.condition == "zero_only" and not view.at_work, "warning",
+        N_("only the return to zero is allowed: {return_to_zero}"), N_("only the return to zero is allowed")),
     Row(lambda view, board: view.paused, "warning", N_("the clock is stopped: {queue} has the keys that go on")),
     Row(lambda view, board: view.condition == "stopping", "warning", N_("the job is being ended"), AT_WORK),
     Row(lambda view, board: view.condition in ("held", "holding"), "warning",

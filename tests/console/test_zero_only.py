@@ -1,0 +1,40 @@
+"""After an emergency stop of the boiler drum's drill the console lets it return to zero, and refuses all else."""
+
+from collections.abc import Callable
+
+import pytest
+
+from drillctl.console.machine_console import ZERO_ONLY, MachineConsole
+from drillctl.console.signals import MachineSignals
+from drillctl.machine import Library
+from drillctl.ticker.launch import RunSettings
+from tests.support.operator import settle, until
+
+REFUSED: dict[str, Callable[[MachineConsole], object]] = {
+    "initialise": MachineConsole.initialise,
+    "jog": lambda console: console.jog("x", 5),
+    "base": MachineConsole.set_base,
+    "queue": lambda console: console.run_queue("KMD_RUCHd x=5\n"),
+    "rate": lambda console: console.set_tick_hz(90_000),
+    "output": lambda console: MachineSignals(console).set_output(0, True),
+}
+
+
+@pytest.mark.parametrize("back", [MachineConsole.return_to_zero, lambda console: console.run_queue("KMD_POWROT\n")])
+def test_only_the_return_to_zero_is_granted(back: Callable[[MachineConsole], object]) -> None:
+    library = Library.standard()
+    console = MachineConsole(library, library.machine("boiler-drum"), RunSettings("simulated", "free"))
+    try:
+        assert console.run_queue("KMD_INICJALIZACJA\nKMD_RUCHd x=600 y=90\n") == ()
+        settle(console)
+        console.emergency_stop()
+        until(console, lambda: console.view().condition == "latched")
+        assert console.view().position_known and console.acknowledge() == ()
+        until(console, lambda: console.view().condition == "zero_only")
+        assert {name: ask(console) for name, ask in REFUSED.items()} == dict.fromkeys(REFUSED, (ZERO_ONLY,))
+        assert back(console) == ()
+        settle(console)
+        view = console.view()
+        assert (view.condition, [axis.position_steps for axis in view.axes]) == ("ready", [0, 0])
+    finally:
+        console.close()
