@@ -1,7 +1,8 @@
-"""Builds the compiled form of the dynamic plant's law where Cython and a C compiler are there.
+"""Builds what is compiled: the catalogues of the other languages, and the dynamic plant's law.
 
-Rule: it can't fail. What is missing is said in one line (pip shows it with -v), and the package is complete without
-the compiled form: the law then runs as Python.
+catalogues  ``.po`` to ``.mo``, by polib; each has the digest of its source, which drillctl/language/words.py compares
+the law     where Cython and a C compiler are there. This can't fail: what is missing is said in one line (pip shows it
+            with -v), and the package is complete without; the law then runs as Python
 """
 
 import os
@@ -16,6 +17,7 @@ try:
 except ModuleNotFoundError:  # run by hand
     BuildHookInterface = object
 
+LOCALE = "drillctl/locale"
 FOLDER = "drillctl/plant/dynamic"
 SOURCES = ("law.py", "law.pxd")
 # No contraction of a product and a sum into one rounding, and no fast-math: the plain form rounds each.
@@ -26,12 +28,18 @@ DIRECTIVES = {
 }  # fmt: skip
 
 
-class KernelHook(BuildHookInterface):  # type: ignore[misc]
+class CompilingHook(BuildHookInterface):  # type: ignore[misc]
     """Called by hatchling for a wheel and for an editable install."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compiles the law beside its source and adds it to what is installed; not with DRILLCTL_KERNEL=plain."""
-        if self.target_name != "wheel" or os.environ.get("DRILLCTL_KERNEL") == "plain":
+        """Compiles catalogues and law beside their sources and adds them to what is installed; with
+        DRILLCTL_KERNEL=plain the catalogues alone.
+        """
+        if self.target_name != "wheel":
+            return
+        for catalogue in compiled_catalogues(Path(self.root)):
+            build_data["force_include"][str(catalogue)] = str(catalogue.relative_to(self.root))
+        if os.environ.get("DRILLCTL_KERNEL") == "plain":
             return
         folder = Path(self.root, FOLDER)
         for old in folder.glob("_law.*"):
@@ -43,6 +51,30 @@ class KernelHook(BuildHookInterface):  # type: ignore[misc]
             return
         build_data["pure_python"], build_data["infer_tag"] = False, True
         build_data["force_include"][str(built)] = f"{FOLDER}/{built.name}"
+
+
+def compiled_catalogues(root: Path) -> list[Path]:
+    """Compiles each catalogue below ``root`` that isn't compiled from its present text; returns the files of all.
+
+    A file is complete or absent at any time, so several processes may call this at once.
+    """
+    from hashlib import sha256
+
+    import polib
+
+    made = []
+    for source in sorted(Path(root, LOCALE).rglob("*.po")):
+        text, target = source.read_bytes(), source.with_suffix(".mo")
+        digest = sha256(text).hexdigest()
+        if not target.exists() or digest.encode() not in target.read_bytes():
+            catalogue = polib.pofile(text.decode())
+            catalogue.metadata["X-Source-SHA256"] = digest
+            with tempfile.NamedTemporaryFile(dir=source.parent, suffix=".new", delete=False) as new:
+                new.write(catalogue.to_binary())
+            Path(new.name).chmod(0o644)
+            Path(new.name).replace(target)
+        made.append(target)
+    return made
 
 
 def build(folder: Path) -> Path:
@@ -72,5 +104,6 @@ def _digest(folder: Path) -> str:
     return sha256(b"".join((folder / name).read_bytes() for name in SOURCES)).hexdigest()
 
 
-if __name__ == "__main__":  # in a clone, after the law was changed: python hatch_build.py
+if __name__ == "__main__":  # in a clone, after a catalogue or the law was changed: python hatch_build.py
+    print(*compiled_catalogues(Path(__file__).parent), sep="\n")
     print(build(Path(__file__).parent / FOLDER))

@@ -1,7 +1,8 @@
 """No test reads or writes what the person who runs it keeps: journals, recent jobs, tables of one's own; and none fails
-because the computer is busy.
+because the computer is busy, or because the catalogues were changed and not compiled yet.
 """
 
+import runpy
 import signal
 from pathlib import Path
 
@@ -13,6 +14,15 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if signal.getsignal(signal.SIGQUIT) is signal.SIG_IGN:
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compiles the catalogues from their present sources, in the process that starts the others."""
+    if not hasattr(config, "workerinput"):
+        runpy.run_path(str(ROOT / "hatch_build.py"))["compiled_catalogues"](ROOT)
+
 
 settings.register_profile("any computer", deadline=None)
 settings.load_profile("any computer")

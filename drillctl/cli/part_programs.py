@@ -4,31 +4,34 @@ import argparse
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from drillctl.language import Message
-from drillctl.language import words as catalogues
-from drillctl.language.words import N_, translated
+from drillctl.cli import streams
+from drillctl.language import Counted
+from drillctl.language.words import LANGUAGES, translated
 
 if TYPE_CHECKING:
     from drillctl.generation.boiler_drum.sentence import Sentence
     from drillctl.generation.boiler_drum.text import Part
 
 TENTHS_PER_MM = 10
-COUNTED = N_("{name}: {count} sentences; from X {x:.1f} Y {y:.1f} mm on, where the tool was set")
 
 
 def add_language(verb: argparse.ArgumentParser) -> None:
     """Adds ``--lang`` to a verb."""
-    verb.add_argument("--lang", choices=catalogues.LANGUAGES, help="language of the words; default: that of LANG")
+    verb.add_argument("--lang", choices=LANGUAGES, help="language of the words; default: that of LANG")
 
 
 def speak(arguments: argparse.Namespace) -> None:
     """Sets the language of ``translated`` to that of ``--lang``."""
-    catalogues.use(arguments.lang or catalogues.language_of())
+    streams.speak(arguments.lang)
 
 
 def lines(part: "Part") -> list[str]:
     """Returns a part program in words, a sentence a line: its place, its text, what it does, where it ends (mm)."""
-    head = Message(COUNTED, name=part.source, count=len(part.sentences), x=0.0, y=0.0)
+    head = Counted(
+        "{name}: {count} sentence; from X {x:.1f} Y {y:.1f} mm on, where the tool was set",
+        "{name}: {count} sentences; from X {x:.1f} Y {y:.1f} mm on, where the tool was set",
+        len(part.sentences), name=part.source, x=0.0, y=0.0,
+    )  # fmt: skip
     rows = zip(part.lines, part.sentences, _places(part.sentences), strict=True)
     return [translated(head), *(_line(at, one, place, part.in_store) for at, one, place in rows)]
 

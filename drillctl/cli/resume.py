@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import operating, options, streams
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 
 if TYPE_CHECKING:
     from drillctl.jobs.journal import Account
@@ -91,7 +91,10 @@ def _tell(account: "Account", session: "Session") -> None:
 
     file, left, here = session.journal, session.job, site_of(session.running)
     where = f"as it ran: {here}" if here == account.site else f"elsewhere: {here}; it ran on {account.site}"
-    counted = Message("{done} of {total} holes are drilled", done=account.holes_done, total=account.head.holes)
+    counted = Counted(
+        "{done} of {count} hole is drilled", "{done} of {count} holes are drilled",
+        account.head.holes, done=account.holes_done,
+    )  # fmt: skip
     streams.tell(f"{file}: {counted}; it goes on {where}")
     if account.torn:
         streams.tell(f"{file}: its last line is torn, and left out")

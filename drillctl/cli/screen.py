@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from drillctl.cli import options
+from drillctl.cli import options, streams
 from drillctl.language import Message, Refusal
 
 if TYPE_CHECKING:
@@ -59,14 +59,13 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
     """
     from drillctl.console.machine_console import MachineConsole
     from drillctl.jobs.interrupts import remembered
-    from drillctl.language import words
     from drillctl.machine.library import tell_nobody
     from drillctl.ticker.launch import SIMULATED
     from drillctl.ui import preferences
     from drillctl.ui.app import App
 
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
-    words.use(arguments.lang or words.language_of(), plain)
+    streams.speak(arguments.lang, plain)
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
     library = replace(options.library(arguments), tell=tell_nobody)  # the second line says it
     running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace, sliced=not arguments.pace)

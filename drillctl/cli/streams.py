@@ -63,6 +63,17 @@ def tell(line: str) -> None:
     print(f"drillctl: {one_line(line)}", file=sys.stderr)
 
 
+def speak(language: str | None, plain: bool = False) -> None:
+    """Sets the language of the words, that of the environment for None; tells what is wrong with its catalogue.
+
+    plain  without accents
+    """
+    from drillctl.language import words
+
+    if problem := words.use(language or words.language_of(), plain):
+        tell(problem)
+
+
 def prepare() -> None:
     """Replaces closed streams by the null device, so that no file gets their numbers, and standard error by one that
     never raises.

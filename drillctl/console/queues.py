@@ -11,7 +11,7 @@ from drillctl.files.outputs import write_text
 from drillctl.generation.job import names_of
 from drillctl.kmd import COMMANDS, KmdError, Names, Op, parse_program
 from drillctl.kmd.commands import BY_OP, ArgumentForm
-from drillctl.language import Message, message_of
+from drillctl.language import Counted, Message, message_of
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.tables import CommandHelp, TextFinding
@@ -82,8 +82,11 @@ def _too_far(text: str, machine: Machine) -> Iterator[TextFinding]:
                 name = axis.name.upper()
                 yield TextFinding(
                     number,
-                    Message(
-                        "{steps} steps reach beyond the work range, which is {span} long", steps=steps, span=span
+                    Counted(
+                        "{count} step reaches beyond the work range, which is {span} long",
+                        "{count} steps reach beyond the work range, which is {span} long",
+                        steps,
+                        span=span,
                     ).at(name),
                 )
 

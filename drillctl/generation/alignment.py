@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from drillctl.files.inputs import read_bytes
 from drillctl.generation.measured import MAX_BYTES, AlignmentError, Millimetres, parse
 from drillctl.generation.placing import Affine
-from drillctl.language import Message, message_of
+from drillctl.language import Counted, Message, message_of
 
 COINCIDENT_MM = 0.1  # the machine's positioning error: closer than this, holes are the same place
 SHORT_SPAN_MM = 10.0  # 0.1 mm of error over this length is half a degree of turn
@@ -129,13 +129,20 @@ def _pairs(file_xy_mm: ArrayLike, machine_xy_mm: ArrayLike) -> tuple[Millimetres
     machine_mm = np.asarray(machine_xy_mm, np.float64).reshape(-1, 2)
     if file_mm.shape != machine_mm.shape:
         raise AlignmentError(
-            Message(
-                "{count} holes of the file but {measured} measured ones", count=len(file_mm), measured=len(machine_mm)
+            Counted(
+                "{count} hole of the file but {measured} measured",
+                "{count} holes of the file but {measured} measured",
+                len(file_mm),
+                measured=len(machine_mm),
             )
         )
     if len(file_mm) < 2:
         raise AlignmentError(
-            Message("{count} measured hole(s); a turn needs two, scale and shear need three", count=len(file_mm))
+            Counted(
+                "{count} measured hole; a turn needs two, scale and shear need three",
+                "{count} measured holes; a turn needs two, scale and shear need three",
+                len(file_mm),
+            )
         )
     return file_mm, machine_mm
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.language import Message, Refusal
+from drillctl.language import Counted, Message, Refusal
 from drillctl.viewmodel.job_options import MAX_MM
 
 Millimetres = NDArray[np.float64]
@@ -58,9 +58,12 @@ def _row(line: str, name: str, number: int) -> list[float]:
         wanted = len(COLUMNS)
         column = words[wanted].start() + 1 if len(words) > wanted else words[-1].end() + 1
         raise AlignmentError(
-            Message("{count} numbers where {wanted} are meant", count=len(words), wanted=" ".join(COLUMNS)).at(
-                name, number, column
-            )
+            Counted(
+                "{count} number where {wanted} are meant",
+                "{count} numbers where {wanted} are meant",
+                len(words),
+                wanted=" ".join(COLUMNS),
+            ).at(name, number, column)
         )
     return [_number(word, what, name, number) for word, what in zip(words, COLUMNS, strict=True)]
 

@@ -16,7 +16,7 @@ from drillctl.generation.order import Budget, TravelCost, plan_groups
 from drillctl.generation.placing import Affine, boards
 from drillctl.generation.waits import Advance, ignored
 from drillctl.generation.work_settings import WorkSettings
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 from drillctl.machine import Machine, travel_table
 
 if TYPE_CHECKING:
@@ -233,10 +233,11 @@ def _check_reach(
     problems = []
     for hole in np.flatnonzero(outside.any(axis=1)).tolist():
         told = "; ".join(
-            Message(
-                "{axis} {steps} steps is outside {low}..{high}",
+            Counted(
+                "{axis} {count} step is outside {low}..{high}",
+                "{axis} {count} steps is outside {low}..{high}",
+                int(steps[hole, k]),
                 axis="XY"[k],
-                steps=steps[hole, k],
                 low=reach[k, 0],
                 high=reach[k, 1],
             )

@@ -49,6 +49,32 @@ class Message(str):
         return next((line for line in inner if line is not None), None)
 
 
+class Counted(Message):
+    """A message in which a number decides the form of the words: ``Counted("{count} hole", "{count} holes", 3)``.
+
+    ``template`` is the form for one, ``plural`` that for any other number; ``number`` is the number, which both forms
+    have as the field ``count``.
+    """
+
+    plural: str
+    number: int
+
+    def __new__(cls, one: str, many: str, count: int, /, **fields: Any) -> "Counted":
+        """Formats the one of the two forms that English has for this number."""
+        fields["count"] = count
+        message = str.__new__(cls, (one if abs(count) == 1 else many).format(**fields))
+        message.template, message.plural, message.number, message.fields = one, many, count, fields
+        return message
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Keeps both forms and the fields in a pickle or a copy."""
+        return _counted, (self.template, self.plural, dict(self.fields))
+
+
+def _counted(one: str, many: str, fields: dict[str, Any]) -> Counted:
+    return Counted(one, many, fields.pop("count"), **fields)
+
+
 def _formatted(template: str, fields: Mapping[str, Any]) -> Message:
     return Message(template, **fields)
 
@@ -74,7 +100,8 @@ def packed(message: Message) -> list[Any]:
     """Returns a message as plain lists, texts and numbers, for JSON; ``message_from`` reads them. A field that is
     neither text nor number (a path) becomes its text.
     """
-    return [message.template, {name: _packed_field(field) for name, field in message.fields.items()}]
+    forms = [message.template, message.plural] if isinstance(message, Counted) else [message.template]
+    return [{name: _packed_field(field) for name, field in message.fields.items()}, *forms]
 
 
 def _packed_field(field: Any) -> dict[str, Any]:
@@ -85,11 +112,11 @@ def _packed_field(field: Any) -> dict[str, Any]:
 
 def message_from(plain: Sequence[Any]) -> Message:
     """Returns the message of which ``packed`` gave this."""
-    template, fields = plain
-    return Message(
-        template,
-        **{name: message_from(kept["message"]) if "message" in kept else kept["data"] for name, kept in fields.items()},
-    )
+    kept_fields, template, *plural = plain
+    fields = {
+        name: message_from(kept["message"]) if "message" in kept else kept["data"] for name, kept in kept_fields.items()
+    }
+    return _counted(template, plural[0], fields) if plural else Message(template, **fields)
 
 
 class Refusal(Exception):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
-from drillctl.language import Message, known_words, nearest
+from drillctl.language import Counted, Message, known_words, nearest
 from drillctl.machine.inputs import sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
 from drillctl.machine.parts import Parts
@@ -106,10 +106,11 @@ def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int
         )
         raise source.error(reason, "axis", index, "start")
     if row.columns_per_step > phase.columns:
-        reason = Message(
-            "axis {name}: {columns} columns a step, its table has {length}",
+        reason = Counted(
+            "axis {name}: {count} column a step, its table has {length}",
+            "axis {name}: {count} columns a step, its table has {length}",
+            row.columns_per_step,
             name=row.name,
-            columns=row.columns_per_step,
             length=phase.columns,
         )
         raise source.error(reason, "axis", index, "columns_per_step")

@@ -7,7 +7,7 @@ Rule: never raises; names columns, counted from 1 as the paper does; rows for mo
 from collections.abc import Iterator
 from itertools import compress
 
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 from drillctl.machine.motor import Motor
 from drillctl.machine.phase import PhaseTable
 
@@ -79,9 +79,10 @@ def _bad_jumps(motor: Motor, patterns: list[frozenset[str]]) -> Iterator[Message
 def _wrong_length(table: PhaseTable, motor: Motor) -> Iterator[Message]:
     if table.columns % motor.columns_per_cycle:
         yield (
-            Message(
-                "{columns} columns where the motor's cycle has {cycle}: distances will not be what the scale says",
-                columns=table.columns,
+            Counted(
+                "{count} column where the motor's cycle has {cycle}: distances will not be what the scale says",
+                "{count} columns where the motor's cycle has {cycle}: distances will not be what the scale says",
+                table.columns,
                 cycle=motor.columns_per_cycle,
             )
         )

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import msgspec
 
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 from drillctl.machine.source import Source
 
 LONGEST_TABLE = 96
@@ -73,10 +73,11 @@ def parse_phase(source: Source) -> PhaseTable:
     raw = source.records(_File)
     columns = len(raw.wire[0].pattern)
     if not 2 <= columns <= LONGEST_TABLE:
-        reason = Message(
-            "wire {name}: {columns} columns; a table has 2 to {most}",
+        reason = Counted(
+            "wire {name}: {count} column; a table has 2 to {most}",
+            "wire {name}: {count} columns; a table has 2 to {most}",
+            columns,
             name=raw.wire[0].name,
-            columns=columns,
             most=LONGEST_TABLE,
         )
         raise source.error(reason, "wire", 0, "pattern")
@@ -123,11 +124,12 @@ def _bits(source: Source, name: str, pattern: str, columns: int, key: str, index
         )
         raise source.error(reason, key, index, "pattern")
     if len(pattern) != columns:
-        reason = Message(
-            "{key} {name}: {columns} columns, the first row has {first}",
+        reason = Counted(
+            "{key} {name}: {count} column, the first row has {first}",
+            "{key} {name}: {count} columns, the first row has {first}",
+            len(pattern),
             key=key,
             name=name,
-            columns=len(pattern),
             first=columns,
         )
         raise source.error(reason, key, index, "pattern")

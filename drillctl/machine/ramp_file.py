@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 from drillctl.machine.phase import Name
 from drillctl.machine.ramp import RampTable
 from drillctl.machine.ramp_formula import LONGEST_INTERVAL, MOST_STATES, Computed, FormulaError, computed_intervals
@@ -131,8 +131,11 @@ def _from_rows(source: Source) -> RampTable:
     _check_order(source, raw, rows)
     if (inexact := ramp.first_inexact()) is not None:
         state, steps = inexact
-        reason = Message(
-            "state {state}: a move of {steps} steps is not landed on exactly; brake earlier", state=state, steps=steps
+        reason = Counted(
+            "state {state}: a move of {count} step is not landed on exactly; brake earlier",
+            "state {state}: a move of {count} steps is not landed on exactly; brake earlier",
+            steps,
+            state=state,
         )
         raise source.error(reason, "state", rows[state], "brake")
     return ramp

@@ -139,7 +139,7 @@ def test_a_message_in_a_message_is_translated_and_its_place_is_not() -> None:
     ("line", "word"),
     [
         ("KMD_BAZZA", "nieznany rozkaz 'KMD_BAZZA'; może KMD_BAZA?"),
-        ("KMD_GOTOdXdY 1", "argumentów: 1; zapis: KMD_GOTOdXdY dX dY"),
+        ("KMD_GOTOdXdY 1", "1 argument; zapis: KMD_GOTOdXdY dX dY"),
         ("KMD_GOTOdXdY 1 b", "'b' to nie liczba całkowita"),
         ("KMD_WYJSCIE lampa 1", "nieznana nazwa 'lampa' (wyjście); ta maszyna nie ma żadnych"),
         ("KMD_RUCH q=1", "nie ma osi 'q'; są x, y"),

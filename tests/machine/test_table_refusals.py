@@ -24,7 +24,7 @@ PHASE: list[Row] = [
     ('name = "b"', 'name = "a"', "wire a: a second row of this name", 'x...x"\n\n[[wire]]\nname = "a"'),
     ("...xxx", "...xx", "wire c: 5 columns, the first row has 6"),
     (".xxx..", ".xXx..", "wire b: 'X' in the pattern; only 'x' (on) and '.' (off)"),
-    ("xx...x", "x", "wire a: 1 columns; a table has 2 to 96", 'pattern = "x"'),
+    ("xx...x", "x", "wire a: 1 column; a table has 2 to 96", 'pattern = "x"'),
     ("xx...x", "x" * 97, "wire a: 97 columns"),
     ('name = "a"', 'name = "a b"', f"wire[0].name: {NAMES}"),
     ('name = "a"', 'name = "a\\n"', f"wire[0].name: {NAMES}"),

@@ -7,8 +7,7 @@ Used by tests/ui and by the pictures in docs.
 from drillctl.language import words
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.menus import Item, hot_letter
-
-POLISH = words.catalogue(words.catalogue_text("pl"))
+from tests.support.messages import POLISH
 
 
 def word(message: str) -> str:

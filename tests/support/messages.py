@@ -4,21 +4,29 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
+import polib
+
 import drillctl
-from drillctl.language import words
 
 PACKAGE = Path(drillctl.__file__).parent
-MARKS = ("Message", "_", "N_")
-POLISH = words.catalogue(words.catalogue_text("pl"))
+MARKS = {"Message": 1, "_": 1, "N_": 1, "Counted": 2, "ngettext": 2}  # how many of the first arguments are templates
+CATALOGUE = polib.pofile(str(PACKAGE / "locale/pl/LC_MESSAGES/drillctl.po"), check_for_duplicates=True)
+POLISH = {entry.msgid: entry.msgstr for entry in CATALOGUE if not entry.msgid_plural}
+# By both forms of the source: its forms for 1, for 2 to 4, and for 5 and more.
+POLISH_FORMS = {
+    (entry.msgid, entry.msgid_plural): [*entry.msgstr_plural.values()] for entry in CATALOGUE if entry.msgid_plural
+}
+TRANSLATED = {*POLISH, *(form for forms in POLISH_FORMS for form in forms)}
 # Their messages go to a terminal or a test's report, in English; no screen of the program shows them.
 IN_ENGLISH = ("cli", "lab", "pytest_plugin", "ui.terminal")
 
 
 def templates_in(source: str) -> Iterator[str]:
-    """Every literal handed to Message, _ or N_ in a source text; both of one behind an ``if``."""
+    """Every literal handed to one of MARKS in a source text; both of one behind an ``if``."""
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in MARKS and node.args:
-            yield from _literals(node.args[0])
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in MARKS:
+            for argument in node.args[: MARKS[node.func.id]]:
+                yield from _literals(argument)
 
 
 def _literals(node: ast.expr) -> Iterator[str]:

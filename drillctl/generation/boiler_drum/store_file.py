@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 from drillctl.generation.boiler_drum.cells import STORE_CELLS
 from drillctl.generation.errors import JobError
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 
 _HEADER = re.compile(r"drillctl-store 1 crc32 ([0-9A-F]{8})\r?")
 HEADER, CRC_COLUMN = "drillctl-store 1 crc32 ", 24
@@ -58,7 +58,12 @@ def _cells(lines: Sequence[str], source: str) -> bytes:
             cells += _data(text, len(cells), source, number)
             continue
         if len(cells) != STORE_CELLS:
-            short = Message("the end after {count} cells; a store has {cells}", count=len(cells), cells=STORE_CELLS)
+            short = Counted(
+                "the end after {count} cell; a store has {cells}",
+                "the end after {count} cells; a store has {cells}",
+                len(cells),
+                cells=STORE_CELLS,
+            )
             raise _refused(source, number, 0, short)
         if len(lines) + 1 > number:
             raise _refused(source, number + 1, 0, Message("nothing may follow the end record"))
@@ -74,7 +79,11 @@ def _data(text: str, address: int, source: str, line: int) -> bytes:
         reason = Message("{text!r} is no digit of 0 to 9 and A to F", text=odd[0])
         raise _refused(source, line, odd.start(), reason)
     if len(text) % 2 == 0 or len(text) // 2 < FRAME or len(text) // 2 != FRAME + int(text[1:3], 16):
-        reason = Message("{count} characters; the record's count of bytes says otherwise", count=len(text))
+        reason = Counted(
+            "{count} character; the record's count of bytes says otherwise",
+            "{count} characters; the record's count of bytes says otherwise",
+            len(text),
+        )
         raise _refused(source, line, 1, reason)
     record = bytes.fromhex(text[1:])
     if sum(record) & 0xFF:

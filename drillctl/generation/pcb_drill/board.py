@@ -14,7 +14,7 @@ from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.waits import ORDERING, Waits, reading
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import WorkList, build
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 from drillctl.machine import Machine
 
 if TYPE_CHECKING:
@@ -52,7 +52,10 @@ def file_warnings(path: Path, drill_file: "DrillFile") -> list[Message]:
     """A line for each thing that was read with a doubt, and for what is not drilled."""
     warnings = [warning.reason.at(path, warning.line) for warning in drill_file.warnings]
     routs = drill_file.routs
-    return [*warnings, Message("{count} milled cuts are not drilled", count=routs).at(path)] if routs else warnings
+    if routs:
+        told = Counted("{count} milled cut is not drilled", "{count} milled cuts are not drilled", routs)
+        warnings.append(told.at(path))
+    return warnings
 
 
 def _order_warnings(path: Path, settings: WorkSettings, work: WorkList) -> list[Message]:
@@ -76,10 +79,11 @@ def _life_warnings(path: Path, work: WorkList) -> list[Message]:
         if left is not None and group.stop - group.start > left:
             holes = group.stop - group.start
             warnings.append(
-                Message(
-                    "tool T{number} makes {holes} holes; its drill is good for {left} more",
+                Counted(
+                    "tool T{number} makes {count} hole; its drill is good for {left} more",
+                    "tool T{number} makes {count} holes; its drill is good for {left} more",
+                    holes,
                     number=group.number,
-                    holes=holes,
                     left=left,
                 ).at(path)
             )

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drillctl.language.number_text import clock
-from drillctl.language.words import N_, _, translated
+from drillctl.language.words import N_, _, ngettext, translated
 from drillctl.ui.pcb_drill.typed import BY_OPTION
 from drillctl.viewmodel.console import BoardView
 from drillctl.viewmodel.job_options import JobOptions
@@ -87,7 +87,9 @@ def _further(options: JobOptions) -> list[str]:
         text = _("Panel: {columns} x {rows}, {x:g} by {y:g} mm")
         lines.append(text.format(columns=panel.columns, rows=panel.rows, x=panel.pitch_x_mm, y=panel.pitch_y_mm))
     if options.measured:
-        lines.append(_("Placed by {count} measured holes").format(count=len(options.measured)))
+        count = len(options.measured)
+        placed = ngettext("Placed by {count} measured hole", "Placed by {count} measured holes", count)
+        lines.append(placed.format(count=count))
     if options.peck_mm is not None:
         lines.append(_("In pecks of {depth:g} mm").format(depth=options.peck_mm))
     if options.spot_mm is not None:
@@ -103,9 +105,10 @@ def _further(options: JobOptions) -> list[str]:
 def board_lines(board: BoardView) -> list[str]:
     """A board in words: size, format and why, tools with their time, the whole time, warnings."""
     width_mm, height_mm = np.ptp(board.xy_mm, axis=0).tolist() if len(board.xy_mm) else (0.0, 0.0)
-    size = _("{name}: {holes} holes, {width:.2f} x {height:.2f} mm").format(
-        name=board.name, holes=len(board.xy_mm), width=width_mm, height=height_mm
-    )
+    size = ngettext(
+        "{name}: {count} hole, {width:.2f} x {height:.2f} mm", "{name}: {count} holes, {width:.2f} x {height:.2f} mm",
+        len(board.xy_mm),
+    ).format(name=board.name, count=len(board.xy_mm), width=width_mm, height=height_mm)  # fmt: skip
     sure = f"{board.dialect}, {translated(board.format)} ({board.confidence:.0%}): {translated(board.reason)}"
     runner_up = [_("else: {format}").format(format=translated(board.runner_up))] if board.runner_up else []
     warnings = [_("warning: {text}").format(text=translated(text)) for text in board.warnings]
@@ -120,7 +123,9 @@ def is_warning(line: str) -> bool:
 def _tool_lines(board: BoardView) -> list[str]:
     return [
         f"T{tool.number:<3} {_diameter(tool.diameter_mm):>9} "
-        + _("{holes:6} holes  {time}").format(holes=tool.holes, time=clock(tool.ticks / board.estimate.tick_hz))
+        + ngettext("{count:6} hole   {time}", "{count:6} holes  {time}", tool.holes).format(
+            count=tool.holes, time=clock(tool.ticks / board.estimate.tick_hz)
+        )
         + _drill(tool)
         for tool in board.estimate.tools
     ]

@@ -10,7 +10,7 @@ import urwid
 
 from drillctl.language import Message
 from drillctl.language.number_text import clock, pair_mm
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, ngettext
 from drillctl.ui.pcb_drill.board_view import STEP
 from drillctl.ui.pcb_drill.drilling_windows import DrillingWindows
 from drillctl.ui.pcb_drill.examples import offer_examples
@@ -109,7 +109,10 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         if cut_off is not None:
             offer_job(cut_off, self._console, self._shell, anew=self._drill)
             return
-        question = _("Drill {holes} holes of {name}?").format(holes=len(board.xy_mm), name=board.name)
+        count = len(board.xy_mm)
+        question = ngettext("Drill {count} hole of {name}?", "Drill {count} holes of {name}?", count).format(
+            count=count, name=board.name
+        )
         self._shell.ask(question, self._drill)
 
     def _refused(self) -> bool:
@@ -224,7 +227,10 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
             self._say("warning", _("a whole number of ticks a second is wanted, not {text!r}").format(text=text))
             return
         hz = int(text)
-        self._answer(self._console.set_tick_hz(hz), _("{hz} ticks a second; the position is kept").format(hz=hz))
+        said = ngettext(
+            "{count} tick a second; the position is kept", "{count} ticks a second; the position is kept", hz
+        )
+        self._answer(self._console.set_tick_hz(hz), said.format(count=hz))
 
     def _go_to_numbered(self, text: str) -> None:
         board = self._console.board()
@@ -248,5 +254,6 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
 def _ended(of_board: Progress) -> str:
     """How far a board was drilled when its job ended."""
-    text = _("ended: {done} of {total} holes in {time}")
-    return text.format(done=of_board.holes_done, total=of_board.holes_total, time=clock(of_board.machine_seconds))
+    total = of_board.holes_total
+    text = ngettext("ended: {done} of {count} hole in {time}", "ended: {done} of {count} holes in {time}", total)
+    return text.format(done=of_board.holes_done, count=total, time=clock(of_board.machine_seconds))

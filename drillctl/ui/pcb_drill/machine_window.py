@@ -3,7 +3,7 @@
 Rule: a function of the machine's view and the job's progress; nothing is told by colour alone.
 """
 
-from drillctl.language.words import _
+from drillctl.language.words import _, ngettext
 from drillctl.ui.pcb_drill.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
 from drillctl.ui.widgets.pages import apart, numbered_pages
 from drillctl.ui.widgets.text_graphics import gauge, large
@@ -55,7 +55,7 @@ def _place(axis: AxisView, plain: bool) -> list[Line]:
     beside = (
         _("to {mm:8.3f}").format(mm=axis.target_mm),
         _("go {mm:8.3f}").format(mm=to_go),
-        _("{steps} steps").format(steps=axis.position_steps),
+        ngettext("{count} step", "{count} steps", axis.position_steps).format(count=axis.position_steps),
     )
     return [
         [("title", f"{name:{NAME_COLUMNS}}"), ("accent", figure), f"  {words}"]

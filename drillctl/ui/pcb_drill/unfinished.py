@@ -7,7 +7,7 @@ nothing is taken away but by a button of its own.
 from collections.abc import Callable
 from pathlib import Path
 
-from drillctl.language.words import _, translated
+from drillctl.language.words import _, ngettext, translated
 from drillctl.ui.screens.shell import Shell
 from drillctl.viewmodel.console import Console, Problems
 from drillctl.viewmodel.jobs import Site, UnfinishedJob
@@ -48,7 +48,7 @@ def offer_job(job: UnfinishedJob, console: Console, shell: Shell, anew: Callable
         elif anew is not None:
             anew()
 
-    label = _("Give up") if anew is None else _("Anew")
+    label = _("Abandon") if anew is None else _("Anew")
     shell.offer(_("Interrupted job"), job_lines(job), [(_("Go on"), go_on_where_it_ran), (label, give_up)])
 
 
@@ -91,4 +91,5 @@ def site_words(site: Site) -> str:
 
 
 def _counted(job: UnfinishedJob) -> str:
-    return _("{done} of {total} holes are drilled").format(done=job.holes_done, total=job.holes_total)
+    text = ngettext("{done} of {count} hole is drilled", "{done} of {count} holes are drilled", job.holes_total)
+    return text.format(done=job.holes_done, count=job.holes_total)
