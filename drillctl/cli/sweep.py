@@ -1,5 +1,6 @@
 """``drillctl sweep``: thousands of machines on the dynamic plant, tick rate x ramp x friction x phase table: which lose
-steps. A row a machine; an interrupted sweep goes on where it was when it is asked for again.
+steps, in single moves or on a whole board. A row a machine; an interrupted sweep goes on where it was when it is asked
+for again.
 """
 
 import argparse
@@ -7,7 +8,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import drawing, options, streams
+from drillctl.cli import board_trials, drawing, options, streams
+from drillctl.language import Message
 
 if TYPE_CHECKING:
     from drillctl.lab.question import Question
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from drillctl.machine import Library, Machine
 
 VALUES = "N,N,... or FROM:TO:STEP"
+STEPS = "1,10,100"
 MOST_WORKERS = 1024
 MOST_DRAWS = 100_000
 GREATEST_SPREAD = 0.5
@@ -27,17 +30,15 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
         "--machine", default=options.DEFAULT_MACHINE, metavar="NAME|FILE", help="machine; default: %(default)s"
     )
     options.add_tables(verb)
-    verb.add_argument("--axis", metavar="NAME", help="axis to try; default: the first")
+    verb.add_argument("--axis", metavar="NAME", help="axis to try; default: the first; with --board: X and Y")
     verb.add_argument("--hz", metavar="VALUES", help=f"rates, {VALUES}; default: the machine's")
     verb.add_argument("--ramp", metavar="NAME,...", help="names; direct-start: no ramp; default: the axis's")
     phases = "phase tables, by name, or broken on purpose ('forcing removed'; 'broken': all such); default: the axis's"
     verb.add_argument("--phase", metavar="NAME,...", help=phases)
     vary = "factors for a parameter of the axis's dynamics: coulomb_nm=0.5:2:0.25; repeatable"
     verb.add_argument("--vary", action="append", default=[], metavar="NAME=VALUES", help=vary)
-    verb.add_argument("--load-nm", default="0", metavar="VALUES", help="resisting torque in N m; default: 0")
-    verb.add_argument(
-        "--steps", default="1,10,100", metavar="VALUES", help="lengths of the moves; default: %(default)s"
-    )
+    verb.add_argument("--load-nm", metavar="VALUES", help="resisting torque in N m; default: 0")
+    verb.add_argument("--steps", metavar="VALUES", help=f"lengths of the moves; default: {STEPS}")
     _add_draws(verb)
     verb.add_argument(
         "--out", type=Path, required=True, metavar="F.csv", help="file of results; one that was begun is continued"
@@ -45,6 +46,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("--picture", type=Path, metavar="F.png|.svg", help="draw into this file, not in the terminal")
     verb.add_argument("--workers", type=options.up_to(MOST_WORKERS), metavar="N", help="processes; default: all cores")
     verb.add_argument("--cluster", metavar="ADDRESS", help="send the work to a dask scheduler, tcp://HOST:PORT")
+    board_trials.add_board(verb)
     verb.set_defaults(call=call)
 
 
@@ -60,7 +62,7 @@ def call(arguments: argparse.Namespace) -> int:
     with drawing.drawn(arguments.picture, (arguments.out,)) as draw:
         with Results(arguments.out, question) as results:
             _work(question, results, WorkerPool(arguments.workers or cores(), arguments.cluster))
-        draw(sweep_picture(question, losing(arguments.out), machine.name))
+        draw(sweep_picture(question, losing(arguments.out, question), machine.name))
     return 0
 
 
@@ -76,19 +78,35 @@ def _question(arguments: argparse.Namespace, machine: "Machine", library: "Libra
     from drillctl.lab.question import FASTEST_HZ, LONGEST_STEPS, SLOWEST_HZ, Question
     from drillctl.lab.tables import axis_of, phases, ramps
 
-    axis = axis_of(machine, arguments.axis)
+    board_trials.check_only_with_board(arguments)
+    rates_hz = whole_numbers(arguments.hz or str(machine.tick_hz), "--hz", SLOWEST_HZ, FASTEST_HZ)
+    axis, board = axis_of(machine, arguments.axis), None
+    if arguments.board is not None:
+        _check_no_moves(arguments)
+        axes = board_trials.varied_axes(arguments, machine)
+        axis, board = machine.axes[axes[0]], board_trials.board_of(arguments, machine, axes, rates_hz)
     return Question(
         axis,
-        whole_numbers(arguments.hz or str(machine.tick_hz), "--hz", SLOWEST_HZ, FASTEST_HZ),
+        rates_hz,
         ramps(arguments.ramp, axis, library),
         phases(arguments.phase, axis, library),
         tuple(_varied(text) for text in arguments.vary),
-        numbers(arguments.load_nm, "--load-nm", 0, 100),
-        whole_numbers(arguments.steps, "--steps", 1, LONGEST_STEPS),
+        numbers(arguments.load_nm or "0", "--load-nm", 0, 100),
+        () if board else whole_numbers(arguments.steps or STEPS, "--steps", 1, LONGEST_STEPS),
         arguments.draws,
         arguments.spread,
         arguments.seed,
+        board,
     )
+
+
+def _check_no_moves(arguments: argparse.Namespace) -> None:
+    """Raises LabError for options of single moves beside a board."""
+    from drillctl.lab.errors import LabError
+
+    for option, value in (("--load-nm", arguments.load_nm), ("--steps", arguments.steps)):
+        if value is not None:
+            raise LabError(Message("is for single moves; with --board leave it out").at(option))
 
 
 def _varied(text: str) -> tuple[str, tuple[float, ...]]:

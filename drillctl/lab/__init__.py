@@ -7,6 +7,7 @@
     moves.py          what an axis puts out for one move
     trials.py         thousands of such moves on the dynamic plant
 
+    board.py          a board that many machines drill
     question.py       the grid of machines that a sweep tries
     answers.py        the rows of its results
     workers.py        the processes that work them out
@@ -14,6 +15,7 @@
     sweep_picture.py  the picture of a sweep
 
     tune.py           the search for the fastest ramp
+    tune_board.py     the fastest setting for a board
     ramp_trials.py, retargeting.py   ramps tried and proved exact
 
     table_bench.py   a table that is being edited, tried on the motors of a machine

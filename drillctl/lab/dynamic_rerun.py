@@ -112,7 +112,7 @@ def _driven(
         recorder.sample()
         if plant.touches != touches:
             touches = plant.touches
-            places.append((tick, [plant.position_steps(axis) for axis in _plane(machine)]))
+            places.append((tick, [plant.position_steps(axis) for axis in plane_of(machine)]))
     return recorder.finish(), *_holes(places, machine, columns)
 
 
@@ -122,7 +122,7 @@ def _images(recorded: Trace, machine: Machine) -> Counts:
     return np.bitwise_or.reduce([*words])
 
 
-def _plane(machine: Machine) -> tuple[int, ...]:
+def plane_of(machine: Machine) -> tuple[int, ...]:
     """The two axes that a board lies under."""
     return tuple(axis for axis in range(len(machine.axes)) if axis not in machine.drill_axes)[:2]
 
@@ -132,12 +132,12 @@ def _holes(places: list[tuple[int, list[float]]], machine: Machine, columns: lis
     sent: list[list[float]] = []
     drilled: list[list[float]] = []
     for tick, reached in places:
-        plane = [(machine.axes[axis], int(columns[axis][tick])) for axis in _plane(machine)]
+        plane = [(machine.axes[axis], int(columns[axis][tick])) for axis in plane_of(machine)]
         wanted = [table.start_steps + _steps(table, travelled) for table, travelled in plane]
         if not sent or wanted != sent[-1]:
             sent.append(wanted)
             drilled.append(reached)
-    scale = np.array([machine.axes[axis].steps_per_mm for axis in _plane(machine)])
+    scale = np.array([machine.axes[axis].steps_per_mm for axis in plane_of(machine)])
     shape = (len(sent), len(scale))  # a machine may have no axis that positions the board
     return np.array(sent).reshape(shape) / scale, np.array(drilled).reshape(shape) / scale
 

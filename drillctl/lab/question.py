@@ -5,13 +5,14 @@ apart.
 """
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from math import prod
 from random import Random
 
 import numpy as np
 
+from drillctl.lab.board import Board, scaled
 from drillctl.lab.errors import LabError
 from drillctl.language import Message, known_words
 from drillctl.machine import AxisTable, Dynamics
@@ -29,7 +30,9 @@ LAW = f"dynamic {SUBSTEPS}"  # of the plant: to be changed with its equations
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One machine: its tables, its motor with its load, and which of the question's values these are."""
+    """One machine: its tables, its motor with its load, and which of the question's values these are; ``scales``: by
+    which factors its dynamics differ from the axis's own.
+    """
 
     axis: AxisTable
     dynamics: Dynamics
@@ -37,6 +40,7 @@ class Variant:
     tick_hz: int
     load_nm: float
     draw: int
+    scales: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +51,7 @@ class Question:
     times    (parameter of the dynamics, multiples of the axis's own value) pairs
     loads_nm what resists besides
     steps    moves tried, both ways, from every kind of rest
+    board    what the machines drill, in place of moves of the axis; None: they make the moves
     draws    machines at each point of the grid, each parameter of SPREAD drawn within ``spread`` of its value
     """
 
@@ -60,6 +65,7 @@ class Question:
     draws: int = 1
     spread: float = 0.0
     seed: int = 0
+    board: Board | None = None
 
     def __post_init__(self) -> None:
         if self.axis.dynamics is None:
@@ -73,7 +79,8 @@ class Question:
                 )
         _check_same_once([name for name, _ in self.times])
         for name, table in self.phases:
-            _check_wires(name, table, self.axis.phase)
+            for axis in self._varied():
+                _check_wires(name, table, axis.phase)
         if self.machines > MOST_MACHINES:
             raise LabError(
                 Message(
@@ -82,6 +89,9 @@ class Question:
                     most_machines=MOST_MACHINES,
                 )
             )
+
+    def _varied(self) -> list[AxisTable]:
+        return [self.axis] if self.board is None else [self.board.machine.axes[index] for index in self.board.axes]
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -100,29 +110,22 @@ class Question:
         return hashlib.sha256(repr((LAW, self, self.axis.dynamics)).encode()).hexdigest()[:16]
 
     def variant(self, number: int) -> Variant:
-        """The machine with this number, counted from 0."""
+        """The machine with this number, counted from 0; where a board is drilled, its first axis that is varied."""
         phase, ramp, rate, *multiples, load, draw = (int(place) for place in np.unravel_index(number, self.shape))
         name, table = self.phases[phase]
         axis = replace(self.axis, phase=table, ramp=self.ramps[ramp])
         scales = {key: values[place] for (key, values), place in zip(self.times, multiples, strict=True)}
-        dynamics = self._drawn(_scaled(self._own, scales), draw)
-        return Variant(axis, dynamics, name, self.rates_hz[rate], self.loads_nm[load], draw)
+        drawn = self._drawn(draw)
+        dynamics = scaled(replace(axis, dynamics=scaled(axis, scales)), drawn)
+        both = {key: scales.get(key, 1.0) * drawn.get(key, 1.0) for key in {**scales, **drawn}}
+        return Variant(axis, dynamics, name, self.rates_hz[rate], self.loads_nm[load], draw, both)
 
-    @property
-    def _own(self) -> Dynamics:
-        assert self.axis.dynamics is not None
-        return self.axis.dynamics
-
-    def _drawn(self, dynamics: Dynamics, draw: int) -> Dynamics:
-        """The parameters of a draw: the same factors everywhere on the grid, so that its points can be compared."""
+    def _drawn(self, draw: int) -> dict[str, float]:
+        """The factors of a draw: the same everywhere on the grid, so that its points can be compared."""
         if not self.spread:
-            return dynamics
+            return {}
         random = Random(f"{self.seed} {draw}")
-        return _scaled(dynamics, {name: 1 + self.spread * random.uniform(-1, 1) for name in SPREAD})
-
-
-def _scaled(dynamics: Dynamics, scales: dict[str, float]) -> Dynamics:
-    return replace(dynamics, **{name: getattr(dynamics, name) * scale for name, scale in scales.items()})
+        return {name: 1 + self.spread * random.uniform(-1, 1) for name in SPREAD}
 
 
 def _check_same_once(names: Sequence[str]) -> None:

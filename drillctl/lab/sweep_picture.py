@@ -1,6 +1,8 @@
-"""The picture of a sweep: which share of its machines loses steps, against the factor with most values.
+"""The picture of a sweep: which share of its machines loses steps, against the factor with most values; of boards a
+heat map over two factors.
 
-Rule: a line for each phase table, ramp or other value, as far as there is room; over the rest it is the mean.
+Rule: a line (a row of the map) for each phase table, ramp or other value, as far as there is room; over the rest it is
+the mean.
 """
 
 from itertools import product
@@ -11,43 +13,66 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.files.inputs import read_bytes
-from drillctl.lab.answers import FIXED_TAIL
+from drillctl.lab.answers import head
 from drillctl.lab.question import MOST_MACHINES, Question
 from drillctl.lab.sweep import LONGEST_ROW_BYTES
 from drillctl.language import Message
-from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, HeatMap, Picture, Style
 
 LARGEST_RESULTS_BYTES = MOST_MACHINES * LONGEST_ROW_BYTES
 MOST_LINES = 8
 TICK_HZ = 2  # the first factor that is a number; the last, the draw, is none to look at
-LOST = FIXED_TAIL.index("lost") - len(FIXED_TAIL)
 Factor = tuple[str, tuple[float, ...] | tuple[str, ...]]
 
 
-def losing(path: Path) -> NDArray[np.bool_]:
-    """(machines,): which of them lost steps in any move, from a whole results file."""
+def losing(path: Path, question: Question) -> NDArray[np.bool_]:
+    """(machines,): which of them lost steps in any move or on the board, from a whole results file."""
+    lost = head(question).split(",").index("lost")
     rows = read_bytes(path, LARGEST_RESULTS_BYTES, Message("a results file")).decode().splitlines()[2:]
-    return np.array([row.split(",")[LOST] != "0" for row in rows])
+    return np.array([row.split(",")[lost] != "0" for row in rows])
 
 
 def sweep_picture(question: Question, lost: NDArray[np.bool_], machine: str) -> Picture:
     """The picture, from which machines lost steps (machines,); ``machine`` is the name of the one that was varied."""
     factors = _factors(question)
     across = max(range(TICK_HZ, len(factors) - 1), key=lambda place: len(factors[place][1]))
-    beside = _lines_by(factors, across)
-    shares = _mean_but(100.0 * lost.astype(np.float64).reshape(question.shape), across, beside)
-    name, places = factors[across]
-    style = Style.LINE if len(places) > 1 else Style.POINTS
-    lines = zip(_labels([factors[place] for place in beside]), shares, strict=True)
-    curves = tuple(Curve.of(label, np.array(places, np.float64), share, style) for label, share in lines)
+    board = question.board
+    beside = _lines_by(factors, across) if board is None else [_row_factor(factors, across)]
+    shares = _mean_but(lost.astype(np.float64).reshape(question.shape), across, beside)
     notes = [f"{int(lost.sum())} of {len(lost)} machines lose steps"]
     if mixed := [factors[n][0] for n in range(len(factors)) if n not in (across, *beside) and len(factors[n][1]) > 1]:
         notes.append(f"each point is the mean over all values of {', '.join(mixed)}")
-    chart = Chart(name, "machines that lose steps, %", curves)
     fixed = ", ".join(f"{name} {values[0]}" for name, values in factors[:-1] if len(values) == 1)
     notes += [f"with {fixed}"] * bool(fixed) + [f"the question: {question.digest}"]
-    title = f"{machine}, axis {question.axis.name}: which machines lose steps"
-    return Picture(title, (chart,), tuple(notes))
+    labels = _labels([factors[place] for place in beside])
+    if board is None:
+        title = f"{machine}, axis {question.axis.name}: which machines lose steps"
+        return Picture(title, (_lines(factors[across], labels, shares),), tuple(notes))
+    title = f"{machine}: which machines lose steps, or do not drill {board.name} to its end"
+    return Picture(title, (_heat(factors[across], factors[beside[0]], shares),), tuple(notes))
+
+
+def _lines(across: Factor, labels: list[str], shares: NDArray[np.float64]) -> Chart:
+    name, places = across
+    style = Style.LINE if len(places) > 1 else Style.POINTS
+    curves = (
+        Curve.of(label, np.array(places, np.float64), 100.0 * share, style)
+        for label, share in zip(labels, shares, strict=True)
+    )
+    return Chart(name, "machines that lose steps, %", tuple(curves))
+
+
+def _heat(across: Factor, beside: Factor, shares: NDArray[np.float64]) -> HeatMap:
+    names = (tuple(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
+             for _, values in (across, beside))  # fmt: skip
+    columns, rows = names
+    return HeatMap("machines that lose steps", across[0], beside[0], columns, rows, shares)
+
+
+def _row_factor(factors: list[Factor], across: int) -> int:
+    """The place of the factor with most values beside ``across``, and no draw."""
+    others = [place for place in range(len(factors) - 1) if place != across]
+    return max(others, key=lambda place: len(factors[place][1]))
 
 
 def _factors(question: Question) -> list[Factor]:

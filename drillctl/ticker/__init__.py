@@ -22,5 +22,6 @@ fast as may be) has no process but the desk's: LocalLink runs the ticks within `
     ticker.py            ticks, samples, counts holes           fast_ticker.py      the same, whole commands at once
     sampler.py           which number is which signal           confirmed_status.py a status waits for the board
     edited_tables.py     tables into a running ticker           forecast.py         ticks that a program will take
+    program_run.py       a whole program run free, for experiments
     launch.py            checks the settings of a run, opens its port and starts its ticker
 """

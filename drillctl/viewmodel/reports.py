@@ -120,9 +120,23 @@ class Chart:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class HeatMap:
+    """A share (rows, columns), 0 to 1, for each value of one factor upwards and of another sideways. ``label`` says of
+    what; ``columns`` and ``rows`` name the values.
+    """
+
+    label: str
+    x_label: str
+    y_label: str
+    columns: tuple[str, ...]
+    rows: tuple[str, ...]
+    share: Floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Picture:
     """Charts one below the other, and sentences that say what they show."""
 
     title: str
-    charts: tuple[Chart, ...]
+    charts: tuple[Chart | HeatMap, ...]
     notes: tuple[str, ...] = ()

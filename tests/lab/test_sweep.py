@@ -188,7 +188,7 @@ def test_every_parameter_can_be_varied() -> None:
 
 def test_the_picture_has_a_line_for_each_pair_of_tables(whole: bytes, tmp_path: Path) -> None:
     (tmp_path / "r.csv").write_bytes(whole)
-    lost = losing(tmp_path / "r.csv")
+    lost = losing(tmp_path / "r.csv", ASKED)
     picture = sweep_picture(ASKED, lost, "a-machine")
     curves = picture.charts[0].curves
     assert picture.charts[0].x_label == "times coulomb_nm" and curves[0].x.tolist() == [0.5, 1, 2]

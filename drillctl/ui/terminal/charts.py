@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import visible
+from drillctl.ui.terminal.heat import heat_lines
 from drillctl.ui.widgets.dots import BRAILLE, CELL_DOTS, braille_cells
-from drillctl.viewmodel.reports import Chart, Curve, Floats, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, Floats, HeatMap, Picture, Style
 
 MARGIN = 10  # characters left of a chart, for the numbers
 LEAST_COLUMNS = MARGIN + 10
@@ -36,7 +37,10 @@ def picture_lines(picture: Picture, look: ChartLook) -> list[str]:
     """Title, charts and notes. Narrower than LEAST_COLUMNS it is drawn as wide as that."""
     lines = [visible(picture.title)]
     for chart in picture.charts:
-        lines += ["", *_chart_lines(chart, look)]
+        if isinstance(chart, HeatMap):
+            lines += ["", *heat_lines(chart, max(look.columns, LEAST_COLUMNS), look.plain)]
+        else:
+            lines += ["", *_chart_lines(chart, look)]
     return [*lines, "", *map(visible, picture.notes)]
 
 

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from drillctl.language import Message, Refusal, visible
-from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import Chart, Curve, HeatMap, Picture, Style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 FORMATS = ("png", "svg")
 WIDTH_IN, CHART_IN, PLAN_IN, NOTE_IN = 9.0, 3.2, 6.0, 0.22
 DOTS_PER_IN = 120
+ROW_IN, MOST_NAMES = 0.25, 16  # of a heat map
 SETTINGS: Any = {"svg.hashsalt": "drillctl", "font.size": 9.0, "axes.grid": True, "grid.alpha": 0.3}
 STYLES: dict[Style, dict[str, Any]] = {
     Style.LINE: {"linewidth": 1.0},
@@ -51,7 +52,7 @@ def picture_bytes(picture: Picture, kind: str) -> bytes:
     import matplotlib
     from matplotlib.figure import Figure
 
-    heights = [PLAN_IN if chart.to_scale else CHART_IN for chart in picture.charts]
+    heights = [_height_in(chart) for chart in picture.charts]
     foot_in = NOTE_IN * (len(picture.notes) + 1)
     with matplotlib.rc_context(SETTINGS):
         figure = Figure((WIDTH_IN, sum(heights) + foot_in), layout="constrained")
@@ -59,11 +60,32 @@ def picture_bytes(picture: Picture, kind: str) -> bytes:
         figure.supxlabel("\n".join(map(_words, picture.notes)), fontsize="small")
         places = figure.subplots(len(heights), squeeze=False, height_ratios=heights)[:, 0]
         for chart, axes in zip(picture.charts, places, strict=True):
-            _draw(chart, axes)
+            if isinstance(chart, HeatMap):
+                _draw_heat(chart, axes)
+            else:
+                _draw(chart, axes)
         content = io.BytesIO()
         unstamped = {"Date": None} if kind == "svg" else {"Software": None}
         figure.savefig(content, format=kind, dpi=DOTS_PER_IN, metadata=unstamped)
     return content.getvalue()
+
+
+def _height_in(chart: Chart | HeatMap) -> float:
+    if isinstance(chart, HeatMap):
+        return max(CHART_IN, ROW_IN * len(chart.rows))
+    return PLAN_IN if chart.to_scale else CHART_IN
+
+
+def _draw_heat(heat: HeatMap, axes: "Axes") -> None:
+    """Light is none, dark is all; as many names as there is room for."""
+    drawn = axes.imshow(100 * heat.share, aspect="auto", origin="lower", cmap="viridis_r", vmin=0, vmax=100)
+    axes.grid(visible=False)
+    for names, place in ((heat.columns, axes.xaxis), (heat.rows, axes.yaxis)):
+        shown = range(0, len(names), 1 + len(names) // MOST_NAMES)
+        place.set_ticks([*shown], [_words(names[number]) for number in shown])
+    axes.set_xlabel(_words(heat.x_label))
+    axes.set_ylabel(_words(heat.y_label))
+    axes.figure.colorbar(drawn, ax=axes, label=_words(f"{heat.label}, %"))
 
 
 def _draw(chart: Chart, axes: "Axes") -> None:
