@@ -64,7 +64,7 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     ),
     "sweep": (
         "drillctl sweep --hz 500:600:50 --steps 10 --out rates.csv",
-        "drillctl sweep --board examples/relay.drl --hz 440,500 --out board.csv --workers 1",
+        "drillctl sweep --board examples/relay.drl --hz 440 --out board.csv",
     ),
     "tune": (
         "drillctl tune pcb-drill --axis x --out tuned-pcb-drill-x.toml",
