@@ -5,14 +5,19 @@ program; a trace as text or in segments.
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs, options, streams
 from drillctl.cli.operating import waiting
 from drillctl.language import Message, known_words, message_of
 
+if TYPE_CHECKING:
+    from drillctl.trace import Segments
+
 QUEUE, PART = ".kmd", ".sentences"
 PATTERN = ".toml"
-TRACES = (".trace", ".seg")
+TEXT = ".trace"
+TRACES = (TEXT, ".seg")
 EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD programs name drill files
 
 
@@ -76,18 +81,34 @@ def _trace(arguments: argparse.Namespace) -> int:
     from drillctl.generation.waits import reading
     from drillctl.replay.compare import in_form_of
     from drillctl.replay.header import machine_of
-    from drillctl.trace.files import read_trace, write_record
+    from drillctl.trace import Segments
+    from drillctl.trace.files import read_record, shortened, write_record
 
     library = options.library(arguments)
     with waiting() as wait:
         wait(reading(arguments.file.name))
-        trace = read_trace(arguments.file, arguments.to_tick)
+        record = read_record(arguments.file)
+        if isinstance(record, Segments) and arguments.to.suffix.lower() == TEXT:
+            return _segments_as_text(arguments, record)
+        trace = shortened(record, arguments.file, arguments.to_tick)
         machine = machine_of(trace, arguments.file, library)
         with reserved([arguments.to], inputs=[arguments.file]) as (output,):
             assert output is not None
             converted = in_form_of(arguments.to, trace, machine, wait)
             wait(Message("writing {name}", name=arguments.to.name))
             write_record(converted, output)
+    return 0
+
+
+def _segments_as_text(arguments: argparse.Namespace, segments: "Segments") -> int:
+    """Writes segments as text, some changes at a time, however many there are."""
+    from drillctl.files.outputs import reserved
+    from drillctl.trace.files import write_record
+
+    part = segments if arguments.to_tick is None else segments.up_to(arguments.to_tick)
+    with reserved([arguments.to], inputs=[arguments.file]) as (output,):
+        assert output is not None
+        write_record(part, output)
     return 0
 
 

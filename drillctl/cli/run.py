@@ -37,18 +37,19 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.jobs.session import Session
     from drillctl.machine import machine_hazards
     from drillctl.replay.header import machine_named
-    from drillctl.ticker.launch import pace_of
+    from drillctl.ticker.launch import in_batches, pace_of
     from drillctl.trace.files import MOST_CARDS, takes_segments
 
     machine = options.machine(arguments)
     port = options.port(arguments, machine)
     running = options.running(arguments, port, bool(arguments.trace or arguments.vcd), bool(arguments.vcd))
+    running = replace(running, engine=arguments.engine)
     if arguments.trace is not None:
         machine_named(machine, arguments.trace)  # raises where it could not be written afterwards
-        taped = takes_segments(arguments.trace, machine.cards)
+        taped = takes_segments(arguments.trace, machine.cards) or (in_batches(running) and machine.cards <= MOST_CARDS)
     else:
         taped = machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
-    running = replace(running, engine=arguments.engine, taped=taped)
+    running = replace(running, taped=taped)
     paced = pace_of(running) == "real"
     chosen = jobs.job_setup(arguments)
     job = jobs.load(arguments.job, chosen, machine)

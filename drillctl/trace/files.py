@@ -30,7 +30,11 @@ def read_trace(file: Path, to_tick: int | None = None) -> Trace:
     """The record in a file as a trace; of segments only the first ``to_tick`` ticks, if that is given. Raises
     TraceError, also for segments that hold more changes than there is room for.
     """
-    record = read_record(file)
+    return shortened(read_record(file), file, to_tick)
+
+
+def shortened(record: Trace | Segments, file: Path, to_tick: int | None = None) -> Trace:
+    """As ``read_trace``, of a record that has been read."""
     if not isinstance(record, Segments):
         return record
     return whole_trace(record if to_tick is None else record.up_to(to_tick), file)
@@ -77,8 +81,7 @@ def write_record(record: Trace | Segments, output: Output) -> None:
             raise OutputError(message_of(error).at(output.path)) from error
         output.write_bytes(data)
     else:
-        trace = whole_trace(record, output.path) if isinstance(record, Segments) else record
-        output.write(lambda file: write_text(trace, file))
+        output.write(lambda file: write_text(record, file))
 
 
 def _read(file: Path, reader: Callable[[Path], Read]) -> Read:

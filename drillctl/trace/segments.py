@@ -9,11 +9,13 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 
 from drillctl.trace.record import Header, Signal, Trace
 from drillctl.trace.shape import dense
+from drillctl.trace.stretches import Stretch
 from drillctl.trace.tapes import Images, Tape, images
 from drillctl.trace.values import WIDEST_BITS, Values
 
@@ -22,6 +24,7 @@ MOST_TICKS = 100_000_000  # of a run that is kept in segments, or run again: two
 MOST_STRIP_TICKS = 3_000_000  # of a run that was ticked, whose images are kept one for a tick
 MOST_CHANGES = 4_000_000  # of a trace that is made of them in memory
 CHUNK_TICKS = 1 << 20  # of the image array at once, where the whole of it is gone through
+STRETCH_TICKS = 1 << 17  # whose changes are put together at once
 WORD = (1 << WIDEST_BITS) - 1
 
 
@@ -95,6 +98,25 @@ class Segments:
         columns = when[order], which[order], values[order]
         return Trace(self.rest.header, self.signals, *columns, self.end, self.rest.trailer)
 
+    def stretches(self) -> Iterator[Stretch]:
+        """Yields every change of every signal, as ``trace`` has them, STRETCH_TICKS ticks at a time: by tick, then as
+        the signals are declared.
+        """
+        numbers = {signal.name: number for number, signal in enumerate(self.signals)}
+        own = np.array([numbers[signal.name] for signal in self.rest.signals], np.int32)
+        outputs, begun = self._output_changes(STRETCH_TICKS), 0
+        cards = len(self.signals) - len(self.rest.signals)
+        for first in range(0, self.end, STRETCH_TICKS):
+            end = min(first + STRETCH_TICKS, self.end)
+            until = int(np.searchsorted(self.rest.ticks, end))
+            part, begun = slice(begun, until), until
+            rows = [(ticks, np.full(len(ticks), numbers[name], np.int32), values)
+                    for name, ticks, values in islice(outputs, cards)]  # fmt: skip
+            rows.append((self.rest.ticks[part], own[self.rest.signal[part]], self.rest.values[part]))
+            when, which, values = (np.concatenate(column) for column in zip(*rows, strict=True))
+            order = np.lexsort((which, when))
+            yield Stretch(end, when[order], which[order], values[order])
+
     def up_to(self, end: int) -> "Segments":
         """Returns the first ``end`` ticks of the run."""
         if end >= self.end:
@@ -113,17 +135,17 @@ class Segments:
         """Returns the same run with another header."""
         return replace(self, rest=self.rest.with_header(header))
 
-    def _parts(self) -> Iterator[Images]:
-        for first in range(0, self.end, CHUNK_TICKS):
-            yield self.images(first, min(first + CHUNK_TICKS, self.end))
+    def _parts(self, ticks: int = CHUNK_TICKS) -> Iterator[Images]:
+        for first in range(0, self.end, ticks):
+            yield self.images(first, min(first + ticks, self.end))
 
-    def _output_changes(self) -> Iterator[tuple[str, Values, Values]]:
+    def _output_changes(self, chunk_ticks: int = CHUNK_TICKS) -> Iterator[tuple[str, Values, Values]]:
         """Yields outputs by name, each with the ticks at which it changes and its words from there on, a chunk at a
         time.
         """
         cards = {signal.name: int(match[1]) for signal in self.signals if (match := OUTPUT.fullmatch(signal.name))}
         first, before = 0, dict.fromkeys(cards, -1)
-        for part in self._parts():
+        for part in self._parts(chunk_ticks):
             for name, card in cards.items():
                 word = (part >> np.array(WIDEST_BITS * card, part.dtype)) & np.array(WORD, part.dtype)
                 changed = np.flatnonzero(word[1:] != word[:-1]) + 1

@@ -17,12 +17,14 @@ Rule: the same trace gives the same bytes.
 
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from drillctl.files.inputs import read_start
 from drillctl.trace.record import Signal, Trace
+from drillctl.trace.segments import Segments
+from drillctl.trace.stretches import Stretch, stretches
 from drillctl.trace.target import Target, opened
 from drillctl.trace.values import is_plain, named_signal_kind, quoted
 
@@ -32,7 +34,7 @@ KEY = re.compile(r"(?!(signal|end)\b)[a-z][a-z0-9_-]*")
 COMMAND = "command"  # the key of a head's line that is one command of the program
 STIMULUS, RESPONSE = "<", ">"  # how a signal line ends
 LINE_LIMIT = 4096  # characters, the line end included
-ROWS_AT_ONCE = 100_000  # written in one piece: bounds the memory that a long trace takes as Python objects
+ROWS_AT_ONCE = 50_000  # written in one piece: bounds the memory that a long trace takes as Python objects
 
 
 def is_trace(path: str | os.PathLike[str]) -> bool:
@@ -44,19 +46,21 @@ def is_trace(path: str | os.PathLike[str]) -> bool:
     return read_start(path, len(start)) == start
 
 
-def write_text(trace: Trace, target: Target, *, derived: bool = False) -> None:
-    """Writes the trace to a path or an open text file; derived signals only on request.
+def write_text(record: Trace | Segments, target: Target, *, derived: bool = False) -> None:
+    """Writes the record to a path or an open text file; derived signals only on request. Of segments no more than some
+    changes are in memory at once.
 
     Raises ValueError if reading it back would not give the same trace (a header of two lines, a signal whose name
     stands for another kind), before anything is written; OSError as `open`.
     """
-    chosen = [index for index, signal in enumerate(trace.signals) if derived or not signal.derived]
-    head = _head_lines(trace, [trace.signals[index] for index in chosen])
-    trailer = [_line("#", remark) for remark in trace.trailer]
+    frame, parts = (record.rest, record.stretches()) if isinstance(record, Segments) else (record, stretches(record))
+    chosen = [index for index, signal in enumerate(record.signals) if derived or not signal.derived]
+    head = _head_lines(frame, [record.signals[index] for index in chosen])
+    trailer = [_line("#", remark) for remark in frame.trailer]
     with opened(target, "w") as file:
         file.writelines(head)
-        file.writelines(_change_lines(trace, chosen))
-        file.write(f"end {trace.end}\n")
+        file.writelines(_change_lines(record.signals, parts, chosen))
+        file.write(f"end {frame.end}\n")
         file.writelines(trailer)
 
 
@@ -86,17 +90,18 @@ def _declaration(signal: Signal) -> str:
     return f"{signal.name} {STIMULUS if signal.stimulus else RESPONSE}"
 
 
-def _change_lines(trace: Trace, chosen: Sequence[int]) -> Iterator[str]:
-    """Yields the lines of these signals, many at once. Each different `NAME VALUE` is formatted only once."""
-    endings: list[str] = []
-    ending = np.full(len(trace.ticks), -1)
-    for index in chosen:
-        signal, rows = trace.signals[index], np.flatnonzero(trace.signal == index)
-        distinct, where = np.unique(trace.values[rows], return_inverse=True)
-        ending[rows] = where + len(endings)
-        endings += [f"{signal.name} {signal.show(value)}\n" for value in distinct.tolist()]
-    rows = np.flatnonzero(ending >= 0)
-    for start in range(0, len(rows), ROWS_AT_ONCE):
-        piece = rows[start : start + ROWS_AT_ONCE]
-        pairs = zip(trace.ticks[piece].tolist(), ending[piece].tolist(), strict=True)
-        yield "".join(f"{tick} {endings[code]}" for tick, code in pairs)
+def _change_lines(signals: Sequence[Signal], parts: Iterable[Stretch], chosen: Sequence[int]) -> Iterator[str]:
+    """Yields the lines of these signals, many at once. Each different `NAME VALUE` of a part is formatted only once."""
+    for part in parts:
+        endings: list[str] = []
+        ending = np.full(len(part.ticks), -1)
+        for index in chosen:
+            signal, rows = signals[index], np.flatnonzero(part.signal == index)
+            distinct, where = np.unique(part.values[rows], return_inverse=True)
+            ending[rows] = where + len(endings)
+            endings += [f"{signal.name} {signal.show(value)}\n" for value in distinct.tolist()]
+        rows = np.flatnonzero(ending >= 0)
+        for start in range(0, len(rows), ROWS_AT_ONCE):
+            piece = rows[start : start + ROWS_AT_ONCE]
+            pairs = zip(part.ticks[piece].tolist(), ending[piece].tolist(), strict=True)
+            yield "".join([f"{tick} {endings[code]}" for tick, code in pairs])

@@ -106,19 +106,20 @@ def test_the_fast_engine_says_where_it_may_not(tmp_path: Path, capsys: pytest.Ca
     assert "on the dynamic plant it writes no --vcd" in capsys.readouterr().err
 
 
-def test_more_changes_than_there_is_room_for_are_refused_and_a_part_is_made(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_segments_of_any_number_of_changes_become_text_a_stretch_at_a_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The command that the refusal names works, and what it makes can be replayed."""
-    file, whole, part = tmp_path / "a.seg", tmp_path / "a.trace", tmp_path / "part.trace"
+    """The text is that of a run that was ticked, wherever the stretches are cut; a part can be replayed."""
+    file, whole, ticked, part = (tmp_path / name for name in ("a.seg", "a.trace", "ticked.trace", "part.trace"))
     run(SQUARE, "--trace", str(file))
-    monkeypatch.setattr("drillctl.trace.files.MOST_CHANGES", 1000)
-    assert main(["convert", str(file), "--to", str(whole)]) == 2
-    told = capsys.readouterr().err
-    assert not whole.exists() and "changes in" in told and "there is room for 1000" in told
-    to_tick = told.partition("--to-tick ")[2].split()[0]
-    assert main(["convert", str(file), "--to", str(part), "--to-tick", to_tick]) == 0
-    assert part.read_text().splitlines()[-1] == f"end {to_tick}"
+    run(SQUARE, "--trace", str(ticked), "--engine", "tick")
+    monkeypatch.setattr("drillctl.trace.files.MOST_CHANGES", 0)
+    for stretch_ticks in (1 << 17, 997, 64):
+        monkeypatch.setattr("drillctl.trace.segments.STRETCH_TICKS", stretch_ticks)
+        assert main(["convert", str(file), "--to", str(whole)]) == 0
+        assert whole.read_bytes() == ticked.read_bytes()
+    assert main(["convert", str(file), "--to", str(part), "--to-tick", "300"]) == 0
+    assert part.read_text().splitlines()[-1] == "end 300"
     assert main(["replay", str(part)]) == main(["replay", str(file)]) == 0
 
 
