@@ -144,7 +144,7 @@ class Axis:
         self.count += 1
         if self.count >= self.wait:
             self.count = 0
-            self._advance()
+            self.advance()
         return self.motion >= MOVING
 
     def hold(self) -> None:
@@ -224,6 +224,13 @@ class Axis:
         self.bits = self.hold_bits
         self.motion = COOLED[self.motion]
 
+    def advance(self) -> None:
+        """Puts the next column out, the followers' too, and takes the next state after a whole step."""
+        if self.followers is not None:
+            self.followers.carry()
+        if self.put_column():
+            self._settle()
+
     def put_column(self) -> bool:
         """Puts the next column out; True when that completes a step."""
         turn = self.direction * self.direction_sign
@@ -239,11 +246,15 @@ class Axis:
         self.made += 1
         return True
 
-    def _advance(self) -> None:
-        if self.followers is not None:
-            self.followers.carry()
-        if self.put_column():
-            self._settle()
+    def put_steps(self, steps: int) -> None:
+        """Puts the columns of so many whole steps out, in each of which it keeps its state. It stands between steps."""
+        turn, columns = self.direction * self.direction_sign, steps * self.columns_per_step
+        self.column = (self.column + turn * columns) % self.length
+        self.bits = self.drive_patterns[turn][self.column]
+        self.hold_bits = self.hold_patterns[turn][self.column]
+        self.travelled += self.direction * columns
+        self.position += self.direction * steps
+        self.made += steps
 
     def _settle(self) -> None:
         """After a whole step: the next state. A hold or a stop takes one state off after every step."""

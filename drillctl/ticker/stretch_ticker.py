@@ -7,10 +7,11 @@ nothing live is attached, and no derived signals are recorded.
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from drillctl.execution.fastforward.stretch import images, leave, stretch
+from drillctl.execution.fastforward.stretch import Images, foresee, leave
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.ticker.ticker import NEVER, Ticker
 
+SHORTEST = 8  # ticks: a stretch of fewer is quicker ticked
 MOST_TICKS = 1 << 16  # of a turn, about: whoever waits for the ticker is let in between
 
 
@@ -30,23 +31,22 @@ class StretchTicker(Ticker):
         if self.gate.paused:
             return super().turn(until, before)
         while wakes > 0 and m.tick < min(before, first + MOST_TICKS):
-            if not self._stretch(before):
-                self.run(1)
-                wakes -= 1
+            shown = foresee(m, self._dynamic.inputs, before - m.tick)
+            if len(shown) >= SHORTEST:
+                self._pass(shown)
+            else:
+                ticks = min(wakes, max(1, len(shown)))
+                self.run(ticks, until)
+                wakes -= ticks
             if until is not None and until():
                 break
         return m.tick - first
 
-    def _stretch(self, before: int) -> bool:
-        """Runs a stretch, short of tick ``before``; returns whether there was one."""
+    def _pass(self, shown: Images) -> None:
+        """Runs the plant on these output images (ticks,), up to the first tick that changes an input."""
         m = self.controller
-        ticks = min(stretch(m, self._dynamic.inputs), before - m.tick)
-        if ticks <= 0:
-            return False
-        shown, first = images(m, ticks), m.tick
-        done = self._dynamic.run(shown)
+        first, done = m.tick, self._dynamic.run(shown)
         leave(m, done, int(shown[done - 1]))
         if self.sampler is not None:
             self.sampler.sample_outputs(shown[:done], first)
         self.note_touch()
-        return True

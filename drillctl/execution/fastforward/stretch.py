@@ -1,56 +1,63 @@
 """Stretches of ticks in the middle of a command, whose outputs are known unless an input changes.
 
-An axis that neither speeds up nor brakes puts out its phase table's columns at one interval, until it must brake; one
-at rest keeps its image. So as long as the inputs stay as they are, nothing is decided.
+As long as the inputs stay as they are, nothing but the axes' own tables says what comes: up the ramp, at one pace, down
+the ramp, and rest. So a stretch goes on up to the last column of the axis that is the last to rest.
 
-Rule: tick is the law. ``stretch`` is 0 wherever anything but counting may happen; whoever runs one finds out how many
-of its ticks passed before an input changed, and lets ``leave`` make the controller what tick would have made of it.
+Rule: tick is the law. ``foresee`` returns nothing wherever anything but counting may happen; whoever runs a stretch
+finds out how many of its ticks passed before an input changed, and lets ``leave`` make the controller what tick would
+have made of it. Both count by the axis's own methods, ``foresee`` on a copy of it.
 """
+
+from collections.abc import Iterator
+from copy import copy
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.axis import BRAKING, MOVING, REST, Axis
+from drillctl.execution.axis import BRAKING, MOVING, REST, SETTLING, STOPPING, Axis
 from drillctl.execution.controller import Controller, Stage
 from drillctl.kmd import Op
 
-SHORTEST, LONGEST = 8, 1 << 16  # ticks: fewer are quicker ticked; more take too much memory at once
+LONGEST = 1 << 16  # ticks: more take too much memory at once
 
 Images = NDArray[np.uint64]
+NONE: Images = np.zeros(0, np.uint64)
 
 
-def stretch(m: Controller, inputs: int) -> int:
-    """Returns how many ticks are known, if the inputs stay what they are now."""
-    if m.stage != Stage.RUNNING or not m.busy or m.requests.waiting or inputs != m.inputs:
-        return 0
-    if m.fault or m.gap or m.late or m.served or m.unseen or m.hot_until:
-        return 0
-    ticks, counting = LONGEST, 0
-    for axis in m.axes:
-        if axis.motion == MOVING or axis.motion == BRAKING:
-            ticks, counting = min(ticks, _even_ticks(axis, m.position_known)), counting + 1
-        elif axis.motion != REST:
-            return 0
-    if counting != m.moving:
-        return 0
-    if not counting:
-        ticks = min(ticks, m.command.args[0] - m.elapsed - 1 if m.command.opcode == Op.CZEKAJ else 0)
-    if m.time_limit:
-        ticks = min(ticks, m.time_limit - m.elapsed)
-    return ticks if ticks >= SHORTEST else 0
+@dataclass(slots=True)
+class Course:
+    """What an axis puts out in the next ``ticks``: runs of columns, with so many ticks before each column of a run.
+
+    rests  it comes to rest in the last of these ticks
+    """
+
+    waits: list[int]
+    columns: list[int]
+    ticks: int
+    rests: bool
 
 
-def images(m: Controller, ticks: int) -> Images:
-    """Returns the output image of each tick of a stretch, (ticks,)."""
+def foresee(m: Controller, inputs: int, most: int) -> Images:
+    """Returns the output image of each tick of a stretch (ticks,) of at most ``most`` ticks, none where nothing is
+    known. ``inputs`` is the input image that the next tick latches.
+    """
+    ticks = min(most, LONGEST, _undisturbed(m, inputs))
+    if ticks <= 0 or not all(_is_quiet(axis, m.sensors, m.position_known) for axis in m.axes):
+        return NONE
+    courses = [_course(axis, ticks) if axis.counting else None for axis in m.axes]
+    moving = [course for course in courses if course is not None]
+    if len(moving) != m.moving:
+        return NONE
+    if moving:
+        on = [course.ticks for course in moving if not course.rests]
+        ticks = min(on) if on else max(course.ticks for course in moving) - 1  # then the command may end
     shown = np.full(ticks, m.switched, np.uint64)
-    for axis in m.axes:
-        if axis.motion == REST:
-            shown |= np.uint64(axis.bits)
-            continue
-        turn = axis.direction * axis.direction_sign
-        columns = np.arange(axis.count + 1, axis.count + ticks + 1) // axis.wait
-        pattern = np.array(axis.drive_patterns[turn], np.uint64)
-        shown |= np.where(columns, pattern[(axis.column + turn * columns) % axis.length], np.uint64(axis.bits))
+    for axis, course in zip(m.axes, courses, strict=True):
+        if course is not None:
+            shown |= _put_out(axis, course, ticks)
+        else:
+            shown |= np.uint64(axis.bits if axis.motion == REST else axis.hold_bits)
     return shown
 
 
@@ -59,32 +66,93 @@ def leave(m: Controller, ticks: int, image: int) -> None:
     m.elapsed += ticks
     m.tick += ticks
     m.image = image
+    m.moving = 0
     for axis in m.axes:
         if axis.motion != REST:
-            _count_on(axis, ticks)
+            for _ in _counted(axis, ticks):
+                pass
+            m.moving += axis.counting
 
 
-def _even_ticks(axis: Axis, position_known: bool) -> int:
-    """Ticks up to the last step after which its state is the same."""
-    state, to_go = axis.state, (axis.target - axis.position) * axis.direction
-    steps = to_go - axis.ramp.brake[state]
-    if position_known:
-        steps = min(steps, axis.high - axis.position if axis.direction > 0 else axis.position - axis.low)
-    if not state or steps < 1 or axis.followers is not None or axis.clear_mask:
+def _undisturbed(m: Controller, inputs: int) -> int:
+    """Returns for how many ticks the current command goes on, and nothing but its axes may change how."""
+    if m.stage != Stage.RUNNING or not m.busy or m.requests.waiting or inputs != m.inputs:
         return 0
-    may_rise = axis.motion == MOVING and axis.interval[state] > axis.min_interval
-    if axis.ramp.after_step(state, axis.direction, to_go - 1, may_rise) != state:
+    if m.fault or m.gap or m.late or m.served or m.unseen or m.hot_until:
         return 0
-    return (steps * axis.columns_per_step - axis.column_in_step) * axis.wait - axis.count
+    ticks = m.time_limit - m.elapsed if m.time_limit else LONGEST
+    if not m.moving:
+        ticks = min(ticks, m.command.args[0] - m.elapsed - 1 if m.command.opcode == Op.CZEKAJ else 0)
+    return ticks
 
 
-def _count_on(axis: Axis, ticks: int) -> None:
-    columns, axis.count = divmod(axis.count + ticks, axis.wait)
-    steps, axis.column_in_step = divmod(axis.column_in_step + columns, axis.columns_per_step)
-    axis.position += axis.direction * steps
-    axis.travelled += axis.direction * columns
-    axis.made += steps
-    if columns:
-        turn = axis.direction * axis.direction_sign
-        axis.column = (axis.column + turn * columns) % axis.length
-        axis.bits, axis.hold_bits = axis.drive_patterns[turn][axis.column], axis.hold_patterns[turn][axis.column]
+def _is_quiet(axis: Axis, sensors: int, position_known: bool) -> bool:
+    """Returns whether nothing stops an axis, going to its target, as long as the sensors stay as they are."""
+    if axis.motion <= SETTLING or axis.motion == STOPPING:
+        return True
+    if axis.motion < MOVING or axis.followers is not None:
+        return False
+    if axis.clear_mask:
+        return sensors & axis.clear_mask != 0 and not axis.seek_mask
+    in_range = axis.low <= min(axis.position, axis.target) and max(axis.position, axis.target) <= axis.high
+    return (in_range or not position_known) and not sensors & (axis.seek_mask | axis.limits[axis.direction])
+
+
+def _course(axis: Axis, most: int) -> Course:
+    """Returns the course of an axis that counts, for ``most`` ticks, or up to where it rests or turns round."""
+    there, course = copy(axis), Course([], [], 0, False)
+    shown = axis.drive_patterns[axis.direction * axis.direction_sign]
+    for wait, columns in _counted(there, most):
+        if there.direction != axis.direction or there.bits != shown[there.column]:
+            course.ticks += wait - 1
+            return course
+        course.waits.append(wait)
+        course.columns.append(columns)
+        course.ticks += wait * columns
+    course.rests = not there.counting
+    if there.counting:
+        course.ticks = most
+    return course
+
+
+def _counted(axis: Axis, ticks: int) -> Iterator[tuple[int, int]]:
+    """Counts an axis through so many ticks; yields each run of columns once put out: ticks before each, columns."""
+    while axis.counting and axis.wait - axis.count <= ticks:
+        wait, before = axis.wait - axis.count, (axis.state, axis.direction, axis.motion)
+        axis.count = 0
+        axis.advance()
+        ticks -= wait
+        yield wait, 1
+        if axis.column_in_step == 0 and before == (axis.state, axis.direction, axis.motion):
+            steps = min(_even_steps(axis), ticks // (axis.wait * axis.columns_per_step))
+            if steps > 0:
+                axis.put_steps(steps)
+                columns = steps * axis.columns_per_step
+                ticks -= columns * axis.wait
+                yield axis.wait, columns
+    if axis.counting:
+        axis.count += ticks
+    elif ticks:
+        axis.cool()
+
+
+def _even_steps(axis: Axis) -> int:
+    """Returns the steps of an axis that has just kept its state after a step, and keeps it until it must brake."""
+    to_go = (axis.target - axis.position) * axis.direction
+    return to_go - max(1, axis.ramp.brake[axis.state]) if axis.motion in (MOVING, BRAKING) else 0
+
+
+def _put_out(axis: Axis, course: Course, ticks: int) -> Images:
+    """Returns the output bits of an axis in each of so many ticks (ticks,), from its course."""
+    turn = axis.direction * axis.direction_sign
+    shown = np.array(axis.drive_patterns[turn], np.uint64)
+    waits = np.repeat(np.array(course.waits, np.int64), course.columns)
+    begins = np.cumsum(waits) - 1  # in these ticks its columns come
+    columns = (axis.column + turn * np.arange(1, len(begins) + 1)) % axis.length
+    images = np.concatenate(([np.uint64(axis.bits)], shown[columns]))
+    begins = np.concatenate(([0], begins))
+    if course.rests and begins[-1] + 1 < ticks:
+        images = np.append(images, np.uint64(axis.hold_patterns[turn][columns[-1]]))
+        begins = np.append(begins, begins[-1] + 1)
+    lasts = np.diff(np.append(np.minimum(begins, ticks), ticks))
+    return np.repeat(images, lasts)
