@@ -28,7 +28,7 @@ def numbers(text: str, what: str, least: float, most: float) -> tuple[float, ...
 
 
 def whole_numbers(text: str, what: str, least: int, most: int) -> tuple[int, ...]:
-    """As ``numbers``, where each must be a whole number."""
+    """Like ``numbers``, where each must be a whole number."""
     found = numbers(text, what, least, most)
     if bad := [value for value in found if value != int(value)]:
         raise LabError(Message("{what} {bad:g} is no whole number", what=what, bad=bad[0]))

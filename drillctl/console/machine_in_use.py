@@ -134,7 +134,7 @@ class MachineInUse:
 
     @property
     def runs_free(self) -> bool:
-        """Whether no clock paces it: it runs as fast as the desk turns it."""
+        """Whether no clock paces it: it runs as fast as it is called."""
         return pace_of(self.running) == FREE
 
     @property

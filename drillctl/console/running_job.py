@@ -72,7 +72,7 @@ class RunningJob:
         return runner
 
     def progress(self) -> Progress | None:
-        """Of the job that runs, or ran last; None before the first on this machine."""
+        """The progress of the job that runs, or ran last; None before the first on this machine."""
         return self._last if self._runner is None else _progress(self._runner)
 
     def forget(self) -> None:

@@ -161,7 +161,7 @@ class RunRecording(RunScope):
         self.lanes.append(changes["tick"], changes["signal"], changes["value"])
 
     def notices(self) -> tuple[Notice, ...]:
-        """As of any run; and that changes were lost because the ring ran over."""
+        """What is to be known of the run, as for any; also that changes were lost because the ring was full."""
         return (*super().notices(), *[Notice("behind")] * self._ring.overrun)
 
     def _written(self, sequence: int, tick: int) -> str:

@@ -78,7 +78,7 @@ class TraceFile(RunScope):
         return self._known_to if self._source(signal).name in self._missing else self.last_tick + 1
 
     def notices(self) -> tuple[Notice, ...]:
-        """As of any run; how far the run has come, and why its derived signals may be wrong or missing."""
+        """How far the run has come, and why its derived signals may be wrong or missing."""
         found = [*super().notices()]
         if self._trouble:
             found.append(self._trouble)
@@ -89,7 +89,7 @@ class TraceFile(RunScope):
         return tuple(found)
 
     def _column(self, signal: int) -> Column | TapeColumn:
-        """As of any run; an output of a run in segments is looked at there."""
+        """Like the base class's; an output of a run in segments is looked at there."""
         return self._outputs.get(signal) or super()._column(signal)
 
     def _taped(self, segments: Segments) -> dict[int, TapeColumn]:
@@ -102,7 +102,7 @@ class TraceFile(RunScope):
         return found
 
     def _value(self, signal: int, tick: int) -> int | None:
-        """As of any run; of an axis also in a tick that the run has not reached yet."""
+        """Like the base class's; of an axis also in a tick that the run has not reached yet."""
         if self._known_to <= tick <= self.last_tick and self._source(signal).name in self._missing:
             return self._far_value(signal, tick)
         return super()._value(signal, tick)

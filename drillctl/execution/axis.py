@@ -161,7 +161,7 @@ class Axis:
             self.start()
 
     def start_again(self) -> None:
-        """The rotor stopped while nobody drove it: forcing goes off, and the count starts anew from state 0."""
+        """The rotor stopped while no ticks came: forcing goes off, and the count starts anew from state 0."""
         self.state = self.count = 0
         self.cool()
         if self.motion == BRAKING:

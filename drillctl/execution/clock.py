@@ -15,8 +15,9 @@ from drillctl.kmd import Fault
 
 
 class PacedClock:
-    """Of the newest tick: ``begun_ns``, and ``late_ns`` after its deadline. Of all: ``late`` counts those that began
-    more than a period too late, ``worst_ns`` is the greatest lateness. Time can be handed in (``now_ns``, ``sleep_s``).
+    """Begins ticks by the clock. ``begun_ns``: when the newest began, ``late_ns`` after its deadline; ``late`` counts
+    those that began more than a period too late, ``worst_ns`` is the greatest lateness. Time can be handed in
+    (``now_ns``, ``sleep_s``).
     """
 
     def __init__(

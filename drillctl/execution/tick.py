@@ -38,7 +38,7 @@ def tick(m: Controller) -> None:
             axis.cool()
     if command_missing and m.job:
         m.underruns += 1
-        m.unseen = m.served  # a resume: the tick to come has it in its record, and is served it once more in vain
+        m.unseen = m.served  # a resume is recorded in the tick to come, which serves it again without effect
         _put_out(m)  # a winding must not keep its 24 V for as long as the next command takes to come
         return
     m.running = m.command.sequence if m.busy else 0

@@ -60,7 +60,7 @@ class Output:
             raise OutputError(Message("can't be written: {why}", why=message_of(error)).at(self.path)) from error
 
     def write_bytes(self, data: bytes) -> None:
-        """As ``write``, for a file that is no text."""
+        """Like ``write``, for a file that is no text."""
         self.write(lambda file: file.buffer.write(data))
 
     def drop(self) -> None:

@@ -39,7 +39,7 @@ class Drill(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def hits_left(self) -> int | None:
-        """Holes that it is still good for, None where nobody counts."""
+        """How many more holes it is good for; None where the file gives no life of it."""
         return None if self.life_hits is None else max(0, self.life_hits - self.used_hits)
 
 

@@ -1,6 +1,6 @@
 """What a person waits for while a job is made: the parts of the work, and how far each is.
 
-Rule: whoever shows it - a terminal, a screen, nobody - the result is the same. An exception from a call ends the work,
+Rule: the result is the same whether a terminal, a screen or nothing shows it. An exception from a call ends the work,
 which has changed nothing by then.
 """
 
@@ -21,9 +21,9 @@ def reading(name: str) -> Message:
 
 
 def unwatched(what: Message) -> Advance:
-    """Waits of a part of the work that nobody watches."""
+    """The Waits of work whose progress is not shown."""
     return ignored
 
 
 def ignored(done: int, total: int) -> None:
-    """Advance of a part that nobody watches."""
+    """The Advance of work whose progress is not shown: does nothing."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 # A chain overlaps by half its drill: the waist left between two holes is then an eighth of the diameter.
 CHAIN_PITCH = 0.5
-CHAIN_DRILL_MM = 1.0  # for a slot whose drill nobody has named
+CHAIN_DRILL_MM = 1.0  # for a slot whose tool has no diameter
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 

@@ -23,7 +23,7 @@ def estimate(job: Job, engine: str | None = None, waits: Waits = unwatched) -> E
 def estimate_with_ticks(
     job: Job, engine: str | None = None, waits: Waits = unwatched
 ) -> tuple[Estimate, NDArray[np.int64]]:
-    """As ``estimate``; also the ticks (n,) of each command."""
+    """Like ``estimate``; also the ticks (n,) of each command."""
     found = forecast(job.program, job.machine, engine, waits(FORECASTING))
     return _estimate(job, found), found.ticks
 

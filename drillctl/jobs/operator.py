@@ -27,7 +27,7 @@ class JobHold:
     """Whether one job is to be held.
 
     wanted         what the operator asked last: to hold it or not; None where nothing was asked, or it is so
-    resumes_itself a hold that nobody asked for (a gap in time) is ended at once: nobody is there who could resume it
+    resumes_itself a hold by a gap in time is ended at once: no person is there who could resume the job
     """
 
     def __init__(self, resumes_itself: bool):

@@ -43,7 +43,7 @@ class Session:
     tool_change: ToolChange | None = None
     operator: Operator | None = None
     has_forecast: bool = False
-    ticks: NDArray[np.int64] | None = None  # of each command, where the time left is worth showing
+    ticks: NDArray[np.int64] | None = None  # of each command, where the time left is shown
 
     def journalled(self, file: Path, journal: Path | None, setup: JobSetup) -> "Session":
         """The same with a journal for a job made from ``file``; in the user's state folder where no place is given."""
@@ -77,7 +77,7 @@ class Session:
             return runner.run()
 
     def with_forecast(self, waits: Waits = unwatched) -> "Session":
-        """The same with the ticks of each command, where the time left is worth showing; ``run`` makes the forecast
+        """The same with the ticks of each command, where the time left is shown; ``run`` makes the forecast
         itself where it was not made before. Raises JobError for a run that is to be kept in a trace and has more ticks
         than one has room for.
         """

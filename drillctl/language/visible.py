@@ -34,7 +34,7 @@ def visible(text: str, keep: str = "") -> str:
 
 
 def one_line(text: str) -> str:
-    """As ``visible``, with line ends and tabs escaped too: a name in a sentence can't begin a line of its own."""
+    """Like ``visible``, with line ends and tabs escaped too: a name in a sentence can't begin a line of its own."""
     return visible(text)
 
 

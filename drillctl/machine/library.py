@@ -128,7 +128,7 @@ class Library:
         ]
 
     def check_source(self, source: Source) -> list[Message]:
-        """As ``check``, for a text that need not be in its file yet."""
+        """Like ``check``, for a text that need not be in its file yet."""
         written = source.tree()
         for key, hazards in _KINDS.items():
             if key in written:

@@ -62,7 +62,7 @@ def read_ramp(file: Path) -> RampTable:
 
 
 def parse_ramp(source: Source) -> RampTable:
-    """As ``read_ramp``, from a text. Every distance must be landed on exactly."""
+    """Like ``read_ramp``, from a text. Every distance must be landed on exactly."""
     return _from_figures(source) if is_computed(source) else _from_rows(source)
 
 

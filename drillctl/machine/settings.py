@@ -105,7 +105,7 @@ def settings(source: Source) -> tuple[Setting, ...]:
 
 
 def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
-    """As ``settings``, for a file whose shape was checked."""
+    """Like ``settings``, for a file whose shape was checked."""
     axes: list[tuple[Place, str]] = [
         (("axis", index, *place), row.name) for index, row in enumerate(raw.axis) for place in AXIS_PLACES
     ]
@@ -121,7 +121,7 @@ def wire_settings(source: Source) -> tuple[Setting, ...]:
 
 
 def wire_settings_of(raw: MachineFile) -> tuple[Setting, ...]:
-    """As ``wire_settings``, for a file whose shape was checked. A bit that is no number is refused by the readers."""
+    """Like ``wire_settings``, for a file whose shape was checked. A bit that is no number is refused by the readers."""
     axes = {row.name for row in raw.axis}
     wires = ((name, name.partition(".")[0], bit) for name, bit in raw.wiring.items() if isinstance(bit, int))
     return _with_locks(

@@ -87,7 +87,7 @@ class FirmataLine:
             )
 
     def send_first(self, data: bytes) -> None:
-        """As ``send``, before anything that still waits in the kernel, which is dropped."""
+        """Like ``send``, before anything that still waits in the kernel, which is dropped."""
         try:
             self._serial.reset_output_buffer()
         except (OSError, termios.error) as error:

@@ -32,7 +32,7 @@ Records = NDArray[np.void]
 
 @dataclass
 class FastTicker(Ticker):
-    """As Ticker, with a simulated card and the ideal plant behind it.
+    """A Ticker with a simulated card and the ideal plant behind it.
 
     rotors      the derived signals have the plant's lanes too
     in_batches  False: every command is run tick by tick
@@ -56,12 +56,12 @@ class FastTicker(Ticker):
             self.sampler = Sampler(self.controller, self.plant, False, recorder)
 
     def load(self, machine: Machine) -> None:
-        """As Ticker; what was worked out by the old tables is dropped."""
+        """Like the method of Ticker; what was worked out by the old tables is dropped."""
         super().load(machine)
         self._new_engine()
 
     def follow_rate(self) -> None:
-        """As Ticker; what was worked out by the old limits of time is dropped."""
+        """Like the method of Ticker; what was worked out by the old limits of time is dropped."""
         super().follow_rate()
         self._new_engine()
 
@@ -179,7 +179,7 @@ class TapeRecorder(Recorder):
         self._begins = [0]
 
     def set(self, index: int, tick: int, value: int) -> None:
-        """As a Recorder does; a card's outputs are put into the image of the tick."""
+        """Like the method of Recorder; a card's outputs are put into the image of the tick."""
         if index not in self._cards:
             super().set(index, tick, value)
             return

@@ -17,7 +17,7 @@ MOST_TICKS = 1 << 16  # of a turn, about: whoever waits for the ticker is let in
 
 @dataclass
 class StretchTicker(Ticker):
-    """As Ticker, with a simulated card and the dynamic plant behind it."""
+    """A Ticker with a simulated card and the dynamic plant behind it."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -25,7 +25,7 @@ class StretchTicker(Ticker):
         self._dynamic = self.plant
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
-        """As Ticker; a stretch takes no command, so it may be longer than the queue."""
+        """Like the method of Ticker; a stretch takes no command, so it may be longer than the queue."""
         m = self.controller
         first, wakes = m.tick, min(max(1, len(self.queue)), before - m.tick)
         if self.gate.paused:

@@ -96,7 +96,7 @@ class Ticker:
             self.touch(self.controller.tool, self.controller.hole_begun, self.places())
 
     def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:
-        """As ``run``, as far as the gate lets; while it is shut only the inputs are read."""
+        """Like ``run``, as far as the gate lets; while it is shut only the inputs are read."""
         if not self.gate.paused:
             return self.run(wakes, until)
         if self.waits:

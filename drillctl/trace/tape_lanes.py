@@ -114,7 +114,7 @@ class TapeColumn:
         return self._view.image(tick) >> self._bit & 1 ^ self._invert
 
     def window(self, from_tick: int, to_tick: int) -> tuple[Values, Values]:
-        """As a Column's; the ticks between are put together."""
+        """Like the method of Column; the ticks between are put together."""
         to_tick = min(to_tick, self._view.end)
         if from_tick >= to_tick:
             return np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -123,12 +123,12 @@ class TapeColumn:
         return ticks, np.arange(len(ticks)) & 1 ^ (self.at(from_tick) or 0)
 
     def strip(self, edges: Values) -> tuple[Values, Values]:
-        """As a Column's, with changes counted to MANY."""
+        """Like the method of Column, with changes counted to MANY."""
         last, once, again = map(self._of, self._view.strip(edges))
         return last ^ self._invert, once + again
 
     def find(self, tick: int, direction: int, onset: bool) -> int | None:
-        """As a Column's: block by block, those without a change passed over."""
+        """Like the method of Column: block by block, those without a change passed over."""
         if onset and tick < 0 < direction and self.at(0):
             return 0  # a lane that is on from the beginning came on there
         block = max(tick + direction, 0) // BLOCK_TICKS

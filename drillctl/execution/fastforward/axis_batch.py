@@ -1,6 +1,6 @@
 """Where one axis is before and after each of many commands, and what it puts out meanwhile.
 
-Rule: an axis that nobody sends anywhere rests, its forcing off; one that is sent moves at once and then rests until the
+Rule: an axis that gets no target rests, its forcing off; one that is sent moves at once and then rests until the
 command ends. Strokes that end on a sensor are not in it: batch.py has them.
 """
 

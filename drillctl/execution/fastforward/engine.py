@@ -51,9 +51,8 @@ class Engine:
         )
 
     def foresee(self, commands: NDArray[np.void]) -> Batch | None:
-        """As many of the commands, dtype RECORD (n,), as can be foreseen; None where tick must have the first.
-
-        Asked ``between`` two commands only.
+        """The batch of as many of the commands, dtype RECORD (n,), as can be foreseen; None where the first must be
+        ticked. To be called between two commands only (``between``).
         """
         if not len(commands) or not self._sees():
             return None

@@ -1,7 +1,7 @@
 """How many of the commands that wait can be foreseen, and what batch they make.
 
 Rule: all are judged at once. The batch ends before a command that is of another kind, or would be refused, or moves an
-axis to where a sensor answers, or is a stroke that nobody has seen yet.
+axis to where a sensor answers, or is the first stroke of its kind.
 """
 
 from collections.abc import Callable, Sequence

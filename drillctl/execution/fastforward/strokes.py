@@ -61,7 +61,7 @@ class Place:
         return tuple(state[REMEMBERED.index("hold_bits")] for state in self.axes)
 
     def motion(self, number: int) -> tuple[int, ...]:
-        """Of a head by its number: MOTION as it stands here."""
+        """Returns the values of the slots MOTION of a head, by its number, at the start of the stroke."""
         return tuple(self.axes[number][REMEMBERED.index(slot)] for slot in MOTION)
 
 

@@ -28,7 +28,7 @@ class PlantFacts(Protocol):
         """All that an axis's rotor and sensors remember, its output bits left out."""
 
     def recall(self, axis: int, memory: Any) -> None:
-        """As it was when ``memory`` was asked."""
+        """Puts an axis's part of the plant back to what ``memory`` returned."""
 
     def settle(self, image: int, touches: int) -> None:
-        """The whole output image as it stands at last; the bit has met the board so many times more."""
+        """Takes the output image after the last tick; the bit has met the board so many times more."""

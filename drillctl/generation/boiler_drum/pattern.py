@@ -63,7 +63,7 @@ def read_pattern(file: Path) -> list[Sentence]:
 
 
 def pattern_sentences(source: Source) -> list[Sentence]:
-    """As ``read_pattern``, from a text."""
+    """Like ``read_pattern``, from a text."""
     wanted = source.records(_File)
     depth, approach = (_tenths(source, getattr(wanted, key), key) for key in ("depth_mm", "approach_mm"))
     if not 0 <= approach < depth:

@@ -56,7 +56,7 @@ def read_part(path: Path) -> Part:
 
 
 def parse_part(text: str, source: str) -> Part:
-    """As ``read_part``, from a text."""
+    """Like ``read_part``, from a text."""
     found: list[tuple[int, Sentence]] = []
     problems: list[Message] = []
     for number, line in enumerate(text.split("\n"), start=1):

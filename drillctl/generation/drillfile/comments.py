@@ -66,7 +66,7 @@ def find(text: str, patterns: Patterns) -> dict[str, str]:
 
 
 def declare(groups: Mapping[str, str], source: str, line: int | None, voice: Voice, facts: Facts) -> None:
-    """Turn found groups into facts; words nobody knows declare nothing."""
+    """Turn found groups into facts; unknown words declare nothing."""
     if "integer" in groups and "decimal" in groups:
         digits = int(groups["integer"]), int(groups["decimal"])
         facts.declare_digits(Fact(digits, voice, line, source), _units(groups))

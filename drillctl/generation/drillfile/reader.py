@@ -47,7 +47,7 @@ def decode(
     fmt: str | None = None,
     after_end: str = REFUSE,
 ) -> DrillFile:
-    """As `read`, from bytes alone: name is used in messages, side_files are reports by name."""
+    """Like `read`, from bytes alone: name is used in messages, side_files are reports by name."""
     return _decode(io.BytesIO(data), name, side_files, fmt, after_end)
 
 

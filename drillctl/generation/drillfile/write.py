@@ -23,7 +23,7 @@ def write(drill_file: DrillFile, fmt: str = "mm,decimal", *, header: bool = True
     """The file's bytes. fmt as in `read`: 'inch,2:4,leading', 'mm,decimal'...
 
     header False leaves out every declaration; tape_code punches EIA RS-244. ValueError when a coordinate
-    has more places than the format, Complaint 'bad-format' for an fmt nobody understands.
+    has more places than the format, Complaint 'bad-format' for an fmt that can't be read.
     """
     choice = parse_option(fmt)
     numbers = _distinct_numbers(drill_file.tools)

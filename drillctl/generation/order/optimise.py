@@ -50,7 +50,7 @@ def optimised_path(stops: Stops, travel: TravelCost, path: Tour, budget: Budget,
 
 
 def near_in_tool(stops: Stops, travel: TravelCost) -> list[list[Near]]:
-    """Of each stop the nearest others of its own tool; the start belongs to the first tool."""
+    """Returns for each stop the nearest others of its own tool; the start belongs to the first tool."""
     near: list[list[Near]] = []
     for tool in stops.tools:
         first = len(near)

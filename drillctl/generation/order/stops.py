@@ -23,7 +23,7 @@ class Stops:
     """`points` (n + 1, 2) in steps: row 0 is the start, the holes follow tool by tool.
 
     bounds  (k + 1,) rows: tool t has the rows bounds[t] to bounds[t + 1] - 1, perhaps none
-    end     where the machine goes after the last hole, in steps; None where nobody cares
+    end     where the machine goes after the last hole, in steps; None for anywhere
     """
 
     points: Steps

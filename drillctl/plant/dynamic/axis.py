@@ -30,7 +30,7 @@ class DynamicAxis:
 
     @property
     def currents(self) -> tuple[float, float, float, float]:
-        """Of the four half windings, in A, in the order of WINDING_DEGREES."""
+        """Returns the currents of the four half windings, in A, in the order of WINDING_DEGREES."""
         begin = self.at + columns.CURRENTS
         first, second, third, fourth = self.rows[begin : begin + columns.WINDINGS]
         return first, second, third, fourth

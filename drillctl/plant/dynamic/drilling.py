@@ -65,7 +65,7 @@ class FaultySwitch(Switch):
         self._draw_edge()
 
     def changes_at(self) -> tuple[float, float]:
-        """As a Switch has it; one that is stuck never changes."""
+        """Like the method of Switch; a sensor that is stuck never changes."""
         return super().changes_at() if self._stuck is None else (-math.inf, math.inf)
 
     @property

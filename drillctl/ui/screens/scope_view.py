@@ -123,7 +123,7 @@ def _row(source: ScopeSource, look: ScopeLook, layout: ScopeLayout, moment: Mome
 
 
 def _wave(source: ScopeSource, look: ScopeLook, edges: Ints, row: int) -> str:
-    """As far as the signal is known; beyond, where there should be more, a question mark."""
+    """The row as far as the signal is known; beyond, where there should be more, a question mark."""
     known_edges = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
     unknown = UNKNOWN * (len(edges) - max(1, len(known_edges)))
     if len(known_edges) < 2:
