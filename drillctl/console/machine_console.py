@@ -75,7 +75,7 @@ class MachineConsole:
         return self._job.at_work
 
     def turn(self) -> bool:
-        """Lets the machine run for a moment; True where it runs free and has more to do at once."""
+        """Lets the machine run for a moment; True where it runs free and further ticks change something."""
         ended = self._job.advance()
         if ended is not None:
             if took_a_base(ended):
@@ -87,7 +87,7 @@ class MachineConsole:
             self._base.move(0, 0)
         self.recording.keep()
         self._jogs.carry_on(self.at_work, time.monotonic())
-        return self.at_work and self.used.runs_free
+        return self.used.runs_free and self._gets_on()
 
     def view(self) -> MachineView:
         """The machine as its status record and the running job have it now."""
@@ -281,6 +281,15 @@ class MachineConsole:
         """Ends the machine's processes, its outputs safe, and closes the journal."""
         self.used.close()
         self._boards.close()
+
+    def _gets_on(self) -> bool:
+        """Whether ticks would change anything: not at rest, held, with the clock stopped or before a tool change."""
+        status = self.link.status()
+        if self.link.gate.paused:
+            return bool(status["hot_ticks"])  # the forcing voltage goes off all the same
+        if status["moving"] or status["hot_ticks"] or status["condition"] in (Condition.STOPPING, Condition.RETURNING):
+            return True
+        return self.at_work and self._job.prompt.wanted is None and status["condition"] != Condition.HOLDING
 
     def _drill(self) -> Problems:
         """Drills what is left of the planned board, from the base it was planned for, into its journal."""

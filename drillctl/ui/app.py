@@ -32,12 +32,9 @@ from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
 
 BEAT_S = 0.05
-REST_BEAT_S = 0.1  # while nothing is at work; a paced machine takes a desk that is silent for 0.4 s for lost
+REST_BEAT_S = 0.2  # while nothing is at work, until a key is pressed; at work a desk silent for 0.4 s is taken for lost
 FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off
-# Of each beat, the console is given so long: a paced machine has its queue filled in it. One that runs free gets on in
-# it, and is given more while it works, the keys and the picture the rest.
-TURNING_S = 0.01
-FREE_TURNING_S = 0.035
+TURNING_S = 0.035  # of a beat that a machine gets which runs free and is at work; keys and picture have the rest
 
 Maker = Callable[[Console, Shell], urwid.Widget]
 Pressed = str | tuple[str, int, int, int]
@@ -62,6 +59,7 @@ class App(Boxes):
         self._console, self._plain, self._makers = console, plain, makers or {}
         self._made: dict[str, urwid.Widget] = {}
         self._at_work = False
+        self._next_beat: object = None
         self.frame = MainFrame()
         self._use(screens_of(console.view()))
         terminal = terminal or _terminal()
@@ -78,15 +76,15 @@ class App(Boxes):
         """Until the operator leaves. ``interrupts``: signals that came; one whose exception was lost ends it too."""
         self._interrupts = interrupts
         urwid.set_encoding("ascii" if self._plain else "utf-8")  # of what it writes to, whatever the locale says
-        self.loop.set_alarm_in(0, self._beat)
+        self._next_beat = self.loop.set_alarm_in(0, self._beat)
         self.loop.set_alarm_in(FIRST_LOOK_S, lambda _loop, _data: self._family.at_start(self._console, self))
         self.loop.run()
 
     def turn(self) -> None:
         """Lets the console get on for a moment, then redraws what changed in the machine."""
-        began_s, for_s = time.monotonic(), TURNING_S
-        while time.monotonic() < began_s + for_s:
-            for_s = FREE_TURNING_S if self._console.turn() else TURNING_S
+        until_s = time.monotonic() + TURNING_S
+        while self._console.turn() and time.monotonic() < until_s:
+            pass
         view = self._console.view()
         self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
@@ -102,6 +100,8 @@ class App(Boxes):
         stops = {*EMERGENCY.names} - ({TYPED_STOP} if TYPED_STOP in keys and self._typing_at_rest() else set())
         if "window resize" in keys:
             self.layers.restack()
+        if not self._at_work:
+            self._hasten()
         if any(isinstance(key, str) and key != "window resize" for key in keys):
             self.frame.say("")
         if not stops.intersection(keys):
@@ -256,8 +256,13 @@ class App(Boxes):
         """Runs one turn of the loop; the next one is due a beat after this one began."""
         if self._interrupts:
             raise KeyboardInterrupt(self._interrupts[0])
-        loop.set_alarm_in(BEAT_S if self._at_work else REST_BEAT_S, self._beat)
+        self._next_beat = loop.set_alarm_in(BEAT_S if self._at_work else REST_BEAT_S, self._beat)
         self.turn()
+
+    def _hasten(self) -> None:
+        """Brings the next beat forward: what a key has asked for is seen as soon as while the machine is at work."""
+        if self._next_beat is not None and self.loop.remove_alarm(self._next_beat):
+            self._next_beat = self.loop.set_alarm_in(BEAT_S, self._beat)
 
     def _screen(self, name: str) -> urwid.Widget | None:
         if name not in self._made:

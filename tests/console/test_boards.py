@@ -340,3 +340,18 @@ def test_a_turn_takes_a_machine_that_runs_free_far(console: MachineConsole, boar
     told = console.progress()
     assert told is not None and told.holes_done == told.holes_total and told.ticks > 40 * turns
     assert told.seconds_left is None
+
+
+def test_what_waits_for_the_operator_is_not_hurried(console: MachineConsole, board: Path) -> None:
+    """Held, with the clock stopped and at rest; what still brakes is, and so is a job that goes on."""
+    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    until(console, lambda: console.view().moving)
+    assert console.hold() == ()
+    while console.turn():
+        assert console.at_work
+    assert console.view().condition == "held" and console.resume() == ()
+    until(console, lambda: console.view().moving)
+    console.link.gate.grant(0)
+    assert console.turn() is False, "no tick passes the gate"
+    console.link.gate.open()
+    assert console.turn() is True

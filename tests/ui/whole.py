@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import urwid
 
 from drillctl.cli.screen import EditorScreens
 from drillctl.console import signals as handbench
@@ -133,5 +134,8 @@ class Whole:
 
     def text(self) -> str:
         """The screen, row by row, without its colours."""
-        canvas = self.app.loop.widget.render(self.paper.size, focus=True)
-        return "\n".join(row.decode() for row in canvas.text)
+        return "\n".join(row.decode() for row in self.canvas().text)
+
+    def canvas(self) -> urwid.Canvas:
+        """The whole screen as it is drawn; the same object again where nothing has changed."""
+        return self.app.loop.widget.render(self.paper.size, focus=True)

@@ -1,6 +1,7 @@
 """How fast each axis moves, found from its position in one view after the other.
 
-Rule: a function of the views alone; time is the machine's own, so a slow screen shows the same speeds.
+Rule: a function of the views alone; time is the machine's own, so a slow screen shows the same speeds. While all axes
+rest nothing is added, so that a screen at rest has nothing to draw.
 """
 
 from collections import deque
@@ -17,16 +18,22 @@ class Speeds:
         self.of: dict[str, deque[float]] = {}
         self._before: MachineView | None = None
 
-    def see(self, view: MachineView) -> None:
-        """Takes a view; one at the same tick says nothing new. Another machine begins anew."""
+    def see(self, view: MachineView) -> bool:
+        """Takes a view; returns whether it added something. Another machine begins anew."""
         before = self._before
         if before is None or before.machine != view.machine or view.tick < before.tick:
             self._before, self.of = view, {axis.name: deque(maxlen=KEPT) for axis in view.axes}
-        elif view.tick > before.tick:
-            seconds = (view.tick - before.tick) / max(view.tick_hz, 1)
-            for axis, then in zip(view.axes, before.axes, strict=True):
-                self.of[axis.name].append(_way(axis, then) / seconds)
-            self._before = view
+            return True
+        if view.tick == before.tick:
+            return False
+        self._before = view
+        seconds = (view.tick - before.tick) / max(view.tick_hz, 1)
+        speeds = {axis.name: _way(axis, then) / seconds for axis, then in zip(view.axes, before.axes, strict=True)}
+        if not any(speeds.values()) and not any(map(self.now, speeds)):
+            return False
+        for name, speed in speeds.items():
+            self.of[name].append(speed)
+        return True
 
     def now(self, name: str) -> float:
         """The newest speed of an axis; 0 while there is none."""

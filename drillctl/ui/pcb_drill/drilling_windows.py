@@ -3,6 +3,7 @@
 Rule: draws the newest view and hears no keys; what a size shows is a row of widgets/sizes.py.
 """
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -61,11 +62,13 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
 
     def show(self, view: MachineView, board: BoardView | None, progress: Progress | None) -> None:
         """Draws what changed in machine, board and job."""
-        self._machine.show(view, progress, board)
-        self._speeds.see(view)
+        timeless = replace(view, tick=0)  # the windows show no tick, and must not be drawn anew for one
+        self._machine.show(timeless, progress, board)
         work = self._work.see(view, board, progress)
-        self._motors.show(view, progress, board)
-        self._tools.show(view, progress, board)
+        self._motors.show(timeless, progress, board)
+        if self._speeds.see(view):
+            self._motors.draw_anew()
+        self._tools.show(timeless, progress, board)
         self._events.see(view)
         head, real = _head(view)
         self.picture.show(board, work, view.tool, head, real, view.moving)

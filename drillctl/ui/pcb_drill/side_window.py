@@ -44,6 +44,10 @@ class SideWindow(urwid.Widget):
             self._shown = (view, progress, board)
             self._invalidate()
 
+    def draw_anew(self) -> None:
+        """Draws again: what the pages take from elsewhere than from a view has changed."""
+        self._invalidate()
+
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws a page, clipped to the box."""
         assert len(size) == 2

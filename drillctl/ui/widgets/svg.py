@@ -4,8 +4,8 @@ Rule: a run of like cells is one text of a fixed length. Each row is a group, so
 """
 
 from collections.abc import Iterator, Sequence
+from html import escape
 from typing import NamedTuple
-from xml.sax.saxutils import escape
 
 CELL_WIDTH, CELL_HEIGHT = 9, 19
 BASELINE = 14

@@ -5,6 +5,7 @@ these; tests/ui/test_hidden_characters.py holds that no screen makes urwid's own
 """
 
 from collections.abc import Callable, Hashable, Sequence
+from functools import lru_cache
 from typing import Any, Literal, TypeVar
 
 import urwid
@@ -12,10 +13,12 @@ import urwid
 from drillctl.language import LINES, masked, visible
 from drillctl.ui.widgets import borders
 
-Line = list[str | tuple[str, str]]
+Part = str | tuple[str, str]
+Line = list[Part]
 Names = list[tuple[Hashable, int]]  # of attributes, and of how many bytes
 Charsets = list[tuple[Literal["0", "U"] | None, int]]
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid hands it to a widget: nothing, columns, or a box
+DRAWN = 1024  # lines that are kept as they were drawn last: several screens of a large terminal
 KEPT = LINES.replace("\t", "")  # urwid gives a tab no columns
 Markup = TypeVar("Markup")
 
@@ -111,10 +114,11 @@ def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
     """A canvas of exactly this size: lines are clipped, missing ones left empty. Drawn without a widget: most of
     what is new twenty times a second comes by here.
     """
-    drawn = [_drawn(line, columns) for line in [*lines[:rows], *[[]] * (rows - len(lines))]]
+    encoding = urwid.util.get_encoding()
+    drawn = [_drawn(tuple(line), columns, encoding) for line in [*lines[:rows], *[[]] * (rows - len(lines))]]
     texts = [text for text, _names, _sets in drawn]
-    attributes = [names for _text, names, _sets in drawn]
-    charsets = [sets for _text, _names, sets in drawn]
+    attributes = [[*names] for _text, names, _sets in drawn]  # of its own for each canvas
+    charsets = [[*sets] for _text, _names, sets in drawn]
     return urwid.TextCanvas(texts, attributes, charsets, maxcol=columns, check_width=False)
 
 
@@ -134,8 +138,11 @@ def packed(parts: Sequence[Line], columns: int) -> list[Line]:
     return lines
 
 
-def _drawn(line: Line, columns: int) -> tuple[bytes, Names, Charsets]:
-    """A line as canvases have it: its bytes, and how many of them are of each attribute, and of each character set."""
+@lru_cache(DRAWN)
+def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> tuple[bytes, Names, Charsets]:
+    """A line as canvases have it: its bytes, and how many of them are of each attribute, and of each character set.
+    Kept, as most lines are the same in the next frame; ``encoding`` is the one in force.
+    """
     text, room = b"", columns
     attributes: Names = []
     charsets: Charsets = []
