@@ -344,7 +344,7 @@ def test_a_turn_takes_a_machine_that_runs_free_far(console: MachineConsole, boar
 
 def test_what_waits_for_the_operator_is_not_hurried(console: MachineConsole, board: Path) -> None:
     """Held, with the clock stopped and at rest; what still brakes is, and so is a job that goes on."""
-    assert console.load(str(board), Asked()) == () and console.start(dry=False) == ()
+    assert console.load(str(board), JobOptions()) == () and console.start(dry=False) == ()
     until(console, lambda: console.view().moving)
     assert console.hold() == ()
     while console.turn():
