@@ -9,7 +9,7 @@ from drillctl.kmd import COMMANDS, FAULTS, Reaction
 from drillctl.kmd.commands import Spec
 from drillctl.machine import Library, shipped_tables
 from drillctl.machine.reactions import FIXED, NO_RETURN, NOT_KEPT
-from drillctl.viewmodel import FAULT_WORDS
+from drillctl.viewmodel.fault_texts import FAULT_WORDS
 
 ROW = "| {} | `{}` | {} |"
 DOCS = Path(__file__).resolve().parent

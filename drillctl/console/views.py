@@ -14,8 +14,8 @@ from drillctl.machine.settings import Setting
 from drillctl.plant import PlantChoice
 from drillctl.plant.choice import IDEAL
 from drillctl.ticker.link import Link
-from drillctl.viewmodel import fault_report
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView, ToolView
+from drillctl.viewmodel.fault_texts import fault_report
 from drillctl.viewmodel.records import Estimate
 from drillctl.viewmodel.tables import FieldView
 

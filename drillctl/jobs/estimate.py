@@ -10,7 +10,8 @@ from drillctl.generation.job import Job
 from drillctl.generation.sequences import tool_changes
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.ticker.forecast import Forecast, forecast
-from drillctl.viewmodel import Estimate, ToolEstimate, fault_report
+from drillctl.viewmodel.fault_texts import fault_report
+from drillctl.viewmodel.records import Estimate, ToolEstimate
 
 
 def estimate(job: Job, engine: str | None = None, waits: Waits = unwatched) -> Estimate:

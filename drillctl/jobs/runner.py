@@ -23,7 +23,8 @@ from drillctl.language import Message
 from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link
 from drillctl.trace import Segments, Trace
-from drillctl.viewmodel import Outcome, Progress, fault_report
+from drillctl.viewmodel.fault_texts import fault_report
+from drillctl.viewmodel.records import Outcome, Progress
 
 BY_OPERATOR = Message("the operator stopped the job")
 BY_OTHERS = Message("the job was stopped before its end")  # by a signal to a process beside this one

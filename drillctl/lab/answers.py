@@ -13,7 +13,7 @@ from drillctl.lab.moves import Move, move, starts
 from drillctl.lab.question import Question, Variant
 from drillctl.lab.trials import LANES, Trial, errors_full_steps, lost
 from drillctl.machine import AxisTable
-from drillctl.viewmodel import FAULT_WORDS
+from drillctl.viewmodel.fault_texts import FAULT_WORDS
 
 FIXED_HEAD = ("phase", "ramp", "tick_hz")
 MOVES_TAIL = ("load_nm", "draw", "moves", "lost", "worst_full_steps")

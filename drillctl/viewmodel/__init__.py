@@ -13,12 +13,6 @@
     reports.py     how punctual ticks are here; pictures of numbers
     fault_texts.py cause and remedy of every fault
 
-Rule: a screen is a function of these records. May import kmd (for its codes) only.
+Rule: a screen is a function of these records. May import kmd (for its codes) only. This file imports nothing, so that
+who needs a list of choices does not wait for the words of the faults.
 """
-
-from drillctl.viewmodel.fault_texts import FAULT_WORDS, FaultWords, fault_report
-from drillctl.viewmodel.records import Estimate, FaultReport, Outcome, Progress, ToolEstimate
-
-__all__ = [
-    "FAULT_WORDS", "Estimate", "FaultReport", "FaultWords", "Outcome", "Progress", "ToolEstimate", "fault_report",
-]  # fmt: skip

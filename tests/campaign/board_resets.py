@@ -29,7 +29,7 @@ from drillctl.ticker.confirmed_status import ConfirmedStatus
 from drillctl.ticker.launch import port_layout
 from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
-from drillctl.viewmodel import Outcome
+from drillctl.viewmodel.records import Outcome
 from tests.portio.firmata_stand_in import Faults, Sketch
 from tests.support.wired_board import follow_pins
 

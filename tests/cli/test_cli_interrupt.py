@@ -18,7 +18,7 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.ports import SAFE_IMAGE
 from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
-from drillctl.viewmodel import Progress
+from drillctl.viewmodel.records import Progress
 
 Started = Callable[..., "subprocess.Popen[str]"]
 SIGNALS = pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])

@@ -11,7 +11,7 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.plant import PlantChoice
 from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
-from drillctl.viewmodel import Outcome
+from drillctl.viewmodel.records import Outcome
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 # Two holes: a way of some 500 steps in X and 300 in Y between them.

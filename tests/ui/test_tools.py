@@ -15,7 +15,7 @@ from drillctl.machine import Library
 from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
 from drillctl.ui.terminal.progress import ToolPrompt
-from drillctl.viewmodel import Progress
+from drillctl.viewmodel.records import Progress
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 

@@ -14,7 +14,8 @@ from drillctl.ui.terminal import wait
 from drillctl.ui.terminal.progress import ProgressView
 from drillctl.ui.terminal.reports import summary_lines
 from drillctl.ui.widgets.dots import dot_rows
-from drillctl.viewmodel import FAULT_WORDS, Outcome, Progress, fault_report
+from drillctl.viewmodel.fault_texts import FAULT_WORDS, fault_report
+from drillctl.viewmodel.records import Outcome, Progress
 
 
 def outcome(**changes: Any) -> Outcome:

@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from drillctl.language.number_text import clock
-from drillctl.viewmodel import Progress
+from drillctl.viewmodel.records import Progress
 
 if TYPE_CHECKING:
     from tqdm import tqdm

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 
 from drillctl.language.number_text import clock
-from drillctl.viewmodel import Estimate, Outcome, ToolEstimate
+from drillctl.viewmodel.records import Estimate, Outcome, ToolEstimate
 from drillctl.viewmodel.reports import Bar, LatencyReport, Lateness
 
 WIDEST = 40
