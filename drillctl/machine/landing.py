@@ -33,7 +33,7 @@ def least_distances(ramp: "RampTable", direction: int) -> list[int]:
     for state in range(ramp.top):
         needed = max(ramp.brake[direction * state], ramp.accelerate[direction * state] + 1)
         # ``needed`` steps are to go after the step in this state, the state-th from 0.
-        distances.append(max(distances[-1] + 1, needed + state + 1))
+        distances.append(max(distances[-1], needed + state + 1))
     return distances
 
 

@@ -1,13 +1,17 @@
 """What follows from a ramp alone: the automaton counted by hand, for the listed moves and for any sound ramp."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from random import Random
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from drillctl.machine import Library, RampTable, intervals, shipped_tables, travel_table, travel_ticks
+from drillctl.machine.landing import first_miss, strokes_of
+from drillctl.machine.travel import cruising_from
 from tests.support.paper import INTERVALS
 
 SHIPPED = Library((shipped_tables(),))
@@ -82,6 +86,39 @@ def test_travel_table_is_the_sum_of_intervals(ramp: RampTable, columns_per_step:
 @pytest.mark.parametrize("longest", [0, 1, 2, 7, 8, 15, 16, 17])
 def test_short_travel_tables(longest: int) -> None:
     assert travel_table(SEVEN, longest).tolist() == [sum(counted(SEVEN, steps, 0)[0]) for steps in range(longest + 1)]
+
+
+def test_a_ramp_is_proven_where_a_state_is_left_before_the_one_below_it_may_be() -> None:
+    """Steps to go above which a state rises need not grow with it; then one distance is the least of two states."""
+    random, found = Random(5), 0
+    for _ in range(1500):
+        states = range(1, random.randint(2, 4) + 1)
+        rows = [(random.randint(1, 9), random.randint(1, s + 3), random.randint(1, s + 3)) for s in states]
+        interval, accelerate, brake = zip((5, 0, 0), *rows, *reversed(rows), strict=True)
+        ramp = RampTable("any", len(rows), interval, accelerate, brake)
+        too_fast = [steps for steps in range(1, 60) if list(ramp.walk(steps))[-1][1] > 1]
+        miss = first_miss(ramp, 1)
+        assert (miss is not None and not miss.capped) == bool(too_fast)
+        found += bool(too_fast)
+    assert 0 < found < 1500
+
+
+@given(ramps(), st.booleans())
+@settings(max_examples=60, deadline=None)
+def test_travel_table_of_any_ramp(ramp: RampTable, whole_strokes: bool) -> None:
+    ramp = replace(ramp, whole_strokes=whole_strokes)
+    table = travel_table(ramp, 60, 2)
+    assert table.tolist() == [2 * sum(intervals(ramp, steps)) for steps in range(61)]
+
+
+def test_travel_table_of_a_ramp_of_hundreds_of_states() -> None:
+    """Around the distance from which its strokes are no more made whole, and that from which they cruise."""
+    ramp = RAMPS["even-interval"]
+    ramped, cruising = strokes_of(ramp).ramped_from(1, 0) + 1, cruising_from(ramp, 0)
+    for each in (ramp, replace(ramp, whole_strokes=False)):
+        table = travel_table(each, cruising + 9, 1)
+        for steps in (*range(ramped - 4, ramped + 5), *range(2, cruising + 9, 37), *range(cruising - 4, cruising + 5)):
+            assert table[steps] == sum(intervals(each, steps))
 
 
 @given(ramps(), st.integers(-400, 400), st.integers(0, 14), st.sampled_from([1, 2, 6]))
