@@ -133,7 +133,8 @@ class EditorScreens:
         from drillctl.console.signals import MachineSignals
         from drillctl.ui.screens.queue_editor import QueueEditor
 
-        return QueueEditor(console, shell, QueueFiles(lambda: self._console.machine), MachineSignals(self._console))
+        queues, hands = QueueFiles(lambda: self._console.machine), MachineSignals(self._console)
+        return QueueEditor(console, shell, queues, hands, self._plain)
 
     def _port(self, console: "Console", shell: "Shell") -> "urwid.Widget":
         from drillctl.console.port import MachinePort

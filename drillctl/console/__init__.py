@@ -11,6 +11,7 @@
     recent_jobs.py      the boards opened last, in a file
 
     tables.py, queues.py    for the editors                   signals.py      signals, outputs, single ticks
+    effects.py          what a change of a machine's file will do
     plant.py                plant, faults and seed of the simulated machine
     port.py                 the port in use, tested           scope.py, scope_layout.py, scope_runs.py   for the scope
 

@@ -7,6 +7,8 @@ import difflib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from drillctl.console.effects import effects
+from drillctl.console.table_users import used_tables, users
 from drillctl.console.views import field_view
 from drillctl.files.outputs import write_text
 from drillctl.language import Message, message_of
@@ -61,12 +63,26 @@ class TableFiles:
 
     def tables(self, kind: TableKind) -> list[TableEntry]:
         """All tables of a kind, by name: where each comes from, and whether the machine in use has it."""
-        machine = self._machine()
-        used = _used(kind, machine) if machine else set()
+        used = used_tables(kind, self._machine())
         return [
-            TableEntry(name, self._origin(kind, name), self._shipped(kind, name).is_file(), name in used)
+            TableEntry(
+                name, self._origin(kind, name), self._shipped(kind, name).is_file(), name in used, used.get(name, ())
+            )
             for name in self._library.names(kind)
         ]
+
+    def users(self, kind: TableKind, name: str) -> list[tuple[str, tuple[str, ...]]]:
+        """Every machine of the library that can be read and has the table, with the motors that have it."""
+        return users(self._library, kind, name)
+
+    def effects(self, before: str, after: str) -> list[Message]:
+        """What differs between the machines of two texts (effects.py); none where one of them can't be read."""
+        own = self._own("machines", "unsaved")
+        try:
+            was, will_be = (self._library.machine_of(Source(own, text)) for text in (before, after))
+        except TableError:
+            return []
+        return effects(was, will_be)
 
     def read(self, kind: TableKind, name: str) -> str:
         """The text of a table, from the first folder that has it; empty where it can't be read."""
@@ -252,13 +268,6 @@ class TableFiles:
 
     def _shipped(self, kind: TableKind, name: str) -> Path:
         return shipped_tables() / kind / f"{name}.toml"
-
-
-def _used(kind: TableKind, machine: Machine) -> set[str]:
-    """The names of the tables that a machine is made of."""
-    if kind == "machines":
-        return {machine.name}
-    return {getattr(axis, kind).name for axis in machine.axes}
 
 
 def _source(text: str) -> Source:

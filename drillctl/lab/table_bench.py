@@ -5,11 +5,14 @@ Rule: the controller is the real automaton (moves.py), the motor that of the pla
 it. A motor without dynamics is tried as an ideal one.
 """
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
+from drillctl.lab.grades import RATES_HZ
+from drillctl.lab.latency import LatencyError, a_moment, measure
 from drillctl.lab.moves import move
 from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, LOST_FULL_STEPS
 from drillctl.language import Message, message_of
@@ -25,6 +28,8 @@ from drillctl.viewmodel.bench import BenchReport, CyclePath, MotorRun, PathColum
 from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.tables import TableKind
 
+MEASURED_S = 2
+FASTEST_HZ = max(RATES_HZ)  # above it no usual rate is told
 SHORT_STEPS = (1, 3, 6, 10)  # in which a motor swings
 CRUISE_COLUMNS = (48, 240)  # at full speed in the longest moves
 IDEAL_STEPS = (1, 3)  # an ideal motor is the same at any speed: few moves tell
@@ -59,6 +64,22 @@ class TableBench:
         in_use = getattr(axes[0], kind).name == name
         runs = _runs([_with(axis, kind, table) for axis in axes], machine, watch)
         return BenchReport(machine.tick_hz, in_use, runs), ()
+
+    def carried_hz(self, tick_hz: int, watch: Watch) -> tuple[int | None, Problems]:
+        """Measured as ``drillctl latency`` does, on an idle machine, for MEASURED_S."""
+        machine = self._machine()
+        if machine is None:
+            return None, (Message("there is no machine"),)
+        advance, begun_s = watch(Message("measuring how late ticks are here")), time.monotonic()
+
+        def meanwhile() -> bool:
+            advance(min(int(time.monotonic() - begun_s), MEASURED_S), MEASURED_S)
+            return a_moment()
+
+        try:
+            return measure(machine.at_rate(min(tick_hz, FASTEST_HZ)), MEASURED_S, meanwhile).carries_hz, ()
+        except LatencyError as error:
+            return None, (message_of(error),)
 
     def _axes(self, kind: TableKind, name: str, phase: PhaseTable | None) -> list[AxisTable]:
         """The axes that have the table of this name; where none has it, the first that could have it."""

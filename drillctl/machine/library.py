@@ -93,7 +93,7 @@ class Library:
         ``.toml``). Raises TableError.
         """
         if "/" in name_or_file or name_or_file.endswith(".toml"):
-            return self._machine_of(Source.read(Path(name_or_file)))
+            return self.machine_of(Source.read(Path(name_or_file)))
         found = find_table(self.folders, "machines", name_or_file)
         if found is None:
             hint = known_words(name_or_file, self.machine_names())
@@ -110,7 +110,7 @@ class Library:
         """
         written = source.tree()
         if "axis" in written:
-            return list(machine_figures(self._machine_of(source)))
+            return list(machine_figures(self.machine_of(source)))
         if not {"state", "computed"} & written.keys():
             return []
         ramp, figures = parse_ramp(source), computed_figures(source)
@@ -143,7 +143,7 @@ class Library:
             with suppress(TableError):  # a machine that is wrong is told where it is asked for
                 yield name, self.machine(name)
 
-    def _machine_of(self, source: Source) -> Machine:
+    def machine_of(self, source: Source) -> Machine:
         """Returns a machine given by its file, with the tables beside it searched first."""
         beside = _tables_beside(source.file)
         unasked = tuple(folder for folder in self.unasked if real_path(folder) != real_path(beside))
@@ -161,7 +161,7 @@ class Library:
         return phase_hazards(table, Parts(self.folders, source.file).motor(None, table, source, ("name",)))
 
     def _machine_hazards(self, source: Source) -> list[Message]:
-        return machine_hazards(self._machine_of(source))
+        return machine_hazards(self.machine_of(source))
 
     def _ramp_hazards(self, source: Source) -> list[Message]:
         parse_ramp(source)

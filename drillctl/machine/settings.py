@@ -19,27 +19,22 @@ from drillctl.machine.positions import Place
 from drillctl.machine.shape import LAST_BIT, MachineFile
 from drillctl.machine.source import Source, Value
 
-# In the paper's order; the settings of an axis are repeated for each axis.
+# In the paper's order (Fig. 4), then what the paper has not; the settings of an axis are repeated for each axis.
 CARD_PLACES: tuple[Place, ...] = (
     ("configuration", "card"),
     ("configuration", "card_address"),
     ("configuration", "mode"),
 )
-AXIS_PLACES: tuple[Place, ...] = (
-    ("columns_per_inch",),
-    ("columns_per_step",),
-    ("range", 0),
-    ("range", 1),
-    ("phase",),
-    ("ramp",),
-)
+SCALE_PLACES: tuple[Place, ...] = (("columns_per_inch",),)
+RANGE_PLACES: tuple[Place, ...] = (("range", 0), ("range", 1))
 OTHER_PLACES: tuple[Place, ...] = (
     ("configuration", "longest_drilling_s"),
-    ("configuration", "spin_up_s"),
     ("configuration", "tool_change"),
     ("tick_hz",),
     ("description",),
 )
+MOTOR_PLACES: tuple[Place, ...] = (("phase",), ("ramp",), ("columns_per_step",))
+LAST_PLACES: tuple[Place, ...] = (("configuration", "spin_up_s"),)
 
 
 WIRING = "wiring"
@@ -106,11 +101,15 @@ def settings(source: Source) -> tuple[Setting, ...]:
 
 def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
     """Like ``settings``, for a file whose shape was checked."""
-    axes: list[tuple[Place, str]] = [
-        (("axis", index, *place), row.name) for index, row in enumerate(raw.axis) for place in AXIS_PLACES
-    ]
-    places = [*((place, "") for place in CARD_PLACES), *axes, *((place, "") for place in OTHER_PLACES)]
+    places = [
+        *((place, "") for place in CARD_PLACES), *_of_axes(raw, SCALE_PLACES), *_of_axes(raw, RANGE_PLACES),
+        *((place, "") for place in OTHER_PLACES), *_of_axes(raw, MOTOR_PLACES), *((place, "") for place in LAST_PLACES),
+    ]  # fmt: skip
     return _with_locks(raw, (_setting(raw, place, axis) for place, axis in places))
+
+
+def _of_axes(raw: MachineFile, places: Iterable[Place]) -> list[tuple[Place, str]]:
+    return [(("axis", index, *place), row.name) for index, row in enumerate(raw.axis) for place in places]
 
 
 def wire_settings(source: Source) -> tuple[Setting, ...]:

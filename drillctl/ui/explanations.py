@@ -36,12 +36,12 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
     ),
     "Phase tables": (
         N_("The phase tables that there are; Enter opens one."),
-        N_("* marks a table that the machine in use has."),
+        N_("* marks a table in use, with the names of the motors that have it."),
         N_("A shipped table stays: what is changed is saved as your own copy."),
     ),
     "Ramps": (
         N_("The ramp tables that there are; Enter opens one."),
-        N_("* marks a table that the machine in use has."),
+        N_("* marks a table in use, with the names of the motors that have it."),
         N_("A shipped table stays: what is changed is saved as your own copy."),
     ),
     "Machines": (
@@ -72,12 +72,17 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
     "Configuration": (
         N_("The machine's file as fields: value, unit, range, and its meaning."),
         N_("Type over a value, or choose the next with F6; F2 saves it."),
-        N_("A wrong value is told at once and never saved."),
+        N_("A wrong value is told at once and never saved. Below, in a large"),
+        N_("window beside: what the field means, and what the changes will do."),
+        N_("F12 on the interrupt frequency measures what this computer carries."),
     ),
     "Queue of commands": (
         N_("Type commands, one a line; Tab completes a word."),
         N_("F5 runs all, F6 down to the cursor, F7 one line, F8 one tick."),
-        N_("> marks the line in execution; a wrong line says what is wrong."),
+        N_("A wrong line says what is wrong, with its line and column."),
+        N_("After F8: phases with column and ramp state, the port's outputs as"),
+        N_("a number a card, sensors reached. [name] is on. In a large window"),
+        N_("each tick is a column: ▔ (-) on, ▁ (_) off, ┊ (:) ticks let through."),
     ),
     "Signals": (
         N_("Every input and output of the port as it is now."),
@@ -89,6 +94,10 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("▁ (_) off, ▔ (-) on, ▒ (#) changes too close to be drawn apart."),
         N_("▼ (v) the cursor; A and B are marks; · (.) no change since before."),
         N_("A letter goes to the next event of its kind, a capital to the last."),
+        N_("Y draws the row's numbers as a curve, a position's speed below it;"),
+        N_("its least and greatest value in view stand at the left."),
+        N_("From A to B the lowest line tells ticks, ms and each axis's steps."),
+        N_("/ finds a command by a part of its text. The mouse wheel zooms."),
     ),
     "Port": (
         N_("The port that the machine's file names, and the one in use."),

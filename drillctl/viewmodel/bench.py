@@ -79,7 +79,7 @@ class BenchReport:
 
 
 class Bench(Protocol):
-    """Motors to try a table on: those of the machine at hand."""
+    """Motors to try a table on, those of the machine at hand; and this computer, as the one that makes the ticks."""
 
     def path(self, name: str, text: str) -> CyclePath:
         """What a phase table does to a rotor in one cycle; no columns for a text that can't be read."""
@@ -87,4 +87,9 @@ class Bench(Protocol):
     def run(self, kind: TableKind, name: str, text: str, watch: Watch) -> tuple[BenchReport | None, Problems]:
         """Moves of many lengths, both ways, with this table; None and the reasons where it can't be tried. ``watch``:
         as Console.load has it.
+        """
+
+    def carried_hz(self, tick_hz: int, watch: Watch) -> tuple[int | None, Problems]:
+        """Measures for some seconds how late ticks at this rate begin; the greatest usual tick rate that this computer
+        carries, 0 for none; None and the reason where it can't be measured.
         """

@@ -19,13 +19,15 @@ FieldPath = tuple[str | int, ...]
 class TableEntry:
     """A table that can be opened. ``origin``: shipped, yours (a copy that wins), or other (a folder named first).
 
-    ``ships``: one of this name comes with the program, to go back to. ``in_use``: the machine at hand is driven by it.
+    ``ships``: one of this name comes with the program, to go back to. ``in_use``: the machine at hand is driven by it,
+    ``motors`` are those of its axes that have this table.
     """
 
     name: str
     origin: str
     ships: bool = True
     in_use: bool = False
+    motors: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +103,12 @@ class TableEditing(Protocol):
 
     def tables(self, kind: TableKind) -> Sequence[TableEntry]:
         """All tables of a kind, sorted by name."""
+
+    def users(self, kind: TableKind, name: str) -> Sequence[tuple[str, tuple[str, ...]]]:
+        """The machines that have a table, each with its motors that have it. Reads every machine's file."""
+
+    def effects(self, before: str, after: str) -> Sequence[Message]:
+        """What becomes of a machine with another text of its file, a sentence each; none where one can't be read."""
 
     def read(self, kind: TableKind, name: str) -> str:
         """The text that is in force; empty where the file can't be read, which ``check`` then tells."""

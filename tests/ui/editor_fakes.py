@@ -24,7 +24,7 @@ from drillctl.viewmodel.tables import (
     TextFinding,
 )  # fmt: skip
 
-SIZE = (100, 30)
+SIZE = (90, 30)  # no room for a panel
 
 
 def text_of(widget: urwid.Widget, size: tuple[int, int] = SIZE) -> str:
@@ -89,6 +89,7 @@ class Console:
         axis = SimpleNamespace(name="x", column=3, state=1, position_steps=7)
         return SimpleNamespace(
             machine="drill",
+            at_work=False,
             paused=self.paused,
             tick=41,
             command="KMD_CZEKAJ 5",
@@ -153,6 +154,12 @@ class Tables:
 
     def tables(self, kind: TableKind) -> list[TableEntry]:
         return [TableEntry("one", "yours" if kind in self.own else "shipped", in_use=self.in_use)]
+
+    def users(self, kind: TableKind, name: str) -> list[tuple[str, tuple[str, ...]]]:
+        return [("drill", ("x", "y"))]
+
+    def effects(self, before: str, after: str) -> list[Message]:
+        return [Message("what was typed does something")] if before != after else []
 
     def read(self, kind: TableKind, name: str) -> str:
         return self.own.get(kind, self.shipped.get(kind, ""))
@@ -253,6 +260,9 @@ class Bench:
             return None, self.refusal
         lost = max(text.split("\n", maxsplit=1)[0].count(".") - 2, 0)
         return BenchReport(500, True, (MotorRun("x", True, 2, lost, 30, (0.0, 0.5, float(lost))),)), ()
+
+    def carried_hz(self, tick_hz: int, watch: Watch) -> tuple[int | None, Problems]:
+        return (None, self.refusal) if self.refusal else (2 * tick_hz, ())
 
 
 class Queues:

@@ -15,8 +15,9 @@ from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.table_actions import label_of
 from drillctl.ui.screens.table_list import EDITORS, TableList
 from drillctl.viewmodel.tables import FieldView, TableEntry, TableKind
-from tests.ui.editor_fakes import Console, Shell, Tables, attributes_of, press, text_of
+from tests.ui.editor_fakes import Bench, Console, Shell, Tables, attributes_of, press, text_of
 
+LIBRARY = Library((shipped_tables(),))
 FILE = "tick_hz 500\nmode SIMULATED\nscale 1200"
 
 
@@ -254,3 +255,61 @@ def test_at_eighty_columns_every_field_has_a_line_with_its_unit_and_bounds(
         assert text.split("\n").index(line) <= len(fields) + 2, "the last one: none of them wraps"
     finally:
         words.use("en")
+
+
+def test_beside_the_fields_stands_what_the_one_under_the_cursor_means_and_what_the_changes_will_do(
+    screen: ConfigurationScreen,
+) -> None:
+    wide = text_of(screen, (158, 40))
+    assert "unit: Hz" in wide and "may be: 1..9999" in wide and "in the file: 500" in wide
+    assert "nothing was changed" in wide
+    press(screen, "end", "1")
+    wide, small = text_of(screen, (158, 40)), text_of(screen, (80, 24))
+    assert "typed: 5001" in wide and "what was typed does something" in wide
+    assert "what was typed does something" in small and "unit: Hz" not in small
+
+
+def test_the_tick_rate_that_this_computer_carries_is_measured_and_stands_beside(console: Console, shell: Shell) -> None:
+    bench = Bench()
+    screen = ConfigurationScreen(console, shell, Tables(machines=FILE), "one", bench=bench)
+    press(screen, "f12")
+    assert "this computer carries 1000 Hz" in text_of(screen, (158, 40))
+    assert "this computer carries 1000 Hz" in text_of(screen, (80, 24))
+    bench.refusal = ("Linux only",)
+    press(screen, "f12")
+    assert shell.told == [("Not measured", ["Linux only"])]
+
+
+def test_the_list_names_the_motors_and_shows_the_table_under_the_cursor(
+    console: Console, shell: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tables = Tables(phase="1a 5 x.")
+    entries = [TableEntry("one", "shipped", in_use=True, motors=("x", "y"))]
+    monkeypatch.setattr(tables, "tables", lambda _kind: entries)
+    listed = TableList(console, shell, tables, "phase")
+    assert "shipped, in use: X Y" in text_of(listed, (80, 24)) and "1a 5 x." not in text_of(listed, (80, 24))
+    wide = text_of(listed, (158, 40))
+    assert "Motors with this table" in wide and "drill: X, Y" in wide and "1a 5 x." in wide
+
+
+def test_the_papers_fields_come_first_in_its_order(tmp_path: Path) -> None:
+    fields = TableFiles(LIBRARY, tmp_path).fields(TableFiles(LIBRARY, tmp_path).read("machines", "pcb-drill"))
+    names = [".".join(filter(None, (field.axis, str(field.place[-1])))) for field in fields]
+    figure_4 = ["card", "card_address", "mode", *(f"{axis}.columns_per_inch" for axis in "xyz"),
+                *(f"{axis}.{end}" for axis in "xyz" for end in (0, 1)),
+                "longest_drilling_s", "tool_change", "tick_hz", "description"]  # fmt: skip
+    assert names[: len(figure_4)] == figure_4
+    assert [name for name in names if name.endswith((".phase", ".ramp"))] == [
+        f"{axis}.{table}" for axis in "xyz" for table in ("phase", "ramp")
+    ]
+
+
+def test_what_a_change_does_is_told_in_figures_of_the_machine(tmp_path: Path) -> None:
+    files = TableFiles(LIBRARY, tmp_path)
+    before = files.read("machines", "pcb-drill")
+    after, problems = files.with_field(before, ("tick_hz",), "1000")
+    told = [str(effect) for effect in files.effects(before, after)]
+    assert problems == () and "X: fastest travel: 10.58 mm/s now, then 21.17 mm/s" in told
+    assert "time between two ticks: 2 ms now, then 1 ms" in told
+    assert files.effects(before, before) == [] == files.effects(before, "nonsense [")
+    assert ("pcb-drill", ("x", "y", "z")) in files.users("phase", "two-phase-forced")

@@ -18,7 +18,7 @@ MEANINGS = {
     "delete": {"remove", "delete", "fewer"},
     "insert": {"insert", "more"},
     "u": {"undo", "unfinished"},
-    "/": {"filter"},
+    "/": {"filter", "search"},  # what has a text in it
     "left": {"jog_back", "sideways", "step"},
     "right": {"jog_on", "sideways", "step"},
 }

@@ -178,7 +178,7 @@ def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Ta
     screen = ConfigurationScreen(Rig(), shell, locked, "pcb-drill")
     rows = [row for row in text_of(screen, (80, 40)).split("\n") if "locked" in row]
     assert [row.split(":")[0].strip()[0] for row in rows] == ["X", "X", "I"]
-    press(screen, *["down"] * 5, "end", "9")
+    press(screen, *["down"] * 6, "end", "9")
     told = "range is locked in line 6 of the machine's file; whoever keeps the file opens it there"
     assert shell.told == [("Locked", [told])] and not screen.changed
     press(screen, *["down"] * 4, "end", "9")

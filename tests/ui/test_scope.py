@@ -335,3 +335,26 @@ def test_what_a_run_lacks_is_said_in_the_operators_language(
     monkeypatch.setattr(square, "notices", lambda: tuple(Notice(lack, 7) for lack in LACKS))
     text = Scoped(square, (160, 50)).text()
     assert all(words._(told).format(value=7) in text for told in LACKS.values())
+
+
+def test_a_row_of_numbers_becomes_a_curve_with_its_speed_and_numbers_again(square: TraceFile) -> None:
+    program = Scoped(square)
+    places = [(signal.group, signal.name) for signal in square.signals()]
+    program.press("w", *["down"] * places.index(("x", "position")), "y")
+    assert "steps/s" in program.text() and "x.position" in program.text()
+    program.press("y")
+    assert "steps/s" not in program.text()
+    program.press("up", *["up"] * 9, "y")
+    assert "steps/s" not in program.text()
+
+
+def test_a_large_window_draws_positions_as_curves_from_the_beginning(square: TraceFile) -> None:
+    assert "steps/s" in Scoped(square, (220, 60)).text() and "steps/s" not in Scoped(square, (160, 50)).text()
+
+
+def test_a_command_is_searched_by_its_text_and_a_missing_one_is_said(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press("home", "/", *"inicj", "enter")
+    assert "KMD_INICJALIZACJA" in program.text()
+    program.press("/", *["backspace"] * 5, *"nothing", "enter")
+    assert "no further command with 'nothing' in it" in program.text()

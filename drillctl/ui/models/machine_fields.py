@@ -3,7 +3,7 @@
 Rule: the new text is sound in every field or it is not offered for saving.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from drillctl.language import Message, joined
@@ -53,6 +53,10 @@ class ConfigurationDraft:
             text, problems = self._tables.with_field(text, place, typed)
             refused += problems
         return text, tuple(refused)
+
+    def effects(self) -> Sequence[Message]:
+        """What saving what was typed will do."""
+        return self._tables.effects(self._text, self.candidate()[0]) if self.changed else ()
 
     def check(self) -> Checked:
         """What the whole would be: fields may each be right and yet not fit together."""

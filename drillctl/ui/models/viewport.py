@@ -3,8 +3,8 @@
 Rule: both values never change; every operation gives another one, within the run.
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -116,11 +116,15 @@ class Viewport:
 
 @dataclass(frozen=True, slots=True)
 class SignalRows:
-    """Rows 0..count-1, less those ``hidden``; the bar is ``at`` one that is shown. One row always stays."""
+    """Rows 0..count-1, less those ``hidden``; the bar is ``at`` one that is shown. One row always stays.
+
+    heights  the lines of those rows that have more than one
+    """
 
     count: int
     hidden: frozenset[int] = frozenset()
     at: int = 0
+    heights: Mapping[int, int] = field(default_factory=dict)
 
     @property
     def shown(self) -> list[int]:
@@ -150,14 +154,20 @@ class SignalRows:
         """The same rows with every hidden one shown again."""
         return replace(self, hidden=frozenset())
 
+    def with_heights(self, heights: Mapping[int, int]) -> "SignalRows":
+        """The rows with other heights, in place of those they had."""
+        return replace(self, heights=dict(heights))
+
     def put(self, line: int, room: int) -> "SignalRows":
         """The bar on a line of the window of ``room`` lines; a line without a row changes nothing."""
         window = self.window(room)
-        return replace(self, at=window[line]) if 0 <= line < len(window) else self
+        return replace(self, at=window[line][0]) if 0 <= line < len(window) else self
 
-    def window(self, room: int) -> list[int]:
-        """The rows that are drawn: as many as there is room for, the bar in the middle where it can be."""
-        shown = self.shown
-        place = shown.index(self.at) if shown else 0
-        top = max(0, min(place - room // 2, len(shown) - room))
-        return shown[top : top + room]
+    def window(self, room: int) -> list[tuple[int, int]]:
+        """The lines that are drawn, as (row, line of the row from 0): as many as there is room for, the bar in the
+        middle where it can be.
+        """
+        lines = [(row, part) for row in self.shown for part in range(self.heights.get(row, 1))]
+        place = lines.index((self.at, 0)) if lines else 0
+        top = max(0, min(place - room // 2, len(lines) - room))
+        return lines[top : top + room]

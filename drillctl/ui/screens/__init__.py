@@ -5,8 +5,10 @@
     table_list.py    the tables of one kind, to be opened     table_editor.py   what the editors of tables share
     table_actions.py save, reset, compare, copy, delete       phase_editor.py  ramp_editor.py  queue_editor.py
     configuration.py the machine's file as fields             scale_guide.py    the scale of an axis measured
+    field_panel.py   what a field of it means, and what changes will do
+    tick_log.py      single ticks of a queue as a picture
     scope.py         a run as a logic analyser shows it: its keys are in scope_keys.py, its lines in scope_view.py,
-                     its waves in scope_wave.py
+                     its waves in scope_wave.py, its curves in scope_curve.py, what is measured in scope_measure.py
     signals.py       every input and output, live             port.py           the port, tested and chosen
     plant.py         ideal or dynamic motors, faults and seed of the simulated machine
     event_list.py    what happened at the machine

@@ -10,23 +10,27 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
+from drillctl.ui.screens.field_panel import TICK_RATE, about_field, effect_lines
 from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.bench import Bench
-from drillctl.viewmodel.console import Console
+from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.tables import FieldView, TableEditing
 
 LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
+MOST_EFFECTS = 3  # below the fields, where there is no panel
 
 
 class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
     title = N_("Configuration")
+    _has_panel = False  # as drawn last
     keys = (
         Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
         Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
@@ -36,7 +40,10 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         Key(("f5",), "F5", "choose", N_("drives this machine, as it was saved"), N_("Drive it")),
         Key(("f7",), "F7", "copy", N_("copies this machine's file under another name"), N_("Copy")),
         Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped file is in force again"), N_("Reset")),
-        Key(("f12",), "F12", "measure", N_("measures the scale of the axis under the cursor"), N_("Measure")),
+        Key(
+            ("f12",), "F12", "measure",
+            N_("measures the axis's scale; on the tick rate: what this computer carries"), N_("Measure"),
+        ),
     )
 
     def __init__(
@@ -44,6 +51,7 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         bench: Bench | None = None,
     ):  # fmt: skip
         self._bench = bench
+        self._carried = ""  # what this computer carries, once it was measured
         self._console, self._shell, self._tables, self._name = console, shell, tables, name
         self._actions = TableActions(console, shell, tables, "machines")
         self._heading, self._below = Text(""), Text("")
@@ -67,9 +75,25 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         """The table's keys, then the field's own; Esc asks first where something would be lost."""
         if asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key):
             return None
-        left = super().keypress(size, key)
+        left = super().keypress(self._left(size), key)
         self._take()
         return left
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Draws the fields, and beside them what the field under the cursor means and what a change will do."""
+        left, rows = self._left(size)
+        assert len(size) == 2
+        beside = size[0] - left
+        if bool(beside) != self._has_panel:
+            self._has_panel = bool(beside)
+            self._look()
+        lines = about_field(self._draft, self._field, self._carried, beside - BORDER_COLUMNS) if beside else []
+        return with_panel(super().render((left, rows), focus), _("This field"), lines, beside, rows)
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool | None:
+        """Hands an event to the fields, unless it is on the panel."""
+        left = self._left(size)
+        return super().mouse_event(left, event, button, col, row, focus) if col < left[0] else False
 
     def go(self, by: int) -> None:
         """Moves the cursor by so many fields; it stops at the ends."""
@@ -117,12 +141,41 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
     def measure(self) -> None:
         """Measures the scale of the axis under the cursor; refused while something is not saved."""
         field = self._field
-        if field is None or not field.axis:
+        if field is not None and field.place == TICK_RATE:
+            self._measure_computer(field)
+        elif field is None or not field.axis:
             self._shell.message(_("Not measured"), [_("Go to a field of the axis that is to be measured.")])
         elif self.changed:
             self._shell.message(_("Not measured"), [_("Save first, or take back, what is typed.")])
         else:
             ScaleGuide(self._console, self._shell, self._tables, self._name, field.axis, self._open).begin()
+
+    def _measure_computer(self, field: FieldView) -> None:
+        """Measures what tick rate this computer carries; refused while the machine works, which it would disturb."""
+        typed, bench = self._draft.shown(field), self._bench
+        if bench is None or self._console.view().at_work:
+            self._shell.message(_("Not measured"), [_("Ticks are measured while the machine is at rest.")])
+            return
+        found: list[int | None] = []
+
+        def work(watch: Watch) -> Problems:
+            hz, problems = bench.carried_hz(int(typed) if typed.isdecimal() else int(field.value), watch)
+            found.append(hz)
+            return problems
+
+        def measured(problems: Problems) -> None:
+            if problems:
+                self._shell.message(_("Not measured"), [translated(problem) for problem in problems])
+            elif found and found[0] is not None:
+                self._carried = _("this computer carries {hz} Hz").format(hz=found[0])
+                self._look()
+
+        self._shell.work(work, measured)
+
+    def _left(self, size: Size) -> tuple[int, int]:
+        """The size of the list of fields beside its panel."""
+        assert len(size) == 2
+        return size[0] - panel_columns(size[0]), size[1]
 
     @property
     def _field(self) -> FieldView | None:
@@ -172,7 +225,13 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         wrong = [f"{label_of(other)}: {translated(problem)}" for other, problem in refused if problem]
         wrong = wrong or [translated(found.message) for found in self._draft.check().problems]
         problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
-        return [[_(words_of(field).meaning)], *(problems or [[("good", _("sound"))]])]
+        told: list[Line] = []
+        if not self._has_panel:
+            told = [[_(words_of(field).meaning)]]
+            carried: list[Line] = [[self._carried]] if self._carried and field.place == TICK_RATE else []
+            effects = effect_lines(self._draft)[:MOST_EFFECTS] if self._draft.changed and not problems else []
+            told += [*carried, *effects]
+        return [*told, *(problems or [[("good", _("sound"))]])]
 
 
 def _row(field: FieldView, edit: Edit) -> urwid.Widget:

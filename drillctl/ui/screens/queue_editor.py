@@ -3,15 +3,18 @@
 Rule: what runs is the text on the screen; it is checked before it is handed on, and a refusal says line and column.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History, completed, usage
+from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
+from drillctl.ui.screens.tick_log import TickLog, port_line
 from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.console import AxisView, Console, MachineView, Problems
 from drillctl.viewmodel.signals import ManualControl
@@ -37,7 +40,11 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
     )
 
-    def __init__(self, console: Console, shell: Shell, queues: QueueEditing, control: ManualControl):
+    def __init__(
+        self, console: Console, shell: Shell, queues: QueueEditing, control: ManualControl, plain: bool = False
+    ):
+        self._log, self._plain = TickLog(), plain
+        self._axes: Sequence[AxisView] = ()
         self._console, self._shell, self._queues, self._control = console, shell, queues, control
         self._stopped: list[Line] = []
         self._commands = queues.commands()
@@ -63,10 +70,28 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         """The table's keys, then the text's own; Esc asks first where something would be lost."""
         if asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key):
             return None
-        left = super().keypress(size, key)
+        left = super().keypress(self._left(size), key)
         self._keep()
         self._look()
         return left
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Draws the queue, and beside it the single ticks, or the commands that there are."""
+        left, rows = self._left(size)
+        assert len(size) == 2
+        beside = size[0] - left
+        title = _("Single ticks") if self._stopped else _("Commands")
+        lines = self._beside(beside - BORDER_COLUMNS, rows - 1) if beside else []
+        return with_panel(super().render((left, rows), focus), title, lines, beside, rows)
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool | None:
+        """Hands an event to the text, unless it is on the panel."""
+        left = self._left(size)
+        return super().mouse_event(left, event, button, col, row, focus) if col < left[0] else False
+
+    def get_cursor_coords(self, size: Size) -> tuple[int, int] | None:
+        """Where the text has the terminal's cursor."""
+        return super().get_cursor_coords(self._left(size))
 
     def complete(self) -> None:
         """Completes the word before the cursor; lists the possible words where there are several."""
@@ -90,10 +115,15 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
 
     def refresh(self, view: MachineView) -> None:
         """Shows where the clock stopped, while it is stopped."""
-        stopped = _stopped_lines(view) if view.paused else []
+        stopped: list[Line] = []
+        if view.paused:
+            self._log.add(view.tick, self._control.signals())
+            self._axes = view.axes
+            stopped = [*_stopped_lines(view), port_line(self._control.signals())]
         if stopped != self._stopped:
             self._stopped = stopped
             self._look()
+            self._invalidate()
 
     def run_all(self) -> None:
         """Runs the queue from its first line; goes on where the clock was stopped."""
@@ -123,6 +153,20 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
             self._look()
 
         self._run("\n" * self._line + lines[self._line], next_line)
+
+    def _left(self, size: Size) -> tuple[int, int]:
+        """The size of the text beside its panel."""
+        assert len(size) == 2
+        return size[0] - panel_columns(size[0]), size[1]
+
+    def _beside(self, columns: int, rows: int) -> list[Line]:
+        """The lines of the panel: single ticks while the clock is stopped, else the reference of the commands."""
+        if self._stopped:
+            return self._log.lines(self._axes, (columns, rows), self._plain)
+        lines: list[Line] = []
+        for command in self._commands:
+            lines += [[("lit", f"{command.name} {command.usage}".strip())], [("dark", f"  {command.meaning}")]]
+        return [line for long in lines for line in folded(long, columns)]
 
     def _first_tick(self) -> None:
         self._answer(self._control.tick(1))

@@ -8,7 +8,9 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
+from drillctl.ui.screens.scope_curve import height_of
 from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS, SEARCH_OF
+from drillctl.ui.screens.scope_measure import POSITION, command_after
 from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import called
@@ -16,6 +18,7 @@ from drillctl.ui.widgets.texts import Size, boxed
 from drillctl.viewmodel.console import Console, MachineView, Problems, Watch
 from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, RunOpening, ScopeSource
 
+ROOM_FOR_CURVES = 46  # rows of a window in which positions are curves from the beginning
 WHEEL = {4: CLOSER, 5: FURTHER}  # buttons of the mouse
 
 
@@ -29,13 +32,14 @@ class Scope(urwid.Widget):
     _view: Viewport
     _rows: SignalRows
     _following: bool
+    _curves_drawn: bool
     _seen: object = None  # of the run, when it was last drawn
 
     def __init__(
         self, _console: Console, shell: Shell, runs: RunOpening, plain: bool = False, source: ScopeSource | None = None
     ):
         self._shell, self._runs, self._plain = shell, runs, plain
-        self._file = ""
+        self._file = self._sought = ""
         self._live = source is None
         self._look_at(source or runs.running())
 
@@ -43,6 +47,7 @@ class Scope(urwid.Widget):
         """Draws the run as it is now."""
         assert len(size) == 2
         columns, rows = size
+        self._draw_curves_first(rows)
         self._view = self._view.sized(ScopeLayout.of(self._source.signals(), columns).waves)
         lines, self._top, self._room = scope_lines(self._source, self._look(), columns, rows)
         return boxed(lines, columns, rows)
@@ -133,6 +138,21 @@ class Scope(urwid.Widget):
             self._marks[name] = cursor
         self._say("")
 
+    def curve(self) -> None:
+        """Draws the numbers under the bar as a curve, a position with its speed; or as numbers again."""
+        at, heights = self._rows.at, dict(self._rows.heights)
+        height = height_of(self._source.signals()[at])
+        if height == 1:
+            self._say(_("a curve is drawn of numbers only: positions, states, currents"))
+            return
+        if heights.pop(at, None) is None:
+            heights[at] = height
+        self._with_rows(self._rows.with_heights(heights))
+
+    def search(self) -> None:
+        """Asks for a part of a command's text, then moves the cursor to the next such command."""
+        self._shell.ask_text(_("Find a command"), _("A part of its text:"), self._sought, self._search)
+
     def find_on(self, what: Find) -> None:
         """Moves the cursor to the next such event."""
         self._find(what, FORWARDS)
@@ -159,11 +179,29 @@ class Scope(urwid.Widget):
         """Shows the rows that were hidden, too."""
         self._with_rows(self._rows.all())
 
+    def _draw_curves_first(self, rows: int) -> None:
+        """Positions as curves where there is room for them, until the operator chooses; asked once for each run."""
+        if self._curves_drawn or rows < ROOM_FOR_CURVES:
+            return
+        self._curves_drawn = True
+        signals = enumerate(self._source.signals())
+        heights = {row: height_of(signal) for row, signal in signals if signal.name == POSITION}
+        self._rows = self._rows.with_heights(heights)
+
+    def _search(self, typed: str) -> None:
+        self._sought = typed.strip()
+        tick = command_after(self._source, self._view.cursor, self._sought)
+        if tick is None:
+            self._say(_("no further command with {text!r} in it").format(text=self._sought))
+        else:
+            self._go(tick)
+
     def _look_at(self, source: ScopeSource) -> None:
         """Shows another run: a live one from its end on, following it; a recorded one at its opening tick."""
         self._source = source
         self._following = self._live
         self._marks: dict[str, int] = {}
+        self._curves_drawn = False
         self._rows = SignalRows(len(source.signals()))
         self._top = self._room = 0
         source.turn()

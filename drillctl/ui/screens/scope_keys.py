@@ -64,6 +64,8 @@ SCOPE_KEYS = (
     Key(("a",), "A", "mark", N_("puts mark A here; there again takes it away"), N_("Mark A"), "A"),
     Key(("b",), "B", "mark", N_("puts mark B here; there again takes it away"), N_("Mark B"), "B"),
     *SEARCH_KEYS,
+    Key(("/",), "/", "search", N_("the next command with a text in it"), N_("Find")),
+    Key(("y",), "Y", "curve", N_("numbers as a curve, with the speed; or as numbers"), N_("Curve")),
     Key(("up",), N_("Up"), "row", N_("a row up"), argument=-1),
     Key(("down",), N_("Down"), "row", N_("a row down"), argument=1),
     Key(("page up",), "PgUp", "row", N_("eight rows up"), argument=-PAGE_ROWS),

@@ -13,6 +13,8 @@ from drillctl.language import Message
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.machine_lines import phase_line, phase_table
+from drillctl.ui.screens.scope_curve import curve_lines
+from drillctl.ui.screens.scope_measure import between
 from drillctl.ui.screens.scope_wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
 from drillctl.ui.widgets.texts import Line, packed
 from drillctl.viewmodel.scope import AxisMoment, Ints, Lack, Moment, ScopeSignal, ScopeSource
@@ -78,7 +80,7 @@ def scope_lines(source: ScopeSource, look: ScopeLook, columns: int, rows: int) -
     room = max(1, rows - len(head) - len(foot) - 1)
     edges = look.view.edges()
     waves = [_ruler(look, layout, edges)]
-    waves += [_row(source, look, layout, moment, edges, row) for row in look.rows.window(room)]
+    waves += _rows(source, look, layout, moment, edges, room)
     waves += [[""]] * (room + 1 - len(waves))
     if layout.tables:
         waves = _beside(waves, _tables(moment.axes, room + 1))
@@ -108,6 +110,33 @@ def _ruler(look: ScopeLook, layout: ScopeLayout, edges: Ints) -> Line:
     cursor = (view.column_of(view.cursor), SIGNS[look.plain].cursor)
     labels = ruler(edges, layout.waves, [*marks, cursor])
     return [" " * layout.names, ("title", labels), ("title", f"{_('at cursor'):>{VALUES}}"[:VALUES])]
+
+
+def _rows(
+    source: ScopeSource, look: ScopeLook, layout: ScopeLayout, moment: Moment, edges: Ints, room: int
+) -> list[Line]:
+    """The lines of the rows: one each, or as many as a curve has."""
+    curves = {row: _curve(source, look, layout, edges, row) for row, part in look.rows.window(room) if part}
+    lines = []
+    for row, part in look.rows.window(room):
+        first = _row(source, look, layout, moment, edges, row) if not part else []
+        lines.append(_on_curve(first, curves[row][part], look, layout) if row in curves else first)
+    return lines
+
+
+def _curve(source: ScopeSource, look: ScopeLook, layout: ScopeLayout, edges: Ints, row: int) -> list[tuple[str, str]]:
+    known_edges = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
+    return curve_lines(source, row, known_edges, layout.waves, look.rows.heights[row], look.plain)
+
+
+def _on_curve(row: Line, drawn: tuple[str, str], look: ScopeLook, layout: ScopeLayout) -> Line:
+    """A line of a curve, the cursor's column in it marked; the first has the row's name and its value."""
+    label, text = drawn
+    at = look.view.column_of(look.view.cursor)
+    curve: Line = [("good", text[:at]), ("focus", text[at : at + 1]), ("good", text[at + 1 :])]
+    if row:
+        return [row[0], *curve, row[-1]]
+    return [("dark", f"  {label:{layout.names - 2}}"[: layout.names]), *curve, " " * VALUES]
 
 
 def _row(source: ScopeSource, look: ScopeLook, layout: ScopeLayout, moment: Moment, edges: Ints, row: int) -> Line:
@@ -146,7 +175,8 @@ def _foot(source: ScopeSource, look: ScopeLook, moment: Moment, columns: int, wi
     seconds = f"{moment.tick / source.tick_hz:.3f}"
     place: Line = [("title", _("tick {tick}, {seconds} s").format(tick=moment.tick, seconds=seconds)), "  "]
     axes = [] if with_tables else packed([_axis_part(axis) for axis in moment.axes], columns)
-    said: Line = [_between(look, source.tick_hz), "  ", ("warning", look.said)]
+    answer: Line = [("warning", look.said), "  "] if look.said else []
+    said: Line = [*answer, between(source, look.marks, look.view.cursor)]
     return [[*place, moment.command or "-", *_fault(source, moment)], *axes, said]
 
 
@@ -161,18 +191,6 @@ def _axis_part(axis: AxisMoment) -> Line:
     text = _("{steps}, column {column}, {state}  ")
     text = text.format(steps=axis.position_steps, column=axis.column, state=f"{axis.state:+d}")
     return [("title", f"{axis.name.upper()} "), text]
-
-
-def _between(look: ScopeLook, tick_hz: int) -> str:
-    """What lies between A and B; from either of them to the cursor while there is only one."""
-    marks = " ".join(f"{name} {tick}" for name, tick in look.marks)
-    if not look.marks:
-        return _("A and B: not set")
-    first = look.marks[0][1]
-    ticks = abs((look.marks[1][1] if len(look.marks) > 1 else look.view.cursor) - first)
-    rate = f", {tick_hz / ticks:.4g} Hz" if ticks else ""
-    ms = f"{ticks * 1000 / tick_hz:.10g}"
-    return _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=marks, ticks=ticks, ms=ms, rate=rate)
 
 
 def _tables(axes: Sequence[AxisMoment], rows: int) -> list[Line]:

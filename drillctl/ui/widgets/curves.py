@@ -22,9 +22,16 @@ def curve_rows(
     """
     if not len(values) or columns < 1 or rows < 1:
         return [" " * max(columns, 0)] * max(rows, 0)
-    low, high = bounds or (min(values), max(values))
-    down, across = (1, 1) if plain else CELL_DOTS
-    spans = _spans(np.asarray(values, float), columns * across)
+    spans = _spans(np.asarray(values, float), columns * (1 if plain else CELL_DOTS[1]))
+    return span_rows(spans, rows, plain, bounds or (min(values), max(values)))
+
+
+def span_rows(spans: NDArray[np.float64], rows: int, plain: bool, bounds: tuple[float, float]) -> list[str]:
+    """As ``curve_rows``, of columns of dots (n, any): each has a dot wherever it has a value between its least and its
+    greatest. There are two columns of dots to a character, one without UTF-8.
+    """
+    low, high = bounds
+    down = 1 if plain else CELL_DOTS[0]
     heights = np.clip((spans - low) / ((high - low) or 1.0), 0.0, 1.0) * (rows * down - 1)
     tops, bottoms = (np.rint(height).astype(int) for height in (heights.max(axis=1), heights.min(axis=1)))
     levels = np.arange(rows * down)[::-1, None]
