@@ -320,7 +320,7 @@ def test_the_rotor_stands_below_the_columns_with_its_torque(tried: tuple[PhaseEd
     rows = text_of(tried[0], (80, 20)).split("\n")
     places, torques = (next(row for row in rows if row.startswith(word)) for word in ("rotor", "torque"))
     assert places.split()[-4:] == ["1", "2", "3", "4"] and torques.split()[1:] == ["█", "█"]
-    assert "warning: motor X: one cycle turns the rotor by 2 of 4 columns" in "\n".join(rows)
+    assert "warning: motor X: a cycle turns it 2 of 4 columns" in "\n".join(rows)
 
 
 @pytest.mark.parametrize("columns", [80, 98, 158, 218])
@@ -332,6 +332,7 @@ def test_a_trial_says_what_was_lost_at_any_size_and_holds_for_its_table_alone(
     assert "X" in text_of(editor, (columns, 30)) and "no step lost" in text_of(editor, (columns, 30))
     press(editor, " ", "f5")
     assert "LOST 1 of 30 steps" in text_of(editor, (columns, 30)) and trial.tried == [TABLE, editor.text]
+    assert "no step lost" in text_of(editor, (columns, 30)), "of the saved table"
     press(editor, "right", " ")
     assert "LOST" not in text_of(editor, (columns, 30))
     press(editor, "u")

@@ -34,7 +34,7 @@ def path_words(path: CyclePath) -> Line:
     """How far one cycle turns the rotor, and the torque; as a warning where the turn is not that of a sound table."""
     if not path.columns:
         return []
-    turned = _("motor {motor}: one cycle turns the rotor by {turned:.0f} of {wanted} columns").format(
+    turned = _("motor {motor}: a cycle turns it {turned:.0f} of {wanted} columns").format(
         motor=path.motor.upper(), turned=path.turned, wanted=path.wanted
     )
     if round(path.turned) != path.wanted:
@@ -47,8 +47,8 @@ def torque_words(path: CyclePath) -> str:
     torques = [column.torque for column in path.columns]
     low, high = min(torques), max(torques)
     if path.torque_mnm is None:
-        return _("torque {low:.2f} to {high:.2f} of one winding's").format(low=low, high=high)
-    return _("torque {low:.0f} to {high:.0f} mN m").format(low=low * path.torque_mnm, high=high * path.torque_mnm)
+        return _("{low:.2f} to {high:.2f} of one winding's torque").format(low=low, high=high)
+    return _("{low:.0f} to {high:.0f} mN m").format(low=low * path.torque_mnm, high=high * path.torque_mnm)
 
 
 def path_charts(path: CyclePath, saved: CyclePath, size: Size, plain: bool) -> list[Line]:
@@ -101,14 +101,21 @@ def _held(places: Sequence[float]) -> list[float]:
     return [place for place in places for _repeat in range(8)]
 
 
-def verdict(report: BenchReport | None) -> Line:
-    """In one line, what each motor lost."""
+def verdicts(report: BenchReport | None, saved: BenchReport | None) -> list[Line]:
+    """What each motor lost, in a line; with the saved table in a second one where it is another and was tried."""
     if report is None:
         return []
-    parts: Line = [_("bench at {hz} Hz: ").format(hz=report.tick_hz)]
-    for run in report.runs:
-        parts.append(("danger" if run.lost else "good", f"{run.motor.upper()} {lost_words(run)}  "))
-    return parts
+    now = [_("bench at {hz} Hz: ").format(hz=report.tick_hz), *_lost_by_motor(report)]
+    return [now] if saved in (None, report) else [now, saved_words(saved)]
+
+
+def saved_words(saved: BenchReport | None) -> Line:
+    """What each motor lost with the saved table, in a line."""
+    return [f"{_('saved')}: ", *_lost_by_motor(saved)] if saved else []
+
+
+def _lost_by_motor(report: BenchReport) -> Line:
+    return [("danger" if run.lost else "good", f"{run.motor.upper()} {lost_words(run)}  ") for run in report.runs]
 
 
 def lost_words(run: MotorRun) -> str:
@@ -125,8 +132,10 @@ def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Siz
     columns, rows = size
     if report is None:
         return [[_(NOT_TRIED if saved is None else CHANGED_SINCE)]]
-    if saved is None or saved == report or columns < 2 * LEAST_HALF:
+    if saved is None or saved == report:
         return _bench(report, _("now"), size, plain, _bounds(report))
+    if columns < 2 * LEAST_HALF:
+        return [*_bench(report, _("now"), size, plain, _bounds(report)), [("title", _("saved"))], *_told(saved)]
     half, bounds = (columns - 2) // 2, _bounds(saved, report)
     before = _bench(saved, _("saved"), (half, rows), plain, bounds)
     return side_by_side(before, _bench(report, _("now"), (half, rows), plain, bounds), half + 2)
@@ -135,12 +144,16 @@ def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Siz
 def _bench(report: BenchReport, title: str, size: Size, plain: bool, bounds: Bounds) -> list[Line]:
     worst = report.worst
     heading: Line = [("title", _("{title}, at {hz} Hz").format(title=title, hz=report.tick_hz))]
-    told: list[Line] = [_run_line(run) for run in report.runs]
+    told = _told(report)
     kind: list[Line] = [] if worst.dynamic else [[("dark", _("ideal motors: no dynamics are known"))]]
     other: list[Line] = [] if report.in_use else [[("dark", _("no motor here has this table; tried on one that fits"))]]
     caption = _("behind, in steps: {motor}, {steps:+d} steps").format(motor=worst.motor.upper(), steps=worst.steps)
     chart = _chart(caption, worst.behind, bounds, size, plain, "danger" if worst.lost else "good")
     return [heading, *told, *kind, *other, *chart]
+
+
+def _told(report: BenchReport) -> list[Line]:
+    return [_run_line(run) for run in report.runs]
 
 
 def _run_line(run: MotorRun) -> Line:

@@ -8,7 +8,7 @@ never saved. PhaseEditor and RampEditor are made of this.
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.bench_lines import bench_lines, verdict
+from drillctl.ui.models.bench_lines import bench_lines, verdicts
 from drillctl.ui.models.editing import History
 from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.shell import Shell, asked_to_leave
@@ -77,7 +77,7 @@ class TableEditor(urwid.Widget):
         columns, rows = size
         beside = panel_columns(columns, self.columns) if self._bench else 0
         left = columns - beside
-        tried = [] if beside else [verdict(self._report)] * (self._report is not None)
+        tried = [] if beside else verdicts(self._report, self._reports.get(self._saved))
         below = [line for long in [*self._verdict(), *tried] for line in folded(long, left)]
         drawing = self.drawing(left, rows - len(below) - FURTHER_ROWS)
         main = boxed([[("title", self._heading())], [""], *drawing, [""], *below], left, rows)
