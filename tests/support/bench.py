@@ -17,7 +17,7 @@ from drillctl.kmd import Condition, Request, parse_program
 from drillctl.machine import Library, Machine, RampTable, shipped_tables
 from drillctl.machine.ramp_file import parse_ramp
 from drillctl.machine.source import Source
-from drillctl.plant import IdealPlant
+from drillctl.plant import IdealPlant, Plant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ticker.ticker import Ticker
 
@@ -58,7 +58,7 @@ class WatchedCard(SimulatedCard):
     stuck_high, stuck_low   input bits that read so whatever the plant does
     """
 
-    def __init__(self, plant: IdealPlant):
+    def __init__(self, plant: Plant):
         super().__init__(plant)
         self.calls: list[str] = []
         self.images: list[int] = []
@@ -77,9 +77,9 @@ class WatchedCard(SimulatedCard):
 class Bench:
     """A machine, its controller ``m``, its ``card``; ``images[n]`` is what tick n put out (no wakes of an underrun)."""
 
-    def __init__(self, machine: Machine, traced: bool = False):
+    def __init__(self, machine: Machine, traced: bool = False, plant: Plant | None = None):
         self.machine = machine
-        plant = IdealPlant(machine)
+        plant = plant or IdealPlant(machine)
         self.card = WatchedCard(plant)
         self.ticker = Ticker(machine, self.card, plant, traced, derived=traced)
         self.m = self.ticker.controller
