@@ -83,7 +83,7 @@ class App(Boxes):
     def turn(self) -> None:
         """Lets the console get on for a moment, then redraws what changed in the machine."""
         until_s = time.monotonic() + TURNING_S
-        while self._console.turn() and time.monotonic() < until_s:
+        while time.monotonic() < until_s and self._console.turn():
             pass
         view = self._console.view()
         self._at_work = view.moving or view.at_work or bool(view.command)

@@ -29,7 +29,7 @@ class Reader(Terminal):
         """One after the other, each key named first."""
         for act in acts:
             for before, key in pairwise(("", *act.keys)):
-                ends_text = key == "Enter" and len(before) > 1 and before not in KEYS
+                ends_text = key == "Enter" and len(before) > 2 and before not in KEYS
                 self.until(lambda key=key, ends=ends_text: ends or self._names(key), f"nothing names the key {key!r}")
                 self.press(key)
             self.wait_for(*act.shows, gone=act.gone)

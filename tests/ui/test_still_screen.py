@@ -14,8 +14,8 @@ def test_a_machine_at_rest_draws_nothing(name: str, tmp_path: Path, monkeypatch:
     at_home(tmp_path, monkeypatch)
     for program in opened(name):
         for _ in range(3):
-            program.app.turn()
+            program.go_on(1)
         drawn = program.canvas()
         for _ in range(3):
-            program.app.turn()
+            program.go_on(1)
             assert program.canvas() is drawn, f"{name} draws a machine at rest anew"
