@@ -7,13 +7,20 @@ Used by tests/ui and by the pictures in docs.
 from drillctl.language import words
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.menus import Item, hot_letter
-from tests.support.messages import POLISH
+from tests.support.messages import POLISH, POLISH_FORMS
 
 
 def word(message: str) -> str:
     """A message as the screen says it."""
     assert message in POLISH, f"the screen does not say {message!r}"
     return words._(message)
+
+
+def counted(many: str, count: int, **fields: object) -> str:
+    """A message with a number as the screen says it, by the source's form for many."""
+    one = next((one for one, form in POLISH_FORMS if form == many), None)
+    assert one is not None, f"the screen does not say {many!r}"
+    return words.ngettext(one, many, count).format(count=count, **fields)
 
 
 def menu(screen: str, method: str = "", argument: str | None = None) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ import pytest
 from drillctl.kmd import Fault
 from drillctl.language import words
 from drillctl.viewmodel.fault_texts import FAULT_WORDS
-from tests.support.labels import menu, word
+from tests.support.labels import counted, menu, word
 
 terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev extra) reads what the program draws")
 Act = terminals.Act
@@ -77,7 +77,7 @@ def based() -> Iterator["terminals.Act"]:
 
 def begun() -> Iterator["terminals.Act"]:
     """After a question; the first tool is asked for."""
-    yield Act(menu("drilling", "start"), (word("Drill {holes} holes of {name}?").format(holes=HOLES, name=NAME),))
+    yield Act(menu("drilling", "start"), (counted("Drill {count} holes of {name}?", HOLES, name=NAME),))
     yield Act(YES, (waits_for(FIRST),))
 
 
@@ -114,7 +114,7 @@ def fault() -> Iterator["terminals.Act"]:
 
 def cut_off() -> Iterator["terminals.Act"]:
     """An emergency stop with the second tool in hand; then gone on with, and no hole drilled twice."""
-    done = word("{done} of {total} holes are drilled").format(done=OF_THE_FIRST_TOOL, total=HOLES)
+    done = counted("{done} of {count} holes are drilled", HOLES, done=OF_THE_FIRST_TOOL)
     yield from opened()
     yield from begun()
     yield Act(YES, (waits_for(SECOND),))

@@ -16,6 +16,7 @@ from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
 from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
+from tests.support.labels import counted
 from tests.support.messages import screen_templates
 from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
 
@@ -175,7 +176,7 @@ def test_an_interrupted_job_is_offered_with_all_that_it_means(language: str, siz
     for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the tool in hand"):
         source = next(message for message in screen_templates() if message.startswith(told))
         assert words._(source).format(numbers="4") in text
-    assert words._("{done} of {total} holes are drilled").format(done=3, total=26) in text
+    assert counted("{done} of {count} holes are drilled", 26, done=3) in text
     program.press("enter")
     assert not program.console.asked
 
