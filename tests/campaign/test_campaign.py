@@ -1,4 +1,4 @@
-"""A few rounds of the campaign, one of each kind of blow to a process; and that its judges would see a wrong.
+"""A few rounds of the campaign, of each kind of blow; more with -m long; and that its judges would see a wrong.
 
 The long one is ``benchmarks/campaign.py``.
 """
@@ -16,17 +16,19 @@ from tests.campaign.rounds import ROOT, Round, _judge_holes, play
 
 needs_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
 NAMES = [make(Random(0), 8000).name for make in BLOWS]
-FEW = [
-    *(f"SIG{signal} to {target}" for target in ("desk", "ticker", "guard") for signal in ("KILL", "STOP")),
-    *(f"SIG{signal} to desk" for signal in ("TERM", "INT", "HUP")), "SIGTERM to ticker", "SIGTERM to guard",
-    "z_top stuck at 1", "z_bottom stuck at 0", "z_bottom stuck at 1", "x_min stuck at 1", "z_top bouncing",
-    "z_top dead, at 0", "y_min dead, at 1",
-    "port pulled", "disk full under the journal", "disk full under the trace",
+DAILY = [
+    *(f"SIGKILL to {target}" for target in ("desk", "ticker", "guard")), "SIGSTOP to ticker", "SIGTERM to desk",
+    "z_bottom stuck at 0", "x_min stuck at 1", "y_min dead, at 1", "port pulled", "disk full under the journal",
+    "disk full under the trace",
+]  # fmt: skip
+FURTHER = [
+    "SIGSTOP to desk", "SIGSTOP to guard", "SIGINT to desk", "SIGHUP to desk", "SIGTERM to ticker", "SIGTERM to guard",
+    "z_top stuck at 1", "z_bottom stuck at 1", "z_top bouncing", "z_top dead, at 0",
 ]  # fmt: skip
 
 
 @needs_linux
-@pytest.mark.parametrize("name", FEW)
+@pytest.mark.parametrize("name", [*DAILY, *(pytest.param(name, marks=pytest.mark.long) for name in FURTHER)])
 def test_a_round(name: str, tmp_path: Path) -> None:
     assert play(NAMES.index(name), tmp_path).violations == []
 

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import polib
@@ -42,15 +43,17 @@ def modules() -> Iterator[tuple[str, str]]:
         yield ".".join(file.relative_to(PACKAGE).with_suffix("").parts), file.read_text("utf-8")
 
 
-def all_templates() -> set[str]:
+@cache
+def all_templates() -> frozenset[str]:
     """The templates of the whole package."""
-    return {template for _name, source in modules() for template in templates_in(source)}
+    return frozenset(template for _name, source in modules() for template in templates_in(source))
 
 
-def screen_templates() -> set[str]:
+@cache
+def screen_templates() -> frozenset[str]:
     """The templates that a screen may show: those of every room but IN_ENGLISH, as far as they have words."""
     found = {template for name, source in modules() if not _in_english(name) for template in templates_in(source)}
-    return {template for template in found if any(letter.isalpha() for letter in without_fields(template))}
+    return frozenset(text for text in found if any(letter.isalpha() for letter in without_fields(text)))
 
 
 def _in_english(name: str) -> bool:
