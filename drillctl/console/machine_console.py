@@ -19,6 +19,7 @@ from drillctl.console.operator_state import WorkingBase
 from drillctl.console.running_job import RunningJob, took_a_base
 from drillctl.console.scope import RunRecording
 from drillctl.console.views import machine_list, machine_view, plant_in_words
+from drillctl.console.workpieces import StoredWorkpieces
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
 from drillctl.generation.waits import unwatched
@@ -31,6 +32,7 @@ from drillctl.viewmodel.console import BoardView, MachineView, Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
+from drillctl.viewmodel.workpieces import Workpieces
 
 BUSY = Message("the machine is at work; hold or stop it first")
 ZERO_ONLY = Message("only the return to zero is allowed now (KMD_POWROT)")
@@ -47,6 +49,7 @@ class MachineConsole:
         self.used = MachineInUse(library, machine, running, tick_hz, port_won)
         self._job = RunningJob(self.used, tools)
         self._boards = Boards()
+        self._workpieces = StoredWorkpieces(self.used, self._job, self.busy, self.return_to_zero)
         self._base = WorkingBase(machine)
         self._jogs = Jogging(
             lambda axis, steps: self.run_queue(f"KMD_RUCHd {axis}={steps}\n"),
@@ -81,12 +84,14 @@ class MachineConsole:
             if took_a_base(ended):
                 self._base.take(ended.status["base"].tolist())
             self._boards.ended(ended, self.machine)
+            self._workpieces.ended(ended.job, int(ended.status["done"] - ended.first["done"]))
         if self.used.follow_rate() or ended is not None:
             self._boards.plan_again(self.machine, self._base.xy)
         if self.link.status()["condition"] == Condition.RETURNING:  # by the homing table, which ends at machine zero
             self._base.move(0, 0)
         self.recording.keep()
         self._jogs.carry_on(self.at_work, time.monotonic())
+        self._workpieces.carry_on()
         return self.used.runs_free and self._gets_on()
 
     def view(self) -> MachineView:
@@ -100,7 +105,7 @@ class MachineConsole:
         waits = tool_wanted is not None or self.link.gate.paused or view.condition != "ready"
         return replace(
             view, tool_wanted=tool_wanted, real_wanted=self.used.real_wanted, notices=notices, at_work=self.at_work,
-            local=bool(self.used.local), plant=plant_in_words(self.used.running.plant),
+            local=bool(self.used.local), stores=self._workpieces.present, plant=plant_in_words(self.used.running.plant),
             condition=self._job.condition_forecast(view.condition),
             moving=view.moving or (self.at_work and not waits),
         )  # fmt: skip
@@ -112,6 +117,10 @@ class MachineConsole:
     def board(self) -> BoardView | None:
         """The board that was loaded, as it is planned; None for none."""
         return self._boards.plan.view if self._boards.plan else None
+
+    def workpieces(self) -> Workpieces | None:
+        """The stores of the machine in use, where it has them."""
+        return self._workpieces if self._workpieces.present else None
 
     def machines(self) -> Sequence[tuple[str, str]]:
         """Name and description of every machine; for one that can't be loaded the reason in place of the latter."""
@@ -135,6 +144,7 @@ class MachineConsole:
         problems = how(self.used)
         if (self.link, self.machine) != before:
             self._boards.forget()
+            self._workpieces.forget()
             self._job.forget()
             self._base = WorkingBase(self.machine)
         return problems

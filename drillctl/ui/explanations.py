@@ -21,6 +21,17 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("The bar shows how much is drilled; below it the command in execution"),
         N_("and the next three. Large figures: where an axis is, in mm."),
     ),
+    "Panel": (
+        N_("The machine's own keys and its display of six figures; click or type."),
+        N_("Four digits and MEM show a cell; two more digits write it. Two"),
+        N_("digits and PROG call a workpiece, AUTO runs it. Arrows: single steps."),
+        N_("There is no origin switch: to initialise means this place is zero."),
+        N_("Set the tool there first. ZERO returns to it, the tool first."),
+        N_("accumulator: steps from zero; steps left: of this sentence."),
+        N_("List: > in execution; X or Y, mm, m/min, seconds, cell."),
+        N_("Wall: ○ (o) to drill, ◎ (@) in work, ● (#) drilled, ▼ (v) the tool."),
+        N_("X 10 +0 a b: column of the phase table, ramp state, [a] is on."),
+    ),
     "Files": (
         N_("Left, the drill files of a folder; right, what the chosen one says."),
         N_("Enter loads a file; Esc goes back to the machine, where S drills it."),

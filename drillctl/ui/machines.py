@@ -6,11 +6,12 @@ ui/models and ui/widgets, and nothing of the program around it; the program reac
 
 from collections.abc import Sequence
 
+from drillctl.ui.boiler_drum import BOILER_DRUM
 from drillctl.ui.pcb_drill import PCB_DRILL
 from drillctl.ui.screens.shell import MachineScreens
 from drillctl.viewmodel.console import MachineView
 
-FAMILIES = (PCB_DRILL,)  # asked from the first on; the last takes every machine
+FAMILIES = (BOILER_DRUM, PCB_DRILL)  # asked from the first on; the last takes every machine
 
 
 def screens_of(view: MachineView, families: Sequence[MachineScreens] = FAMILIES) -> MachineScreens:

@@ -6,7 +6,7 @@ means it was accepted. Millimetres are from the working base, as the operator co
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from drillctl.language import Message
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress
+
+if TYPE_CHECKING:
+    from drillctl.viewmodel.workpieces import Workpieces
 
 Problems = tuple[Message, ...]
 
@@ -76,6 +79,7 @@ class MachineView:
     pace: float = 0.0  # machine time over wall time, of a simulated machine by the simulated clock; 0: of another
     following: tuple[str, ...] = ()  # the commands of the program that follow ``command``, at most three
     plant: str = ""  # the dynamic plant with its faults, ``dynamic blunt=20``; empty for another
+    stores: bool = False  # its jobs are workpieces in stores (viewmodel/workpieces.py)
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 
@@ -127,6 +131,9 @@ class Console(Protocol):
 
     def progress(self) -> Progress | None:
         """The progress of the job that runs, or ran last; None before the first."""
+
+    def workpieces(self) -> "Workpieces | None":
+        """The stores of workpieces; None for a machine that has none."""
 
     def machines(self) -> Sequence[tuple[str, str]]:
         """Name and description of every machine that can be chosen."""

@@ -72,6 +72,9 @@ class FakeConsole:
     def progress(self) -> Progress | None:
         return self.job
 
+    def workpieces(self) -> None:
+        """A board's machine has no stores."""
+
     def machines(self) -> Sequence[tuple[str, str]]:
         return [("pcb-drill", "the paper's"), ("boiler-drum", "the large one")]
 

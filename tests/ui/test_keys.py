@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from drillctl.ui import pcb_drill, screens
+from drillctl.ui import boiler_drum, pcb_drill, screens
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key
 
 # The key, and what it means wherever it means anything: it sets the machine going or stops it without a question,
@@ -25,7 +25,7 @@ MEANINGS = {
 
 
 def tables() -> Iterator[tuple[str, tuple[Key, ...]]]:
-    for package in (screens, pcb_drill):
+    for package in (screens, pcb_drill, boiler_drum):
         for found in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
             for name, value in vars(importlib.import_module(found.name)).items():
                 if isinstance(value, type) and value.__module__ == found.name and hasattr(value, "keys"):
@@ -55,7 +55,7 @@ def test_a_key_that_means_something_everywhere_means_nothing_else_here(screen: s
 
 
 def test_all_screens_are_looked_at() -> None:
-    assert {"Drilling", "Files", "PhaseEditor", "RampEditor", "QueueEditor", "Signals", "Scope"} <= set(TABLES)
+    assert {"Drilling", "Files", "Panel", "PhaseEditor", "RampEditor", "QueueEditor", "Signals", "Scope"} <= set(TABLES)
 
 
 def test_the_letters_that_command_the_machine_mean_nothing_else_where_boards_are_chosen() -> None:

@@ -3,8 +3,8 @@
 0000-00C5  directory: for each of the workpieces 01 to 99 the address of its program, high byte first; FFFF: none
 00C6-1FFF  programs: three cells a sentence, then one FF
 
-Rule: pure functions of the cells; what is written is packed from 00C6 on. A store is never changed in place: each
-change gives new cells, or an error and nothing.
+Rule: pure functions of the cells; whole programs are packed from 00C6 on, single cells written where they are. A store
+is never changed in place: each change gives new cells, or an error and nothing.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -56,6 +56,11 @@ def without_program(cells: bytes, number: int) -> bytes:
     """Returns the cells with a workpiece taken out of the directory; its cells are room for the next one."""
     at = OFFSET_CELLS * (number - 1)
     return cells[:at] + bytes([EMPTY]) * OFFSET_CELLS + cells[at + OFFSET_CELLS :]
+
+
+def with_cell(cells: bytes, address: int, content: int) -> bytes:
+    """Returns the cells with one byte written at an address, as the monitor program writes it: nothing is checked."""
+    return cells[:address] + bytes([content]) + cells[address + 1 :]
 
 
 def free_cells(cells: bytes, source: str) -> int:

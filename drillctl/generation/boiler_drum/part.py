@@ -39,7 +39,10 @@ def load_part(path: Path, machine: Machine, setup: JobSetup, settings: WorkSetti
     """A part program as a job; nothing of it is placed or ordered. Raises JobError with file and line, or with the
     store and its cell.
     """
-    part = part_of(path, machine, settings.store)
-    program = part_program(part, machine)
-    return Job(path.name if not part.in_store else part.source, program, machine,
-               warnings=tuple(tool_in_wall(part, machine)))  # fmt: skip
+    return job_of(part_of(path, machine, settings.store), machine)
+
+
+def job_of(part: Part, machine: Machine) -> Job:
+    """Returns the job that runs a part program. Raises JobError with a line or a cell for each wrong sentence."""
+    name = part.source if part.in_store else Path(part.source).name
+    return Job(name, part_program(part, machine), machine, warnings=tuple(tool_in_wall(part, machine)))

@@ -20,6 +20,7 @@ from drillctl.ui.pcb_drill.unfinished import offer_job
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
+from drillctl.ui.screens.tick_rate import ask_tick_hz
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size, Text
@@ -217,20 +218,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
     def type_tick_hz(self) -> None:
         """Asks for the interrupt frequency, which takes effect at rest and keeps the position."""
-        now = str(self._console.view().tick_hz)
-        self._shell.ask_text(
-            _("Interrupt frequency"), _("Ticks a second, until the machine is chosen anew:"), now, self._set_tick_hz
-        )
-
-    def _set_tick_hz(self, text: str) -> None:
-        if not text.strip().isdecimal():
-            self._say("warning", _("a whole number of ticks a second is wanted, not {text!r}").format(text=text))
-            return
-        hz = int(text)
-        said = ngettext(
-            "{count} tick a second; the position is kept", "{count} ticks a second; the position is kept", hz
-        )
-        self._answer(self._console.set_tick_hz(hz), said.format(count=hz))
+        ask_tick_hz(self._console, self._shell, self._answer, self._say)
 
     def _go_to_numbered(self, text: str) -> None:
         board = self._console.board()

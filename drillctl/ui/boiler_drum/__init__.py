@@ -1,0 +1,25 @@
+"""The screens and menus of the boiler-drum drill, and of every machine whose jobs are workpieces in stores.
+
+    panel.py       the machine at its keys: run, pause, return to zero, single steps
+    programming.py its keys for cells and workpieces       monitor.py      the display, and what is typed into it
+    keypad.py      the 28 keys and the switches            segments.py     figures of seven segments
+    panel_windows.py display, keys, program and wall, by the size of the terminal
+    program_list.py the program with its sentence in work  wall.py         the drum wall with its row of holes
+    menus.py       the menus Program and Operation         next_step.py    what the machine waits for
+
+BOILER_DRUM is the row of ui/machines.py.
+"""
+
+from drillctl.ui.boiler_drum.menus import MENUS
+from drillctl.ui.boiler_drum.next_step import next_step
+from drillctl.ui.boiler_drum.panel import Panel
+from drillctl.ui.screens.shell import MachineScreens
+
+BOILER_DRUM = MachineScreens(
+    recognises=lambda view: view.stores,
+    menus=MENUS,
+    makers={"panel": Panel},
+    first="panel",
+    at_start=lambda console, shell: False,
+    next_step=next_step,
+)

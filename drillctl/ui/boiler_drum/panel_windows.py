@@ -1,0 +1,130 @@
+"""The windows of the Panel: display, keys and counters at the left; program and wall beside them, where there is room.
+
+Rule: draws what ``show`` was given last and hears no keys; a click on a key goes to ``pressed``.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import urwid
+
+from drillctl.language.words import _
+from drillctl.ui.boiler_drum import keypad, segments
+from drillctl.ui.boiler_drum.program_list import facts, heading, list_lines
+from drillctl.ui.boiler_drum.wall import depth_text, wall_lines
+from drillctl.ui.screens.machine_lines import lamp, phase_line
+from drillctl.ui.widgets import borders
+from drillctl.ui.widgets.sizes import Layout
+from drillctl.ui.widgets.texts import Line, Size, boxed, packed
+from drillctl.ui.widgets.windows import Window
+from drillctl.viewmodel.console import AxisView, MachineView
+from drillctl.viewmodel.records import Progress
+from drillctl.viewmodel.workpieces import PartView
+
+DISPLAY_ROWS, KEYPAD_ROWS, WALL_ROWS, FACTS_ROWS = 4, 9, 5, 7
+LEAST_BESIDE = 30  # columns: a part program in fewer says nothing
+
+
+class Shown(NamedTuple):
+    """What is drawn: the machine, how far its job is, the program with its sentence in work (0: none) and how many are
+    done, and the six figures of the display.
+    """
+
+    view: MachineView
+    progress: Progress | None
+    part: PartView | None
+    sentence: int
+    done: int
+    figures: str
+
+
+class Drawn(urwid.Widget):
+    """A box of lines that ``lines`` gives for its columns and rows."""
+
+    _sizing = frozenset([urwid.Sizing.BOX])
+
+    def __init__(self, lines: Callable[[int, int], list[Line]]):
+        super().__init__()
+        self._lines = lines
+
+    def changed(self) -> None:
+        """Draws it anew when the screen is drawn next."""
+        self._invalidate()
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Draws the lines that fit."""
+        assert len(size) == 2
+        return boxed(self._lines(*size), *size)
+
+
+class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
+    """All windows; ``pressed`` is called with a key that is clicked."""
+
+    _now: Shown
+
+    def __init__(self, pressed: Callable[[keypad.PanelKey], object], plain: bool):
+        self._plain = plain
+        drawn = (self._display, self._counters, self._program, self._wall, self._facts)
+        self._drawn = display, counters, program, wall, told = [Drawn(lines) for lines in drawn]
+        keys = urwid.Pile([("given", DISPLAY_ROWS, display), ("given", KEYPAD_ROWS, keypad.Keypad(pressed)), counters])
+        part = urwid.Pile([program, ("given", FACTS_ROWS, told)])
+        self._panel, self._part = Window(keys, _("Keys")), Window(part, _("Part program"))
+        self._drum = Window(wall, _("Drum wall"))
+        self._beside = urwid.Pile([self._part, ("given", WALL_ROWS, self._drum)])
+        self._rule = urwid.AttrMap(urwid.SolidFill(borders.lines().down), "border")
+        self._columns = urwid.Columns([self._panel, self._beside])
+        super().__init__(self._columns)
+
+    def show(self, now: Shown) -> None:
+        """Takes what is to be drawn; redraws only if something is new."""
+        if getattr(self, "_now", None) != now:
+            self._now = now
+            for drawn in self._drawn:
+                drawn.changed()
+
+    def lay_out(self, room: Layout, columns: int) -> None:
+        """Shows the windows that there is room for on a screen of so many columns."""
+        edges = 2 * room.framed
+        for window in (self._panel, self._part, self._drum):
+            window.show(room.framed)
+        whole, given = self._columns.options(), self._columns.options
+        beside = columns >= keypad.COLUMNS + edges + LEAST_BESIDE
+        left: Any = (self._panel, given("given", keypad.COLUMNS + edges) if beside else whole)
+        rule = [] if room.framed else [(self._rule, given("given", 1))]
+        self._columns.contents = [left, *rule, (self._beside, whole)] if beside else [left]
+        rows = self._beside.options("given", WALL_ROWS + edges)
+        self._beside.contents = [(self._part, self._beside.options()), (self._drum, rows)]
+
+    def _display(self, _columns: int, _rows: int) -> list[Line]:
+        return [[("accent", row)] for row in segments.figures(self._now.figures)]
+
+    def _counters(self, columns: int, _rows: int) -> list[Line]:
+        """The two counters of each motor: the accumulator, and the steps left of the sentence. Below them, where there
+        is room, the phases and the inputs.
+        """
+        view = self._now.view
+        head = f"  {_('accumulator'):>12}{_('steps left'):>13}{_('mm'):>10}"
+        inputs = packed([[lamp(name, on)] for name, on in view.sensors], columns)
+        phases = [[], *map(phase_line, view.axes), [], *inputs]
+        return [[("title", head)], *map(_counter, view.axes), [depth_text(self._now.part, view)], *phases]
+
+    def _program(self, columns: int, rows: int) -> list[Line]:
+        now = self._now
+        return [heading(now.part), *list_lines(now.part, now.sentence, now.done, columns, rows - 1)]
+
+    def _wall(self, columns: int, _rows: int) -> list[Line]:
+        now = self._now
+        return wall_lines(now.part, now.view, now.sentence, now.done, columns, self._plain)
+
+    def _facts(self, columns: int, _rows: int) -> list[Line]:
+        now = self._now
+        return facts(now.part, now.progress, now.sentence, now.done, columns)
+
+
+def _counter(axis: AxisView) -> Line:
+    left = axis.target_steps - axis.position_steps
+    return [
+        ("title", f"{axis.name.upper():2}"),
+        ("accent", f"{axis.position_steps:+12d}{left:+13d}"),
+        f"{axis.position_mm:+10.2f}",
+    ]
