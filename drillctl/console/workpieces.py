@@ -19,14 +19,14 @@ from drillctl.generation.boiler_drum.holes import holes, wall_mm
 from drillctl.generation.boiler_drum.part import job_of
 from drillctl.generation.boiler_drum.stores import RAM, change_ram, find_part, has_stores, read_eprom, read_ram
 from drillctl.generation.boiler_drum.text import Part
+from drillctl.generation.boiler_drum.times import command_ticks
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
-from drillctl.generation.waits import PLANNED, unwatched
-from drillctl.jobs.estimate import estimate_with_ticks
 from drillctl.kmd import Condition, Request
 from drillctl.language import Message
 from drillctl.machine import Machine
-from drillctl.viewmodel.console import Problems, Watch
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.records import Estimate
 from drillctl.viewmodel.workpieces import HoleView, PartView, SentenceView, WorkpieceView
 
 EPROM_AT = 0x8000  # of the code space; the RAM is at 0000 of the data space
@@ -85,11 +85,11 @@ class StoredWorkpieces:
         """The part program that was called."""
         return self._called.view if self._called else None
 
-    def call(self, number: int, watch: Watch = unwatched) -> Problems:
+    def call(self, number: int) -> Problems:
         """Plans a workpiece of the RAM, else of the EPROM."""
         try:
             part = find_part(number, self._used.machine, None)
-            self._called = _planned(number, part, self._used.machine, watch)
+            self._called = _planned(number, part, self._used.machine)
         except JobError as error:
             return error.messages
         self._done = 0
@@ -108,7 +108,7 @@ class StoredWorkpieces:
             return problems
         if called.job.machine is not self._used.machine:
             try:
-                called = self._called = _planned(called.number, called.part, self._used.machine, unwatched)
+                called = self._called = _planned(called.number, called.part, self._used.machine)
             except JobError as error:
                 return error.messages
         self._done = 0
@@ -194,10 +194,10 @@ def _no_cell(address: int) -> Message:
     )
 
 
-def _planned(number: int, part: Part, machine: Machine, watch: Watch) -> Called:
+def _planned(number: int, part: Part, machine: Machine) -> Called:
     job = job_of(part, machine)
-    estimate, ticks = estimate_with_ticks(job, waits=watch)
-    watch(PLANNED)
+    ticks = command_ticks(job.program, machine)
+    estimate = Estimate(machine.name, 0, int(ticks.sum()), machine.tick_hz, tools=(), exact=True, fault=None)
     store = part.source.split()[0]
     view = PartView(
         number=number,

@@ -16,10 +16,13 @@ from drillctl.viewmodel.records import FaultReport
 
 
 class Alerts:
-    """Opens and closes the boxes on faults, tool changes and mode REAL, over whatever screen is on top."""
+    """Opens and closes the boxes on faults, tool changes and mode REAL, over whatever screen is on top.
 
-    def __init__(self, console: Console, layers: Layers):
-        self._console, self._layers = console, layers
+    initialise  returns what to initialise means on the machine in use, where that has to be said
+    """
+
+    def __init__(self, console: Console, layers: Layers, initialise: Callable[[], str]):
+        self._console, self._layers, self._initialise = console, layers, initialise
         self._fault_shown = 0
         self._was_known = True  # the position, before the newest view
         self._tool_shown: ToolWanted | None = None
@@ -32,9 +35,8 @@ class Alerts:
         self._show_real(view)
         fault = view.fault if view.condition != "returning" else None
         if fault and fault.code and fault.code != self._fault_shown:
-            box = dialogs.message(
-                _fault_title(fault), _fault_lines(fault, self._was_known), self._layers.pop, self._acknowledge
-            )
+            lines = [*_fault_lines(fault, self._was_known), *filter(None, [_(self._initialise())])]
+            box = dialogs.message(_fault_title(fault), lines, self._layers.pop, self._acknowledge)
             self._layers.push_dialog(box)
         self._fault_shown = fault.code if fault else 0
         self._was_known = view.position_known

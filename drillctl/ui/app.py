@@ -65,7 +65,7 @@ class App(Boxes):
         terminal = terminal or _terminal()
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows), self.frame.say)
         self._menus = Dropping(self.frame.bar, self.layers, self._choose)
-        self._alerts = Alerts(console, self.layers)
+        self._alerts = Alerts(console, self.layers, lambda: self._family.initialise)
         self._background = Background(self.layers, self.frame.say)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled

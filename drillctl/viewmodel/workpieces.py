@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from drillctl.language import Message
-from drillctl.viewmodel.console import Problems, Watch
+from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.records import Estimate
 
 
@@ -79,10 +79,8 @@ class Workpieces(Protocol):
     def called(self) -> PartView | None:
         """The part program that was called; None for none."""
 
-    def call(self, number: int, watch: Watch) -> Problems:
-        """Reads a workpiece, RAM before EPROM, and plans it. ``watch`` as for ``Console.load``. What was called before
-        stays where this is refused.
-        """
+    def call(self, number: int) -> Problems:
+        """Reads a workpiece, RAM before EPROM, and plans it. What was called before stays where this is refused."""
 
     def forget(self) -> None:
         """No part program is called any more."""

@@ -10,6 +10,7 @@
 BOILER_DRUM is the row of ui/machines.py.
 """
 
+from drillctl.language.words import N_
 from drillctl.ui.boiler_drum.menus import MENUS
 from drillctl.ui.boiler_drum.next_step import next_step
 from drillctl.ui.boiler_drum.panel import Panel
@@ -22,4 +23,5 @@ BOILER_DRUM = MachineScreens(
     first="panel",
     at_start=lambda console, shell: False,
     next_step=next_step,
+    initialise=N_("To initialise means here: set the tool, and take that place as zero."),
 )

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from drillctl.language.words import _
 from drillctl.ui.boiler_drum.monitor import Monitor, WrongKey
 from drillctl.ui.screens.shell import Shell
-from drillctl.viewmodel.console import Console, MachineView, Problems
+from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.workpieces import Workpieces, WorkpieceView
 
 
@@ -92,13 +92,10 @@ class Programming:
         self._shell.choose(_("Workpieces"), lines, lambda index: self._call(found[index].number))
 
     def _call(self, number: int) -> None:
-        def done(problems: Problems) -> None:
-            if not problems:
-                self._monitor.show_workpiece(number)
-            self._answer(problems, _("workpiece {number:02} is called: S (AUTO) runs it").format(number=number))
-
-        stores = self._stores()
-        self._shell.work(lambda watch: stores.call(number, watch), done)
+        problems = self._stores().call(number)
+        if not problems:
+            self._monitor.show_workpiece(number)
+        self._answer(problems, _("workpiece {number:02} is called: S (AUTO) runs it").format(number=number))
 
     def _stores(self) -> Workpieces:
         stores = self._of.workpieces()

@@ -77,6 +77,7 @@ class MachineScreens(NamedTuple):
     first       the screen that is in front to begin with, and is never closed
     next_step   what the machine waits for just now
     at_start    is called once when the first screen is drawn
+    initialise  what to initialise means, where it is no motion to the limit sensors: said in the box of every fault
     """
 
     recognises: Callable[[MachineView], bool]
@@ -85,6 +86,7 @@ class MachineScreens(NamedTuple):
     first: str
     at_start: Callable[[Console, Shell], object]
     next_step: Callable[[Console, MachineView], Step]
+    initialise: str = ""
 
 
 @runtime_checkable
