@@ -22,10 +22,10 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("and the next three. Large figures: where an axis is, in mm."),
     ),
     "Panel": (
-        N_("The machine's own keys and its display of six figures; click or type."),
+        N_("The machine's keys and display of six figures; click or type."),
         N_("Four digits and MEM show a cell; two more digits write it. Two"),
-        N_("digits and PROG call a workpiece, AUTO runs it. Arrows: single steps."),
-        N_("There is no origin switch: to initialise means this place is zero."),
+        N_("digits and PROG call a workpiece; AUTO runs it. Arrows: one step."),
+        N_("There is no origin switch: to initialise means: this is zero."),
         N_("Set the tool there first. ZERO returns to it, the tool first."),
         N_("accumulator: steps from zero; steps left: of this sentence."),
         N_("List: > in execution; X or Y, mm, m/min, seconds, cell."),

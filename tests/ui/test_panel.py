@@ -28,8 +28,7 @@ class Drum(Whole):
         """Types contents at addresses that follow each other."""
         self.type(f"{min(cells):04X}m")
         self.type("+".join(f"{cells[address]:02X}" for address in sorted(cells)))
-        self.press("r", "right", "enter")
-        self.rest()
+        self.press("m")
 
     def rest(self, least: int = 3) -> None:
         """Until nothing is at work any more."""
@@ -97,6 +96,8 @@ def test_a_program_is_typed_in_by_cells_called_and_run(drum: Drum) -> None:
     assert "Workpiece 05 (RAM)" in drum.text()
     assert "8F0002" in drum.text()
     drum.press("s")
+    assert "This place becomes zero" in drum.text()  # nobody has set the tool yet
+    drum.press("right", "enter")
     drum.rest()
     assert drum.places() == [15, 0]
     drum.press("z")

@@ -68,10 +68,17 @@ class Monitor:
         return None
 
     def rub_out(self) -> None:
-        """Takes the last digit back; without one, the prompt is shown."""
-        self.typed = self.typed[:-1]
-        if not self.typed and self.shows != "cell":
+        """Takes the last digit back; shows the prompt again where no digit of an address or number is left."""
+        left = self.typed[:-1]
+        if left or (self.shows == "cell" and self.typed):
+            self.typed = left
+        else:
             self.clear()
+
+    @property
+    def at_a_cell(self) -> bool:
+        """Whether a cell is shown, and no digit of a new content is typed."""
+        return self.shows == "cell" and not self.typed
 
     def clear(self) -> None:
         """Shows the prompt."""

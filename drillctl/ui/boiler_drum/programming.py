@@ -38,8 +38,11 @@ class Programming:
         self._do(self._monitor.rub_out)
 
     def memory(self) -> None:
-        """Shows the cell of the address that is typed."""
-        self._do(lambda: self._show_cell(self._monitor.wanted_address()))
+        """Shows the cell of the address that is typed; at a cell, the prompt, for another address."""
+        if self._monitor.at_a_cell:
+            self._do(self._monitor.clear)
+        else:
+            self._do(lambda: self._show_cell(self._monitor.wanted_address()))
 
     def next_cell(self, by: int) -> None:
         """Shows the cell beside the one that is shown."""
@@ -70,7 +73,7 @@ class Programming:
             return
         address = self._monitor.address
         if problems := self._stores().set_cell(address, content):
-            self._monitor.rub_out()
+            self._monitor.typed = ""
             self._answer(problems)
         else:
             self._monitor.show_cell(address, content)
