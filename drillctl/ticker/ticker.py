@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from drillctl.execution import Controller, loaded, look, report, tick
+from drillctl.execution.fastforward.stretch import counting_ticks, leave_counted
 from drillctl.kmd import (
     STATUS,
     CommandQueue,
@@ -22,7 +23,7 @@ from drillctl.kmd import (
     takes_commands,
 )
 from drillctl.machine import Machine
-from drillctl.plant import IDEAL_PLANT, Plant, PlantChoice
+from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ports import Driver
 from drillctl.ticker.sampler import Keeper, Sampler
@@ -104,6 +105,16 @@ class Ticker:
             return 0
         ticks = self.run(1)
         self.gate.passed(ticks)
+        return ticks
+
+    def pass_counting(self, most: int) -> int:
+        """Passes at most so many ticks together, in which axes only count and nothing is put out; returns how many.
+        On the ideal plant alone: another goes on between the columns too, and real inputs change at any time.
+        """
+        if not isinstance(self.plant, IdealPlant) or self.gate.paused:
+            return 0
+        ticks = counting_ticks(self.controller, self.port.latch(), most)
+        leave_counted(self.controller, ticks)
         return ticks
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:

@@ -74,6 +74,28 @@ def leave(m: Controller, ticks: int, image: int) -> None:
             m.moving += axis.counting
 
 
+def counting_ticks(m: Controller, inputs: int, most: int) -> int:
+    """Returns for how many of the next ticks, at most ``most``, the axes count and no column is put out; 0 where
+    anything else may happen. ``inputs`` as for ``foresee``.
+    """
+    ticks = min(most, _undisturbed(m, inputs))
+    for axis in m.axes:
+        if axis.motion == SETTLING or not _is_quiet(axis, m.sensors, m.position_known):
+            return 0
+        if axis.counting:
+            ticks = min(ticks, axis.wait - axis.count - 1)
+    return max(ticks, 0)
+
+
+def leave_counted(m: Controller, ticks: int) -> None:
+    """Makes the controller what it is after so many ticks of ``counting_ticks``."""
+    m.elapsed += ticks
+    m.tick += ticks
+    for axis in m.axes:
+        if axis.counting:
+            axis.count += ticks
+
+
 def _undisturbed(m: Controller, inputs: int) -> int:
     """Returns for how many ticks the current command goes on, and nothing but its axes may change how."""
     if m.stage != Stage.RUNNING or not m.busy or m.requests.waiting or inputs != m.inputs:

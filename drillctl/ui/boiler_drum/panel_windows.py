@@ -46,10 +46,13 @@ class Drawn(urwid.Widget):
     def __init__(self, lines: Callable[[int, int], list[Line]]):
         super().__init__()
         self._lines = lines
+        self._values: tuple[object, ...] = ()
 
-    def changed(self) -> None:
-        """Draws it anew when the screen is drawn next."""
-        self._invalidate()
+    def depend(self, *values: object) -> None:
+        """Takes what the lines are made of, and draws them anew if that is something else than at the last call."""
+        if values != self._values:
+            self._values = values
+            self._invalidate()
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws the lines that fit."""
@@ -77,10 +80,14 @@ class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
 
     def show(self, now: Shown) -> None:
         """Takes what is to be drawn; redraws only if something is new."""
-        if getattr(self, "_now", None) != now:
-            self._now = now
-            for drawn in self._drawn:
-                drawn.changed()
+        self._now = now
+        work = now.part, now.sentence, now.done
+        display, counters, program, wall, told = self._drawn
+        display.depend(now.figures)
+        counters.depend(now.view.axes, now.view.sensors, now.part)
+        program.depend(*work)
+        wall.depend(*work, now.view.axes)
+        told.depend(*work, now.progress)
 
     def lay_out(self, room: Layout, columns: int) -> None:
         """Shows the windows that there is room for on a screen of so many columns."""
