@@ -6,7 +6,7 @@ host is ever written.
     values     four kinds of value (word, count, name, command): how each is shown, read and checked
     record     Signal, Recorder -> Trace: columns tick, signal, value; changes only
     text       Trace -> text file, the form of golden files
-    reader     text file -> Trace, or a TraceError that names file and line
+    reader     text file -> Trace, or a TraceError that names file and line; text_lines, text_changes: its parts
     diff       the first tick at which two traces differ, and the command it happened in
     tapes      pool of port images, and the output of an axis as slices of it
     segments   a trace in the segment form; segment_file: as a file
@@ -20,12 +20,13 @@ host is ever written.
 """
 
 from drillctl.trace.diff import Difference, first_difference, render
-from drillctl.trace.reader import TraceError, read_text
+from drillctl.trace.reader import read_text
 from drillctl.trace.record import Recorder, Signal, Trace
 from drillctl.trace.segment_file import is_segments, read_segments, segment_bytes
 from drillctl.trace.segments import Segments
 from drillctl.trace.shape import dense
 from drillctl.trace.text import is_trace, write_text
+from drillctl.trace.text_lines import TraceError
 from drillctl.trace.values import named_signal_kind, pack_command
 from drillctl.trace.vcd import VcdLayout, VcdVar, write_vcd
 

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from drillctl.files.inputs import read_bytes, read_start
 from drillctl.language import Message, message_of
-from drillctl.trace.reader import TraceError, read_text
+from drillctl.trace.reader import read_text
 from drillctl.trace.record import Trace
 from drillctl.trace.segments import MOST_TICKS, OUTPUT, Segments
 from drillctl.trace.tapes import Images, Tape
 from drillctl.trace.text import COMMAND, write_text
+from drillctl.trace.text_lines import TraceError
 from drillctl.trace.values import Values
 
 MAGIC = b"drillctl-segments 1\n"

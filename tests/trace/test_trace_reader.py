@@ -1,13 +1,15 @@
 """What the reader refuses: a good file with one thing wrong, and the line and reason it must name."""
 
 import io
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drillctl.trace import Trace, TraceError, read_text, reader, write_text
+from drillctl.trace import Trace, TraceError, read_text, reader, text_lines, write_text
+from drillctl.trace.text_changes import TextChanges
 
 GOOD = """\
 drillctl-trace 1
@@ -183,3 +185,52 @@ def test_nothing_but_a_trace_error(start: int, length: int, put_in: str) -> None
         again = io.StringIO()
         write_text(trace, again, derived=True)
         assert again.getvalue().partition("#")[0] == text.partition("#")[0]
+
+
+LONG = GOOD[: GOOD.index("7 late")] + "".join(
+    f"{tick} out.0 0x{tick % 7:08x}\n" + f"{tick} late {tick}\n" * (tick % 3 == 0) for tick in range(4, 60)
+) + "end 60\n# late 1\n"  # fmt: skip
+
+
+def outcome(text: str) -> Trace | str:
+    """The trace in a text, or why and where it is refused."""
+    try:
+        return read(text)
+    except TraceError as error:
+        return str(error)
+
+
+CHANGES = LONG[LONG.index("\n\n") + 2 :].splitlines()
+DAMAGES = (
+    *(lambda line, word=word: word + line for word in ("", "0", " ", "-", "x", "\u0663", "\udcff", "7 late 3\n", "\n")),
+    *(lambda line, word=word: line + word for word in (" ", "0", "\n\n", "x" * 4096)),
+    *(lambda line, digit=digit: line[:-1] + digit for digit in "0123456"),
+    lambda line: line.replace(" ", "", 1), lambda line: line.replace(" out", " oat"), lambda line: "end 5",
+    lambda line: f"{line}\n{line}", lambda line: line[:-1], lambda line: f"{line.partition(' ')[0]} late 4",
+)  # fmt: skip
+
+
+@settings(max_examples=250, deadline=None)
+@given(
+    st.integers(1, 400), st.integers(3, len(CHANGES) - 1), st.integers(0, 6), st.sampled_from(DAMAGES)
+)  # fmt: skip
+def test_pages_of_lines_are_read_as_single_lines_are(
+    page: int, at: int, from_there: int, damage: Callable[[str], str]
+) -> None:
+    """Whatever is damaged or moved to another line, and wherever pages end: the same trace, or the same refusal."""
+    other = CHANGES[max(at - from_there, 0)]
+    text = LONG.replace(f"{CHANGES[at]}\n", f"{damage(other)}\n")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(text_lines, "PAGE_CHARACTERS", page)
+        by_pages = outcome(text)
+        patch.setattr(TextChanges, "_page", lambda changes, page: None)
+        assert by_pages == outcome(text)
+
+
+def test_a_page_of_changes_is_not_gone_through_line_by_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[int] = []
+    keep = TextChanges._keep
+    monkeypatch.setattr(text_lines, "PAGE_CHARACTERS", 300)
+    monkeypatch.setattr(TextChanges, "_keep", lambda self, *row: (kept.append(row[0]), keep(self, *row)))
+    assert read(LONG).value_at("late", 59) == 57
+    assert len(kept) < 30

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from drillctl.trace import Signal, Trace, is_trace, named_signal_kind, read_text, reader, write_text
+from drillctl.trace import Signal, Trace, is_trace, named_signal_kind, read_text, text_lines, write_text
 
 GOLDEN = """\
 drillctl-trace 1
@@ -134,7 +134,7 @@ def test_how_much_of_a_file_is_read_is_told_and_may_end_the_reading(
     def give_up(done: int, total: int) -> None:
         raise GivenUp
 
-    monkeypatch.setattr(reader, "TOLD_EVERY", 3)
+    monkeypatch.setattr(text_lines, "PAGE_CHARACTERS", 30)
     write_text(trace, tmp_path / "golden")
     size, told = (tmp_path / "golden").stat().st_size, []
     assert read_text(tmp_path / "golden", advance=lambda done, total: told.append((done, total))) == read_text(
