@@ -35,7 +35,7 @@ ROWS = (
 SWITCHES = (PanelKey(N_("PAUSE"), "pause"), PanelKey(N_("EMERGENCY STOP"), "emergency_stop"))
 DIGIT_COLUMNS, FUNCTION_COLUMNS = 4, 8
 COLUMNS = 4 * DIGIT_COLUMNS + 3 * FUNCTION_COLUMNS
-LEAST_ROWS = len(ROWS) + 1
+LEAST_ROWS, ROWS_APART = len(ROWS) + 1, 2 * len(ROWS) + 1
 Place = tuple[int, range, PanelKey]  # row, columns, key
 
 
@@ -71,7 +71,7 @@ class Keypad(urwid.Widget):
 
 def places(rows: int) -> list[Place]:
     """Where the keys stand in a box of so many rows: those that fit."""
-    step = 2 if rows >= 2 * len(ROWS) + 1 else 1
+    step = 2 if rows >= ROWS_APART else 1
     found: list[Place] = []
     for index, keys in enumerate(ROWS):
         left = 0

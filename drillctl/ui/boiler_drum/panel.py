@@ -11,7 +11,7 @@ from drillctl.language.words import N_, _
 from drillctl.ui.boiler_drum.keypad import PanelKey
 from drillctl.ui.boiler_drum.next_step import next_step
 from drillctl.ui.boiler_drum.panel_windows import PanelWindows, Shown
-from drillctl.ui.boiler_drum.programming import Programming
+from drillctl.ui.boiler_drum.programming import HEX_KEYS, Programming
 from drillctl.ui.screens.jog_controls import STEPS, JogControls
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.tick_rate import ask_tick_hz
@@ -19,8 +19,6 @@ from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import Console, MachineView
-
-HEX_KEYS = (*"0123456789abcdef",)
 
 
 class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
@@ -65,13 +63,15 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
 
     def keypress(self, size: Size, key: str) -> str | None:
         """Clears the last answer and calls the method of a key in the table; returns any other key."""
-        self._note, self._pressed = ("body", ""), key
-        return None if called(self, self.keys, key) else key
+        self._note, self._pressed = ("body", ""), key.lower()
+        taken = called(self, self.keys, key)
+        self._pressed = ""
+        return None if taken else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Lays the windows out for this size."""
         assert len(size) == 2
-        self._windows.lay_out(layout(*size), size[0])
+        self._windows.lay_out(layout(*size), size[0], size[1] - 1)
         return super().render(size, focus)
 
     def refresh(self, view: MachineView) -> None:

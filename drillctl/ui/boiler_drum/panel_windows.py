@@ -21,7 +21,7 @@ from drillctl.viewmodel.console import AxisView, MachineView
 from drillctl.viewmodel.records import Progress
 from drillctl.viewmodel.workpieces import PartView
 
-DISPLAY_ROWS, KEYPAD_ROWS, WALL_ROWS, FACTS_ROWS = 4, 9, 5, 7
+DISPLAY_ROWS, COUNTER_ROWS, WALL_ROWS, FACTS_ROWS = 4, 4, 5, 7
 LEAST_BESIDE = 30  # columns: a part program in fewer says nothing
 
 
@@ -69,7 +69,8 @@ class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
         self._plain = plain
         drawn = (self._display, self._counters, self._program, self._wall, self._facts)
         self._drawn = display, counters, program, wall, told = [Drawn(lines) for lines in drawn]
-        keys = urwid.Pile([("given", DISPLAY_ROWS, display), ("given", KEYPAD_ROWS, keypad.Keypad(pressed)), counters])
+        self._keypad = keypad.Keypad(pressed)
+        keys = self._keys = urwid.Pile([("given", DISPLAY_ROWS, display), self._keypad, counters])
         part = urwid.Pile([program, ("given", FACTS_ROWS, told)])
         self._panel, self._part = Window(keys, _("Keys")), Window(part, _("Part program"))
         self._drum = Window(wall, _("Drum wall"))
@@ -89,9 +90,12 @@ class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
         wall.depend(*work, now.view.axes)
         told.depend(*work, now.progress)
 
-    def lay_out(self, room: Layout, columns: int) -> None:
-        """Shows the windows that there is room for on a screen of so many columns."""
+    def lay_out(self, room: Layout, columns: int, rows: int) -> None:
+        """Shows the windows that there is room for on a screen of this size; the keys stand closer on few rows."""
         edges = 2 * room.framed
+        apart = rows - edges >= DISPLAY_ROWS + keypad.ROWS_APART + COUNTER_ROWS
+        keys = self._keys.options("given", keypad.ROWS_APART if apart else keypad.LEAST_ROWS)
+        self._keys.contents[1] = (self._keypad, keys)
         for window in (self._panel, self._part, self._drum):
             window.show(room.framed)
         whole, given = self._columns.options(), self._columns.options
@@ -99,8 +103,8 @@ class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
         left: Any = (self._panel, given("given", keypad.COLUMNS + edges) if beside else whole)
         rule = [] if room.framed else [(self._rule, given("given", 1))]
         self._columns.contents = [left, *rule, (self._beside, whole)] if beside else [left]
-        rows = self._beside.options("given", WALL_ROWS + edges)
-        self._beside.contents = [(self._part, self._beside.options()), (self._drum, rows)]
+        wall = self._beside.options("given", WALL_ROWS + edges)
+        self._beside.contents = [(self._part, self._beside.options()), (self._drum, wall)]
 
     def _display(self, _columns: int, _rows: int) -> list[Line]:
         return [[("accent", row)] for row in segments.figures(self._now.figures)]

@@ -6,11 +6,14 @@ display stays as it is.
 
 from collections.abc import Callable
 
+from drillctl.language import Message
 from drillctl.language.words import _
-from drillctl.ui.boiler_drum.monitor import Monitor, WrongKey
+from drillctl.ui.boiler_drum.monitor import HEX_DIGITS, Monitor, WrongKey
 from drillctl.ui.screens.shell import Shell
 from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.workpieces import Workpieces, WorkpieceView
+
+HEX_KEYS = (*HEX_DIGITS.lower(),)
 
 
 class Programming:
@@ -26,8 +29,11 @@ class Programming:
         self._monitor, self._pressed = Monitor(), ""
 
     def typed_digit(self) -> None:
-        """Types the digit of the key that was pressed."""
-        self.digit(self._pressed.upper())
+        """Types the digit of the key that was pressed; refused where none was: the finder of actions has no digit."""
+        if self._pressed in HEX_KEYS:
+            self.digit(self._pressed.upper())
+        else:
+            self._answer((Message("type the digit itself: 0 to 9, A to F"),))
 
     def digit(self, figure: str) -> None:
         """Types a digit; the second of a cell's content writes the cell."""
