@@ -3,15 +3,22 @@
 Run as ``python -m benchmarks.tick_cost``. Targets: under 10 us a tick, so that 500 Hz is under 1 % of a core, and
 nothing kept by any tick or command. The median of 7 runs stands beside the machine's load and beside the cost of
 calling an empty Python function in the same loop, since microseconds alone say little about another computer.
+
+With ``--bytecodes`` it prints instead how many bytecodes of the interpreter a tick runs, by function. That count is the
+same on a busy machine as on a quiet one, so two versions of the code can be compared by it.
 """
 
+import argparse
 import gc
 import os
 import sys
+from collections import Counter
 from collections.abc import Callable
 from itertools import pairwise
 from statistics import median
 from time import process_time_ns
+from types import FrameType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +34,7 @@ MOST_KEPT = 0.5  # blocks a command; what is kept by each command or tick would 
 RUNS = 7
 WINDOW_TICKS = 20_000
 WARM_UP_TICKS = 3_000
+COUNTED_TICKS = 4_000
 LONG_STEPS, SHORT_STEPS = 600, 20
 ROUNDS = 60  # there and back
 
@@ -85,6 +93,27 @@ def empty_call_us() -> float:
     return _per_call_us(lambda: None)
 
 
+def bytecodes(name: str) -> dict[str, float]:
+    """Bytecodes that one tick runs with three axes in long moves, by the function they belong to."""
+    m = three_axes_moving(name, LONG_STEPS)
+    counted: Counter[str] = Counter()
+
+    def trace(frame: FrameType, event: str, _argument: object) -> Any:
+        if event == "call":
+            frame.f_trace_lines, frame.f_trace_opcodes = False, True
+        elif event == "opcode":
+            counted[frame.f_code.co_qualname] += 1
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    for _ in range(COUNTED_TICKS):
+        tick(m)
+    sys.settrace(before)
+    assert not m.fault, "the job ended before the measurement"
+    return {function: count / COUNTED_TICKS for function, count in counted.most_common()}
+
+
 def blocks_kept(name: str) -> float:
     """Memory blocks kept by 20,000 ticks of short moves, for each command: the least of three such windows.
 
@@ -112,8 +141,23 @@ def _per_call_us(call: Callable[[], None]) -> float:
     return (process_time_ns() - started) / 1000 / WINDOW_TICKS
 
 
+def print_bytecodes() -> None:
+    """Prints the bytecodes of a tick, a line a machine, and those of each function that has more than one a tick."""
+    for name in MACHINES:
+        counts = bytecodes(name)
+        print(f"{name:20} {sum(counts.values()):7.1f} bytecodes a tick")
+        for function, count in counts.items():
+            if count >= 1:
+                print(f"    {function:32} {count:7.1f}")
+
+
 def main() -> int:
     """Prints a line a machine; 1 where a target is missed."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.tick_cost", description="What one tick costs.")
+    parser.add_argument("--bytecodes", action="store_true", help="count bytecodes instead of time")
+    if parser.parse_args().bytecodes:
+        print_bytecodes()
+        return 0
     empty_us = median(empty_call_us() for _ in range(RUNS))
     print(f"python {sys.version.split()[0]}, numpy {np.__version__}, load {os.getloadavg()[0]:.2f}")
     print(f"an empty call {empty_us:.3f} us; {WINDOW_TICKS} ticks, median of {RUNS}")

@@ -1,45 +1,17 @@
 """One motor: where it is, which state of its ramp it is in, which column of its phase table is out.
 
 An axis that counts waits the interval of its state, puts the next column out, and after each whole step asks the ramp
-for the next state (paper, section 4; machine/ramp.py). What it is about is one value, ``motion``:
-
-    REST               stands still without forcing
-    SETTLING           came to rest in this tick; the forcing wires go off in the next one (docs/SPEC.md, 1.5)
-    FOLLOWER_SETTLING  the same for a follower whose leader has paused on its line
-    FOLLOWING          steps when its leader steps (line.py); it doesn't count by itself
-    MOVING             counts towards its target and may accelerate
-    BRAKING            counts towards its target; it has braked, so it accelerates no more before state 0
-    HOLDING            counts and brakes down to state 0; the target stays
-    STOPPING           the same, but where it comes to rest is its target
-
+for the next state (paper, section 4; machine/ramp.py). What it is about is one value, ``motion`` (motion.py).
 Positions are steps. An axis knows nothing of sensors.
 """
 
-from enum import IntEnum
 from typing import Protocol
 
+from drillctl.execution.axis_wires import column_images, forcing_bits, winding_halves
+from drillctl.execution.motion import BRAKING, COOLED, FOLLOWING, FOLLOWS, HOLDING, MOVING, REST, SETTLING, STOPPING
 from drillctl.machine import AxisTable
-from drillctl.machine.hazards import opposite_halves
 from drillctl.machine.landing import strokes_of
 from drillctl.ports import with_bits
-
-
-class AxisMotion(IntEnum):
-    """What an axis is about. From MOVING on it counts."""
-
-    REST = 0
-    SETTLING = 1
-    FOLLOWER_SETTLING = 2
-    FOLLOWING = 3
-    MOVING = 4
-    BRAKING = 5
-    HOLDING = 6
-    STOPPING = 7
-
-
-# Plain integers: a tick compares them for each axis.
-REST, SETTLING, FOLLOWER_SETTLING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING = (each.value for each in AxisMotion)
-COOLED = (REST, REST, FOLLOWING, FOLLOWING, MOVING, BRAKING, HOLDING, STOPPING)  # by motion: once the forcing is off
 
 
 class Followers(Protocol):
@@ -76,9 +48,9 @@ class Axis:
         self.reach = reach or (self.low, self.high)  # where it can be sent: its range short of its limit sensors
         self.up = max(0, self.reach[0])  # the return to zero ends here; a head fed by a distance waits here
         self.wires = sum(1 << bit for bit in table.wire_bits)
-        self.forcing, self.halves = _forcing(table), _halves(table)
-        self.drive_patterns = _patterns(table, forcing=True)
-        self.hold_patterns = _patterns(table, forcing=False)
+        self.forcing, self.halves = forcing_bits(table), winding_halves(table)
+        self.drive_patterns = column_images(table, forcing=True)
+        self.hold_patterns = column_images(table, forcing=False)
         self.column = self.length - 1  # so that the first step forward puts the first column out
         self.position = self.target = self.base = self.made = self.travelled = 0
         self.least = self.most = 0  # between these it has turned round since its phases were off, or its zero was taken
@@ -100,7 +72,7 @@ class Axis:
     @property
     def follows(self) -> bool:
         """Whether another axis leads it along a line."""
-        return self.motion == FOLLOWING or self.motion == FOLLOWER_SETTLING
+        return self.motion in FOLLOWS
 
     def set_target(self, target: int, min_interval: int) -> None:
         """A new target, with the shortest interval allowed. In state 0 the count restarts; in motion it goes on."""
@@ -142,9 +114,10 @@ class Axis:
     def interrupt(self) -> bool:
         """One tick of an axis that counts. True while it still counts afterwards."""
         self.count += 1
-        if self.count >= self.wait:
-            self.count = 0
-            self.advance()
+        if self.count < self.wait:
+            return True
+        self.count = 0
+        self.advance()
         return self.motion >= MOVING
 
     def hold(self) -> None:
@@ -263,12 +236,15 @@ class Axis:
         if motion >= HOLDING:
             after = state - direction if state else 0
         else:
-            may_rise = motion == MOVING and self.interval[state] > self.min_interval
-            may_rise = may_rise and (state != 0 or to_go >= self.ramped_from)
+            may_rise = (
+                motion == MOVING
+                and self.interval[state] > self.min_interval
+                and (state != 0 or to_go >= self.ramped_from)
+            )
             after = self.ramp.after_step(state, direction, to_go, may_rise)
         self.state = after
         if after:
-            if motion == MOVING and after * direction < state * direction:
+            if after != state and motion == MOVING and after * direction < state * direction:
                 self.motion = BRAKING
             self.wait = max(self.interval[after], self.min_interval)
         elif to_go == 0 or motion >= HOLDING:
@@ -286,23 +262,3 @@ class Axis:
         self.motion = SETTLING
         if self.followers is not None:
             self.followers.rest()
-
-
-def _forcing(table: AxisTable) -> int:
-    """The bits of the forcing wires."""
-    return sum(1 << bit for wire, bit in zip(table.phase.wires, table.wire_bits, strict=True) if wire.forcing)
-
-
-def _halves(table: AxisTable) -> tuple[int, ...]:
-    """The bits of both halves of a winding, for each winding that has two."""
-    bits = dict(zip(table.phase.wire_names(), table.wire_bits, strict=True))
-    return tuple(1 << bits[one] | 1 << bits[other] for one, other in opposite_halves(table.motor))
-
-
-def _patterns(table: AxisTable, forcing: bool) -> tuple[tuple[int, ...], ...]:
-    """Port images of all columns: index 1 for forward, -1 for backward (0 unused); one tuple where they agree."""
-    wires = [(w, bit) for w, bit in zip(table.phase.wires, table.wire_bits, strict=True) if forcing or not w.forcing]
-    columns = range(table.phase.columns)
-    forward = tuple(sum(1 << bit for wire, bit in wires if wire.forward[column]) for column in columns)
-    backward = tuple(sum(1 << bit for wire, bit in wires if wire.backward[column]) for column in columns)
-    return ((), forward, forward if backward == forward else backward)

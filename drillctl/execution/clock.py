@@ -7,9 +7,9 @@ ticks are never closer together than half a period; what is less is jitter, and 
 import time
 from collections.abc import Callable
 
-from drillctl.execution.axis import SETTLING
 from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
+from drillctl.execution.motion import SETTLING
 from drillctl.execution.stops import too_fast_to_stop
 from drillctl.kmd import Fault
 

@@ -7,16 +7,17 @@ that axis may then move the other way only. The others may move, watched by thei
 nothing moved tells no end, and nothing may move.
 """
 
-from drillctl.execution.axis import SETTLING, STOPPING, Axis
+from drillctl.execution.axis import Axis
 from drillctl.execution.conditions import raise_fault, serve_inputs
 from drillctl.execution.controller import Controller
+from drillctl.execution.motion import SETTLING, STOPPING
 from drillctl.kmd import Fault
 
 
 def guard(m: Controller) -> None:
     """Checks everything that can stop the machine; at most one fault a tick is raised."""
     sensors = m.sensors
-    if (sensors & m.action_mask or m.estops) and serve_inputs(m):
+    if m.action_mask and (sensors & m.action_mask or m.estops) and serve_inputs(m):
         return
     if m.shared:
         _note_ends(m, sensors & m.shared)
@@ -25,9 +26,9 @@ def guard(m: Controller) -> None:
             raise_fault(m, Fault.SENSOR_CONTRADICTION)
             return
     for axis in m.axes:
-        if SETTLING < axis.motion < STOPPING:
+        if axis.motion > SETTLING:
             fault = _watch(m, axis, sensors)
-            if fault:
+            if fault and axis.motion != STOPPING:  # it is being stopped already
                 raise_fault(m, fault)
                 return
     if m.time_limit and m.elapsed >= m.time_limit:

@@ -3,7 +3,8 @@
 Rule: integer DDA (Bresenham); after the leader's last step every follower stands on its target too.
 """
 
-from drillctl.execution.axis import FOLLOWER_SETTLING, SETTLING, Axis
+from drillctl.execution.axis import Axis
+from drillctl.execution.motion import FOLLOWER_SETTLING, SETTLING
 
 
 class Line:

@@ -5,12 +5,12 @@
 docs/SPEC.md, section 1, has the order to the letter. No container is built here, nothing grows.
 """
 
-from drillctl.execution.axis import FOLLOWING, MOVING, REST
 from drillctl.execution.clock import apply_gap
 from drillctl.execution.commands import finish, start_next
 from drillctl.execution.conditions import Event, occur, serve
 from drillctl.execution.controller import Controller, Stage
 from drillctl.execution.limit_checks import guard
+from drillctl.execution.motion import MOVING, SETTLES
 from drillctl.execution.stops import cut_off
 
 RUNNING, LATCHED = Stage.RUNNING.value, Stage.LATCHED.value
@@ -34,7 +34,7 @@ def tick(m: Controller) -> None:
     if not m.busy and m.stage <= RUNNING:
         command_missing = not start_next(m)
     for axis in m.axes:
-        if FOLLOWING > axis.motion > REST:
+        if axis.motion in SETTLES:
             axis.cool()
     if command_missing and m.job:
         m.underruns += 1

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import pytest
 
-from drillctl.execution.axis import Axis, AxisMotion
+from drillctl.execution.axis import Axis
+from drillctl.execution.motion import AxisMotion
 from drillctl.machine import travel_ticks
 from tests.support.axes import RAMPS, Step, lone_axis, next_step, steps_to_rest
 from tests.support.paper import INTERVALS

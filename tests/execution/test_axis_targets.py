@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from drillctl.execution.axis import Axis, AxisMotion
+from drillctl.execution.axis import Axis
+from drillctl.execution.motion import AxisMotion
 from tests.support.axes import RAMPS, lone_axis, next_step, steps_to_rest
 
 # Through every state and down again.

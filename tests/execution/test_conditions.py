@@ -5,9 +5,9 @@ from itertools import pairwise
 
 import pytest
 
-from drillctl.execution.axis import AxisMotion
 from drillctl.execution.conditions import TABLE, Event, raise_fault
 from drillctl.execution.controller import CONDITIONS, Stage
+from drillctl.execution.motion import AxisMotion
 from drillctl.kmd import Fault, Request
 from tests.support.bench import Bench, shipped
 from tests.support.invariants import Invariants

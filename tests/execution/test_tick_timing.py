@@ -2,7 +2,7 @@
 
 import pytest
 
-from drillctl.execution.axis import AxisMotion
+from drillctl.execution.motion import AxisMotion
 from drillctl.kmd import Fault, Op
 from drillctl.machine import travel_ticks
 from tests.support.bench import MACHINES, Bench, shipped

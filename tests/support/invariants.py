@@ -6,8 +6,9 @@ Create one for a controller and call it after each tick; it remembers the tick b
 from dataclasses import dataclass
 
 from drillctl.execution import Controller
-from drillctl.execution.axis import MOVING, REST, SETTLING, Axis
+from drillctl.execution.axis import Axis
 from drillctl.execution.controller import CONDITIONS, Stage
+from drillctl.execution.motion import MOVING, REST, SETTLING
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.axis import REST, SETTLING, Axis
+from drillctl.execution.axis import Axis
 from drillctl.execution.fastforward.move_profile import MoveProfile
+from drillctl.execution.motion import REST, SETTLING
 from drillctl.trace.tapes import PERIOD, Count, ImagePool
 
 Profiles = Callable[[int, int], MoveProfile]  # by direction and min_interval

@@ -7,13 +7,14 @@ heads that tick does for the first time is recorded.
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.axis import SETTLING, Axis
+from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller, Stage
 from drillctl.execution.fastforward.batch import Batch
 from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.plan import foresee, is_stroke, signatures
 from drillctl.execution.fastforward.strokes import Recording, Strokes
 from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.execution.motion import SETTLING
 from drillctl.kmd import Condition, Op
 from drillctl.trace.tapes import ImagePool
 

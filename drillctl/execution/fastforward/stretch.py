@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.axis import BRAKING, MOVING, REST, SETTLING, STOPPING, Axis
+from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller, Stage
+from drillctl.execution.motion import BRAKING, MOVING, REST, SETTLING, STOPPING
 from drillctl.kmd import Op
 
 LONGEST = 1 << 16  # ticks: more take too much memory at once

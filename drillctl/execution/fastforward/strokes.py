@@ -9,9 +9,10 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import Any
 
-from drillctl.execution.axis import COOLED, Axis
+from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.execution.motion import COOLED
 from drillctl.trace.tapes import ImagePool
 
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
