@@ -42,9 +42,9 @@ def commands(draw: st.DrawFn, machine: Machine) -> str:
         f"KMD_RUCH {places}", f"KMD_RUCHd {ways}", f"KMD_LINIA {places}", f"KMD_LINIAd {ways}",
         "KMD_BAZA", f"KMD_BAZA {some[0]}", f"KMD_PREDKOSC {draw(st.sampled_from([0, 1, 2, 3, 5, 9, 40]))}",
         f"KMD_CZEKAJ {draw(st.sampled_from([0, 1, 2, 77, 5000]))}", "KMD_WRZECIONO 9", "KMD_WRZECIONO 0",
-        "KMD_NARZEDZIE 3", "KMD_INICJALIZACJA", f"KMD_FAZY_WYL {some[0]}", "KMD_FAZY_WYL",
+        "KMD_NARZEDZIE 3", "KMD_INICJALIZACJA", "KMD_POWROT", f"KMD_FAZY_WYL {some[0]}", "KMD_FAZY_WYL",
         *(f"KMD_WYJSCIE {name} {level}" for name, _ in machine.outputs for level in (0, 1)),
-        *(f"KMD_CZEKAJ_WE {s.name} {level} 9" for s in machine.sensors for level in (0, 1)),
+        *(f"KMD_CZEKAJ_WE {line.name} {level} 9" for line in machine.input_lines for level in (0, 1)),
     ]  # fmt: skip
     return draw(st.sampled_from(forms))
 

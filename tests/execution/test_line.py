@@ -111,7 +111,8 @@ def test_a_stop_anywhere_on_a_line_leaves_it_on_the_line_and_free(name: str) -> 
 
 @pytest.mark.parametrize("start", [1, 7, 20, 50, 70])
 def test_an_emergency_stop_on_a_line_ends_the_line(start: int) -> None:
-    b = Bench(shipped("boiler-drum")).ready().queue("KMD_LINIA x=60 y=37").tick(start)
+    machine = replace(shipped("boiler-drum"), emergency_stop="hold", only_zero_after=())
+    b = Bench(machine).ready().queue("KMD_LINIA x=60 y=37").tick(start)
     b.ask(Request.ESTOP).tick().ask(Request.ACK).tick()
     assert not any(axis.follows or axis.followers for axis in b.m.axes)
     homing = "" if b.m.position_known else "KMD_INICJALIZACJA;"

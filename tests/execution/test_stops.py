@@ -15,6 +15,11 @@ def ready(name: str = "pcb-drill") -> Bench:
     return Bench(shipped(name)).ready()
 
 
+def holding() -> Bench:
+    """A machine that holds its current on an emergency stop and may go on afterwards."""
+    return Bench(replace(shipped("boiler-drum"), emergency_stop="hold", only_zero_after=())).ready()
+
+
 def plain_end(name: str) -> tuple[list[int], int]:
     """Where an undisturbed job ends, and when."""
     b = ready(name).queue(JOB)
@@ -132,7 +137,7 @@ def test_an_emergency_stop_drops_everything_in_its_tick(start: int) -> None:
 @pytest.mark.parametrize("start", [1, 7, 30, 60, 150])
 @pytest.mark.parametrize("move", ["KMD_LINIA x=200 y=100", "KMD_GOTO_X_Y 200 3", "KMD_RUCHd x=0 y=150"])
 def test_a_machine_that_holds_stops_its_pulses_and_keeps_its_place_from_states_0_and_1(start: int, move: str) -> None:
-    b = ready("boiler-drum").queue(move).tick(start)
+    b = holding().queue(move).tick(start)
     place, current = b.positions(), b.images[-1]
     slow = all(abs(axis.state) <= 1 for axis in b.m.axes)
     assert slow == (start < 30), "the ramp of this machine rises a state with each step"
