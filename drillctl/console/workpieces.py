@@ -127,7 +127,7 @@ class StoredWorkpieces:
         return ()
 
     def carry_on(self) -> None:
-        """Begins the return that waits for the end of a held program; a fault on the way there ends the wish."""
+        """Begins the return that waits for the end of a held program; none begins after a fault."""
         if self._zero_wanted and not self._running.at_work:
             self._zero_wanted = False
             if self._used.link.status()["condition"] == Condition.READY:

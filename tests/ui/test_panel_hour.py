@@ -34,6 +34,7 @@ def typed(address: str, contents: bytes) -> Iterator["terminals.Act"]:
 
 
 def programming() -> Iterator["terminals.Act"]:
+    """Directory and sentences are typed in, and the workpiece is called."""
     yield Act((), (word("No workpiece is called."), word("position not known")))
     yield from typed(DIRECTORY, bytes.fromhex(FIRST))
     yield from typed(FIRST, bytes.fromhex(PROGRAM + "FF"))
@@ -41,7 +42,7 @@ def programming() -> Iterator["terminals.Act"]:
 
 
 def running() -> Iterator["terminals.Act"]:
-    """Zero is taken after a question; a pause in the same breath; then to the end."""
+    """Zero is taken after a question; a pause is pressed with it; then to the end."""
     yield Act(("s",), (word("Run workpiece {number:02}?").format(number=NUMBER),))
     yield Act((*YES, " "), (word("HELD"),))
     ended = (f"{END_X_STEPS:+d} ", word("READY"), word("{done} of {total}").format(done=1, total=1), word("at rest"))
@@ -49,6 +50,7 @@ def running() -> Iterator["terminals.Act"]:
 
 
 def returning() -> Iterator["terminals.Act"]:
+    """Back to zero after the program's end."""
     yield Act(("z",), (" +0.00", word("at rest"), word("READY")), gone=(f"{END_X_STEPS:+d} ",))
 
 
