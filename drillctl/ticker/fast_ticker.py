@@ -1,7 +1,8 @@
 """A ticker that goes through its queue as fast as may be, on the ideal plant, with the same result to the byte.
 
 Rule: what execution/fastforward can work out is taken over in whole batches of commands; every other command is run by
-``tick``. Holes, trace and status come out as if every tick had been run. Only where nothing live is attached.
+``tick``, but for ticks in which axes only count. Holes, trace and status come out as if every tick had been run. Only
+where nothing live is attached.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -35,7 +36,7 @@ class FastTicker(Ticker):
     """A Ticker with a simulated card and the ideal plant behind it.
 
     rotors      the derived signals have the plant's lanes too
-    in_batches  False: every command is run tick by tick
+    in_batches  False: every tick of every command is run by itself
     taped       the record is kept in the segment form, in place of a trace
     """
 
@@ -85,13 +86,24 @@ class FastTicker(Ticker):
 
     def turn(self, until: Callable[[], bool] | None = None, before: int = NEVER) -> int:
         """Runs all that waits in the queue; where no batch can be made, as many ticks as the queue is sure to last, or
-        until one can be made again.
+        until one can be made again. Ticks that were passed at once may be more.
         """
-        first = self.controller.tick
+        m = self.controller
+        first = m.tick
         for _ in self.batches(before):
             if until is not None and until():
                 break
-        return self.controller.tick - first or super().turn(lambda: self._may_stop(until), before)
+        if m.tick > first:
+            return m.tick - first
+        if self.gate.paused:
+            return super().turn(until, before)
+        for _ in range(max(1, len(self.queue))):
+            if m.tick >= before:
+                break
+            self._step(before)
+            if self._may_stop(until):
+                break
+        return m.tick - first
 
     def _may_stop(self, until: Callable[[], bool] | None) -> bool:
         return self.engine.between or (until is not None and until())
@@ -142,20 +154,23 @@ class FastTicker(Ticker):
         return self.sampler.recorder.segments(self.controller.tick, header)
 
     def _tick_through(self, command: Records, before: int) -> None:
-        """Runs one command tick by tick, and notes how it went where such a command may come again."""
+        """Runs one command by tick, column by column, and notes how it went where such a command may come again."""
         m = self.controller
         recording = self.engine.recording(command)
-        if recording is None:
-            self.run(before - m.tick, lambda: not self._goes_on())
-            return
         going_on = True
         while going_on:
-            touches = self._touches
-            self.run(1)
-            recording.note(self.places() if self._touches != touches else None)
+            touches, first = self._touches, m.tick
+            self._step(before)
+            if recording is not None:
+                recording.note(self.places() if self._touches != touches else None, m.tick - first)
             going_on = self._goes_on() and m.tick < before
-        if self._undisturbed() and not m.busy:
+        if recording is not None and self._undisturbed() and not m.busy:
             recording.end()
+
+    def _step(self, before: int) -> None:
+        """Passes the ticks before the next column together, as nothing of the record changes in them; or runs one."""
+        if not self.in_batches or not self.pass_counting(before - self.controller.tick):
+            self.run(1)
 
     def _goes_on(self) -> bool:
         return self.controller.busy and self._undisturbed()

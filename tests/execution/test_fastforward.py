@@ -25,7 +25,21 @@ from tests.support.twins import remembered, trace, twins
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
 LIBRARY = Library((shipped_tables(),))
 MACHINES = ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis", "boiler-drum", "mega-28byj48", "cnc-shield"]
+SHORTER = 10  # times: ways home and down, where down is a distance of thousands of steps
 STEPS = st.one_of(st.integers(-40, 40), st.integers(-700, 700), st.just(0))
+
+
+def small(name: str) -> Machine:
+    """A machine whose ways home and down are short enough to be ticked through."""
+    machine = shipped(name)
+    if (machine.drill_down_steps or 0) < 1000:
+        return machine
+    return replace(
+        machine,
+        axes=tuple(replace(axis, start_steps=axis.start_steps // SHORTER) for axis in machine.axes),
+        drill_down_steps=machine.drill_down_steps // SHORTER,
+        board_surface=tuple(steps and steps // SHORTER for steps in machine.board_surface),
+    )
 
 
 @st.composite
@@ -69,7 +83,7 @@ def check(machine: Machine, text: str, asked: dict[int, int], ticks: int) -> Fas
 @settings(max_examples=10, deadline=None)
 @given(data=st.data())
 def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.DataObject) -> None:
-    machine = shipped(name)
+    machine = small(name)
     known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
     text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=12)))
     asked = data.draw(st.one_of(st.just({}), disturbances))
@@ -84,7 +98,7 @@ BOARD = "KMD_INICJALIZACJA\n" + "\n".join(f"KMD_GOTO_X_Y {x} {y}\nKMD_WIERTLO_DO
 @pytest.mark.parametrize("name", MACHINES)
 def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
     """So that the tests above compare two engines, and not tick with itself."""
-    machine = shipped(name)
+    machine = small(name)
     fast = FastTicker.ideal(machine)
     fast.queue.put(parse_program(BOARD, names_of(machine)))
     ticked = [batch for batch in fast.batches() if batch is None]
@@ -95,7 +109,7 @@ def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
 
 
 def test_after_a_look_into_the_middle_of_a_command_it_goes_on_fast(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What was begun is ticked to its end, and nothing of what waits behind it."""
+    """What was begun goes on to its end in one tick and those that are passed with it, what waits behind in a batch."""
     machine, ticked = LIBRARY.machine("pcb-drill"), []
     fast = FastTicker.ideal(machine)
     fast.queue.put(parse_program("KMD_CZEKAJ 1000\n" * 45, names_of(machine)))
@@ -104,7 +118,7 @@ def test_after_a_look_into_the_middle_of_a_command_it_goes_on_fast(monkeypatch: 
     monkeypatch.setattr(Ticker, "run", lambda self, *how: ticked.append(law(self, *how)) or ticked[-1])
     while not fast.over():
         fast.turn(fast.over)
-    assert fast.controller.tick == 45_001 and sum(ticked) == 500
+    assert fast.controller.tick == 45_001 and sum(ticked) == 1
 
 
 @pytest.mark.parametrize(("name", "distances"), [("pcb-drill", (0, 20)), ("eight-axis", (0, 48, 3))])
@@ -113,6 +127,44 @@ def test_every_distance_both_ways(name: str, distances: tuple[int, ...]) -> None
     machine = shipped(name)
     moves = [f"KMD_GOTOdXdY {d} {-d // 2}\nKMD_GOTOdXdY {-d} {d // 3}" for d in range(*distances)]
     check(machine, "\n".join([*moves, "KMD_GOTOdXdY 4300 7", "KMD_GOTOdXdY -4096 1"]), {}, 10**9)
+
+
+FINE = st.sampled_from([
+    "KMD_RUCHd y={}", "KMD_RUCHd y=-{}", "KMD_RUCHd x={} y=-3", "KMD_RUCH x={}", "KMD_LINIAd x={} y=2", "KMD_CZEKAJ {}",
+    "KMD_PREDKOSC {}", "KMD_FAZY_WYL", "KMD_NARZEDZIE {}",
+])  # fmt: skip
+
+
+@seed(726)
+@settings(max_examples=5, deadline=None)
+@given(
+    moves=st.lists(st.tuples(FINE, st.sampled_from([0, 1, 7, 20, 99])), min_size=1, max_size=6),
+    asked=st.one_of(st.just({}), disturbances),
+    ticks=st.integers(1, 9000),
+)
+def test_at_fine_ticks_the_fast_one_is_the_law(
+    moves: list[tuple[str, int]], asked: dict[int, int], ticks: int
+) -> None:
+    """A ramp of 302 states, and hundreds of ticks from one column to the next."""
+    text = "\n".join(["KMD_INICJALIZACJA", *(form.format(number) for form, number in moves)])
+    check(LIBRARY.machine("boiler-drum"), text, asked, ticks)
+
+
+def test_at_fine_ticks_a_first_stroke_is_ticked_once_a_column(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A hole of a part program for the drum drill: 40 steps on, 170 at the slowest feed, and back."""
+    machine, ticked = LIBRARY.machine("boiler-drum"), []
+    law = Ticker.run
+    monkeypatch.setattr(Ticker, "run", lambda self, *how: ticked.append(law(self, *how)) or ticked[-1])
+    ways = ((75, 40), (600, 170), (48, -210))
+    hole = "KMD_RUCHd x=9\n" + "\n".join(f"KMD_PREDKOSC {floor}\nKMD_RUCHd y={steps}" for floor, steps in ways)
+    fast = FastTicker.ideal(machine, traced=True, taped=True)
+    fast.queue.put(parse_program("KMD_INICJALIZACJA\n" + f"{hole}\n" * 9, names_of(machine)))
+    while not fast.over() or not ticked:
+        fast.turn(fast.over)
+    columns = sum(abs(steps) for _, steps in (*ways, ways[0]))  # the second hole begins after a way up, the first not
+    others = 4 * len(ways)
+    assert columns <= sum(ticked) <= columns + others
+    assert fast.controller.tick > 1_000_000
 
 
 @pytest.mark.parametrize("ticks", range(48, 56))
@@ -166,7 +218,7 @@ def test_two_engines_in_two_processes_give_the_same_bytes(tmp_path: Path) -> Non
 @given(data=st.data())
 def test_wherever_the_machine_is_found_both_see_the_same_holes(name: str, data: st.DataObject) -> None:
     """Also with the bit in the board: it has not come down to it, so that is no hole."""
-    machine = shipped(name)
+    machine = small(name)
     surface = machine.board_surface[machine.drill_axes[0]]
     assert surface is not None
     found = []

@@ -6,7 +6,7 @@
     move_profile.py  moves of one axis in one direction: ticks by distance, and the strips of images
     strokes.py  what ends on a sensor: run by tick once, then known
     plan.py     how many of the commands that wait can be foreseen
-    stretch.py  ticks in the middle of a command, for a plant that can't be foreseen
+    stretch.py  ticks in the middle of a command: outputs until an input changes, ticks in which axes only count
     world.py    what the engine must know of the plant
 
 Rule: tick is the law. Nothing is decided here: what can't be foreseen to the byte (homing, faults, requests, a sensor

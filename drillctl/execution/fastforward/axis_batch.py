@@ -136,6 +136,7 @@ class AxisBatch:
         axis.seek_mask = axis.clear_mask = 0
         if self.steps.any():
             self._leave_moved(int(longest[-1]))
+        axis.ramped_from = axis.strokes.ramped_from(axis.direction, axis.min_interval)
 
     def _leave_moved(self, longest: int) -> None:
         axis, row = self.axis, int(np.flatnonzero(self.steps)[-1])

@@ -79,13 +79,11 @@ def counting_ticks(m: Controller, inputs: int, most: int) -> int:
     """Returns for how many of the next ticks, at most ``most``, the axes count and no column is put out; 0 where
     anything else may happen. ``inputs`` as for ``foresee``.
     """
-    ticks = min(most, _undisturbed(m, inputs))
-    for axis in m.axes:
-        if axis.motion == SETTLING or not _is_quiet(axis, m.sensors, m.position_known):
-            return 0
-        if axis.counting:
-            ticks = min(ticks, axis.wait - axis.count - 1)
-    return max(ticks, 0)
+    ticks = min([most, *(axis.wait - axis.count - 1 for axis in m.axes if axis.motion >= MOVING)])
+    if ticks <= 0:
+        return 0
+    settled = all(axis.motion != SETTLING and _is_quiet(axis, m.sensors, m.position_known) for axis in m.axes)
+    return max(0, min(ticks, _undisturbed(m, inputs))) if settled else 0
 
 
 def leave_counted(m: Controller, ticks: int) -> None:

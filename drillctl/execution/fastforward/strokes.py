@@ -9,6 +9,8 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.world import PlantFacts
@@ -83,9 +85,9 @@ class Strokes:
         key = states, memories, self._m.position_known
         return self._places.setdefault(key, Place(states, memories))
 
-    def lay(self, strip: list[int]) -> int:
-        """A head's images into the pool."""
-        return self._pool.add(strip)
+    def lay(self, images: list[int], shown_for: list[int]) -> int:
+        """Puts a head's images, each for so many ticks, into the pool; returns where they begin."""
+        return self._pool.add(np.repeat(np.array(images, np.uint64), shown_for))
 
 
 def _cooled(axis: Axis, slot: str) -> Any:
@@ -103,18 +105,22 @@ class Recording:
         self._axes = [m.axes[head] for head in strokes.heads]
         self._start = strokes.here()
         self._counters = self._count()
-        self._strips: list[list[int]] = [[] for _ in self._axes]
+        self._ticks = 0
+        self._images: list[list[int]] = [[] for _ in self._axes]
+        self._shown_for: list[int] = []  # ticks of each image
         self._inputs: list[tuple[int, int]] = []
         self._touches: list[tuple[int, tuple[float, ...]]] = []
         self._motions: list[list[tuple[int, ...]]] = [[] for _ in self._axes]
         self._at = [self._start.motion(number) for number in range(len(self._axes))]
 
-    def note(self, places: tuple[float, ...] | None) -> None:
-        """After a tick: ``places`` are all axes', where the bit has just met the board."""
-        tick = len(self._strips[0])
+    def note(self, places: tuple[float, ...] | None, ticks: int = 1) -> None:
+        """After a tick, or several alike: ``places`` are all axes', where the bit has just met the board."""
+        tick = self._ticks
+        self._ticks += ticks
+        self._shown_for.append(ticks)
         self._see(tick, self._m.inputs)
         for number, axis in enumerate(self._axes):
-            self._strips[number].append(axis.bits)
+            self._images[number].append(axis.bits)
             at = axis.column, axis.position, axis.state
             if at != self._at[number]:
                 self._at[number] = at
@@ -124,13 +130,13 @@ class Recording:
 
     def end(self) -> None:
         """From now on the stroke is known."""
-        ticks = len(self._strips[0])
+        ticks = self._ticks
         self._see(ticks, self._world.inputs)
         grown = [
             tuple(after - before for after, before in zip(now, then, strict=True))
             for now, then in zip(self._count(), self._counters, strict=True)
         ]
-        strips = tuple(map(self._strokes.lay, self._strips))
+        strips = tuple(self._strokes.lay(images, self._shown_for) for images in self._images)
         last = tuple((axis.motion, axis.bits) for axis in self._axes)
         self._start.known[self._signature] = Stroke(
             ticks, strips, tuple(self._inputs), tuple(self._touches), tuple(map(tuple, self._motions)), tuple(grown),
