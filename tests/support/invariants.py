@@ -4,6 +4,8 @@ Create one for a controller and call it after each tick; it remembers the tick b
 """
 
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from drillctl.execution import Controller
 from drillctl.execution.axis import Axis
@@ -20,6 +22,7 @@ class Seen:
     hold_bits: tuple[int, ...]
     motions: tuple[int, ...]
     inside: bool
+    kept: tuple[int, ...]  # what only a request changes while latched
 
 
 class Invariants:
@@ -35,6 +38,7 @@ class Invariants:
         m, before, now = self._m, self._before, self._seen()
         assert (m.condition, m.job) == (CONDITIONS[m.stage], m.stage in (Stage.RUNNING, Stage.HOLDING))
         assert (m.stage >= Stage.FAULT_STOPPING) == bool(m.fault)
+        assert m.image == m.switched | reduce(or_, (axis.bits for axis in m.axes)), "the port has another image"
         counting = sum(axis.counting for axis in m.axes)
         begins_row = m.moving == 0 and not m.position_known  # of a homing: its axes count from the next tick on
         assert m.moving == counting or begins_row
@@ -46,6 +50,7 @@ class Invariants:
         if m.stage == Stage.LATCHED == before.stage:
             assert not m.moving and now.positions == before.positions, "something moves while latched"
             assert now.hold_bits in (before.hold_bits, (0,) * len(m.axes)), "neither held nor dropped"
+            assert m.served or (now.kept, now.hold_bits) == (before.kept, before.hold_bits), "a latched machine acts"
         if m.stage <= Stage.ZERO_ONLY:
             assert not m.moving and not m.busy, "something moves outside a job"
         self._before = now
@@ -53,9 +58,12 @@ class Invariants:
 
     def _check_windings(self, axis: Axis, columns: set[int], motion_before: int) -> None:
         assert axis.hold_bits == axis.bits & ~axis.forcing
+        column = {pattern[axis.column] for pattern in axis.drive_patterns + axis.hold_patterns if pattern}
+        assert axis.bits == 0 or axis.bits in column, "bits that the column of its table does not have"
         if axis.motion == REST:
             assert not axis.bits & axis.forcing, "forcing at rest"
-        assert (axis.motion, motion_before) != (SETTLING, SETTLING) or not axis.bits & axis.forcing
+        settled = axis.motion == SETTLING == motion_before
+        assert not settled or not axis.bits & axis.forcing, "forcing a tick after it came to rest"
         for pair in axis.halves:
             both = axis.bits & pair == pair
             assert not both or axis.hold_bits in columns, "two halves of a winding that no column of the table has on"
@@ -65,7 +73,9 @@ class Invariants:
         axes = self._m.axes
         inside = all(axis.low <= axis.position <= axis.high for axis in axes)
         positions, hold_bits = tuple(axis.position for axis in axes), tuple(axis.hold_bits for axis in axes)
-        return Seen(self._m.stage, positions, hold_bits, tuple(axis.motion for axis in axes), inside)
+        m, motions = self._m, tuple(axis.motion for axis in axes)
+        kept = (m.fault, m.fault_kept, m.position_known, m.epoch, m.switched)
+        return Seen(m.stage, positions, hold_bits, motions, inside, kept)
 
 
 def _columns(axis: Axis) -> set[int]:
