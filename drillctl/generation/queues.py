@@ -11,7 +11,7 @@ from drillctl.generation.job import Job, names_of
 from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.waits import Waits, reading
 from drillctl.generation.work_settings import WorkSettings
-from drillctl.kmd import KmdError, parse_program, to_text
+from drillctl.kmd import KmdError, parse_program, program_texts
 from drillctl.language import Message, message_of, one_line
 from drillctl.machine import Machine
 
@@ -54,5 +54,5 @@ def queue_text(job: Job) -> str:
     """A job as a ``.kmd`` queue, one command a line."""
     names = names_of(job.machine)
     lines = [f"# {one_line(job.name)} on {job.machine.name}: {job.holes_total} holes"]
-    lines += [to_text(record, names) for record in job.program]
+    lines += program_texts(job.program, names)
     return "\n".join([*lines, ""])

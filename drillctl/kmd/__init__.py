@@ -16,10 +16,10 @@ from drillctl.kmd.faults import FAULTS, Fault, FaultSpec, Reaction
 from drillctl.kmd.gate import Gate, TickGate
 from drillctl.kmd.queue import CAPACITY, CommandQueue, Mailbox, Queue, Request, RequestBit, Requests
 from drillctl.kmd.status import STATUS, Condition, has_ended, is_complete, is_idle, is_over, takes_commands
-from drillctl.kmd.text import KmdError, parse_program, to_text
+from drillctl.kmd.text import KmdError, parse_program, program_texts, to_text
 
 __all__ = [
     "CAPACITY", "COMMANDS", "FAULTS", "RECORD", "STATUS", "Command", "CommandQueue", "Condition", "Fault", "FaultSpec",
     "Gate", "KmdError", "Mailbox", "Names", "Op", "Queue", "Reaction", "Request", "RequestBit", "Requests", "TickGate",
-    "has_ended", "is_complete", "is_idle", "is_over", "parse_program", "takes_commands", "to_text",
+    "has_ended", "is_complete", "is_idle", "is_over", "parse_program", "program_texts", "takes_commands", "to_text",
 ]  # fmt: skip

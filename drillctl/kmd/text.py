@@ -17,6 +17,7 @@ from drillctl.language import Counted, Message, Refusal, known_words, nearest
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
 LINES_REMEMBERED = 4096
+TEXTS_REMEMBERED = 1024
 _WORD = re.compile(r"\S+")
 _PREFIX = "KMD_"
 _INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
@@ -76,6 +77,22 @@ def to_text(record: np.void, names: Names) -> str:
     """Returns one record as a line of text, without a line end; ``parse_program`` reads the same record from it."""
     spec = BY_OP[Op(int(record["opcode"]))]
     return " ".join([spec.name, *_ARGUMENTS_OUT[spec.form](record, names)])
+
+
+def program_texts(program: NDArray[np.void], names: Names) -> Iterator[str]:
+    """Yields each record of a program (n,) as ``to_text`` has it. Commands that come again, as all strokes of a board
+    do, are made into text once.
+    """
+
+    @lru_cache(TEXTS_REMEMBERED)
+    def text(command: bytes) -> str:
+        return to_text(np.frombuffer(command, RECORD)[0], names)
+
+    plain = program.copy()
+    for counted in ("sequence", "epoch", "tag"):  # not part of the text
+        plain[counted] = 0
+    data, size = plain.tobytes(), plain.itemsize
+    yield from (text(data[begin : begin + size]) for begin in range(0, len(data), size))
 
 
 def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from drillctl.files.outputs import OutputError
 from drillctl.generation.job import Job, names_of
-from drillctl.kmd import KmdError, parse_program, to_text
+from drillctl.kmd import KmdError, parse_program, program_texts
 from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
@@ -29,8 +29,8 @@ def trace_header(job: Job, plant: Header) -> Iterator[tuple[str, str]]:
     yield from [("machine", job.machine.name), ("digest", job.machine.digest), ("tick_hz", str(job.machine.tick_hz))]
     yield from plant
     names = names_of(job.machine)
-    for record in job.program:
-        yield "command", f"{record['sequence']} {to_text(record, names)}"
+    for sequence, text in zip(job.program["sequence"].tolist(), program_texts(job.program, names), strict=True):
+        yield "command", f"{sequence} {text}"
 
 
 def machine_named(machine: Machine, file: Path) -> str:

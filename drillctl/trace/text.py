@@ -65,7 +65,7 @@ def write_text(record: Trace | Segments, target: Target, *, derived: bool = Fals
 
 
 def _head_lines(trace: Trace, signals: Sequence[Signal]) -> list[str]:
-    for key, _ in trace.header:
+    for key in dict(trace.header):
         if not KEY.fullmatch(key):
             raise ValueError(f"header: {quoted(key)} is no key: a-z 0-9 _ -, and not `signal` or `end`")
     return [

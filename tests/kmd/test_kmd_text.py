@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from drillctl.kmd import RECORD, KmdError, Names, Op, parse_program, to_text
+from drillctl.kmd import RECORD, KmdError, Names, Op, parse_program, program_texts, to_text
 from drillctl.kmd.commands import BY_OP, MOST_ARGUMENT, ArgumentForm
 
 NAMES = Names(("x", "y", "z"), {"spindle": 18, "clamp": 40}, {"x_min": 0, "z_top": 4})
@@ -43,6 +43,17 @@ def test_program_to_text_to_program(lines: list[str]) -> None:
     again = parse_program(written(program), NAMES)
     assert program.dtype == again.dtype == RECORD
     assert program.tobytes() == again.tobytes()
+
+
+@given(st.lists(LINES, min_size=1, max_size=4), st.integers(1, 3))
+@settings(max_examples=100, deadline=None)
+def test_texts_of_a_program_are_those_of_its_commands(lines: list[str], times: int) -> None:
+    """Commands that come again with another number and hole, too."""
+    program = parse_program("\n".join(lines * times), NAMES)
+    program["tag"] = np.arange(len(program))
+    before = program.tobytes()
+    assert "\n".join(program_texts(program, NAMES)) == written(program)
+    assert program.tobytes() == before
 
 
 @given(st.lists(LINES, min_size=1, max_size=6), st.data())
