@@ -1,126 +1,76 @@
-"""Takes the pictures of the screens in docs/pictures: the real program on a pseudo-terminal, worked by keys.
+"""Takes the pictures of the screens: the real program on a pseudo-terminal, worked by keys.
 
-    .venv/bin/python docs/pictures.py [FOLDER]
+    .venv/bin/python docs/pictures.py [FOLDER]                  # those of the documents; default: docs/pictures
+    .venv/bin/python docs/pictures.py --all FOLDER              # every screen at four sizes in three themes
+    .venv/bin/python docs/pictures.py --all FOLDER --size 80x24 --theme mono --script editors --lang pl
 
-Rule: every picture is taken at a moment that is the same in every run: the machine is simulated, runs free, and waits
-(for a tool, at rest, with a fault). What can not be the same is masked. Tests play the sessions and compare.
+Rule: every picture of the documents is taken at a moment that is the same in every run: the machine is simulated, runs
+free, and waits (for a tool, at rest, with a fault); of a machine that moves, the figures are not compared. What can not
+be the same is masked. Tests play the sessions and compare. FOLDER/index.html shows all pictures of ``--all``.
 """
 
+import argparse
 import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from docs import picture_scripts as scripts
+from docs.picture_page import page
+from docs.picture_scripts import BOARD, TRACE, Script
 from docs.screen_svg import drawn
 from drillctl.language import words
-from tests.support.labels import menu, word
+from drillctl.ui.widgets.themes import THEMES
+from tests.support.labels import word
 from tests.support.terminal import Act, Terminal
 
-ROOT = Path(__file__).resolve().parent.parent
-PICTURES = ROOT / "docs" / "pictures"
-BOARD = ROOT / "examples" / "blinker.drl"
-TRACE = ROOT / "examples" / "traces" / "square-pcb-drill.trace"
-YES = ("Right", "Enter")
-QUEUE = ("KMD_INICJALIZACJA", "KMD_GOTO_X_Y 480 300", "KMD_WIERTLO_DOL", "KMD_WIERTLO_GORA", "KMD_GOTO_X_Y 99000 0")
-EDITORS = {"phase": "phase_editor", "ramp": "ramp_editor", "machines": "configuration"}
+PICTURES = Path(__file__).resolve().parent / "pictures"
 MASKED = re.compile(r"/tmp/drillctl-\w+")  # the folder in which a session is played
 SHOWN_FOLDER = "/home/lab/boards"
-
-Script = Callable[[], Iterator[Act | str]]  # keys to press, and names of pictures to take
+ALL_SIZES = ("80x24", "100x32", "160x50", "220x60")
+ALL_THEMES = ("blue", "dark", "light")
+ASKING = ("--pace", "free", "--tools", "ask")
+DYNAMIC = (*ASKING, "--plant", "dynamic")
+DRUM = ("--pace", "free", "--machine", "boiler-drum")
 
 
 class Session(NamedTuple):
-    """One run of the program: ``drillctl OPTIONS`` at a size, in a language, and what is done in it."""
+    """One run of the program: ``drillctl OPTIONS`` at a size, in a language, and what is done in it.
+
+    first         the message that the first screen shows
+    true_colours  whether the terminal has more than sixteen colours
+    moves         whether its pictures are of a machine that moves
+    """
 
     script: Script
     size: tuple[int, int] = (80, 24)
     language: str = "en"
-    options: tuple[str, ...] = ()
-
-
-def opened() -> Iterator[Act]:
-    """The board is read."""
-    yield Act(menu("files"), (BOARD.name,))
-    yield Act(("Down", "Enter"), ("33.00 x 20.00 mm",))
-
-
-def in_mid_board() -> Iterator[Act]:
-    """The machine waits for the second tool."""
-    yield Act(menu("drilling", "start"), (word("Question"),))
-    yield Act(YES, (word("Tool change"), "T1"))
-    yield Act(YES, (word("Tool change"), "T2"))
-
-
-def work() -> Iterator[Act | str]:
-    """From the file to the middle of the board."""
-    yield from opened()
-    yield "files"
-    yield from in_mid_board()
-    yield "tool-change"
-    yield Act(("Enter",), (word("Sensors"),), gone=(word("Tool change"),))
-    yield "drilling"
-
-
-def editors() -> Iterator[Act | str]:
-    """Tests and Configuration, and a queue that ends in a fault."""
-    yield from table("phase", "two-phase-forced", word("Phase table"))
-    yield "phase-editor"
-    yield from table("ramp", "seven-state", word("Ramp"))
-    yield "ramp-editor"
-    yield Act(menu("queue_editor"), (word("Queue of commands"),))
-    yield Act(tuple(part for line in QUEUE for part in (line, "Enter")), ("99000",))
-    yield "queue-editor"
-    yield Act(("F5",), (word("Cause: "),))
-    yield "fault"
-    yield Act(("Enter",), (word("READY"),))
-    yield from table("machines", "pcb-drill", word("Configuration"))
-    yield "configuration"
-
-
-def looking() -> Iterator[Act | str]:
-    """A run that was recorded; the inputs and outputs."""
-    yield Act(menu("scope", "open_file"), (word("File:"),))
-    yield Act((*["Backspace"] * 20, TRACE.name, "Enter"), ("square",), gone=(word("File:"),))
-    yield Act(("Home", "-", "-", "-"), (word("Further"),))
-    yield "scope"
-    yield Act(menu("signals"), ("z_top",))
-    yield "signals"
-
-
-def table(kind: str, name: str, title: str) -> Iterator[Act]:
-    """Opened from the list of its kind, which is in the order of the names."""
-    names = sorted(file.stem for file in (ROOT / "tables" / kind).glob("*.toml"))
-    yield Act(menu(EDITORS[kind]), (names[0], name))
-    yield Act(("Home", *["Down"] * names.index(name), "Enter"), (f"{title}: {name}",))
-
-
-def larger() -> Iterator[Act | str]:
-    """The same moment where there is room for the whole phase tables."""
-    yield from opened()
-    yield from in_mid_board()
-    yield Act(("Enter",), (word("Sensors"),), gone=(word("Tool change"),))
-    yield "drilling-large"
-
-
-def polish() -> Iterator[Act | str]:
-    """The main screen in Polish, a menu open."""
-    yield from opened()
-    yield from in_mid_board()
-    yield Act(("Enter",), (word("Sensors"),), gone=(word("Tool change"),))
-    yield Act(menu("drilling", "start")[:1], (word("&Acknowledge a fault").replace("&", ""),))
-    yield "drilling-polish"
+    options: tuple[str, ...] = ("--pace", "free")
+    first: str = "No board is loaded."
+    true_colours: bool = False
+    moves: bool = False
 
 
 SESSIONS = (
-    Session(work, options=("--tools", "ask")),
-    Session(editors),
-    Session(looking),
-    Session(larger, (120, 40), options=("--tools", "ask")),
-    Session(polish, language="pl", options=("--tools", "ask")),
+    Session(scripts.work, options=ASKING),
+    Session(scripts.editors),
+    Session(scripts.looking),
+    Session(scripts.larger, (120, 40), options=ASKING),
+    Session(scripts.polish, language="pl", options=ASKING),
+    Session(scripts.moving, (160, 50), options=DYNAMIC, true_colours=True, moves=True),
+)
+EVERY_SCREEN = (
+    Session(scripts.beginning),
+    Session(scripts.work, options=ASKING),
+    Session(scripts.moving, options=DYNAMIC),
+    Session(scripts.editors),
+    Session(scripts.looking),
+    Session(scripts.devices),
+    Session(scripts.panel, options=DRUM, first="No workpiece is called."),
 )
 
 
@@ -130,15 +80,16 @@ def taken(session: Session) -> Iterator[tuple[str, str]]:
     with tempfile.TemporaryDirectory(prefix="drillctl-", dir="/tmp") as folder:
         for file in (BOARD, TRACE):
             shutil.copy(file, folder)
-        options = ("--pace", "free", "--lang", session.language, *session.options)
-        terminal = Terminal(*options, folder=Path(folder), size=session.size)
+        options = ("--lang", session.language, *session.options)
+        terminal = Terminal(*options, folder=Path(folder), size=session.size, true_colours=session.true_colours)
         try:
-            terminal.wait_for(word("No board is loaded."))
+            terminal.wait_for(word(session.first))
             for asked in session.script():
                 if isinstance(asked, Act):
                     terminal.play([asked])
                 else:
-                    terminal.settle()
+                    if not session.moves:
+                        terminal.settle()
                     yield asked, drawn(terminal.screen, [_masked(row) for row in terminal.screen.display])
         finally:
             terminal.close()
@@ -150,13 +101,63 @@ def _masked(text: str) -> str:
     return MASKED.sub(lambda found: SHOWN_FOLDER.ljust(len(found[0])), text)
 
 
-def main() -> None:
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else PICTURES
-    folder.mkdir(exist_ok=True)
+def of_the_documents(folder: Path) -> None:
+    """Takes the pictures that the documents show."""
+    folder.mkdir(parents=True, exist_ok=True)
     for session in SESSIONS:
         for name, svg in taken(session):
-            (folder / f"{name}.svg").write_text(svg, "utf-8")
-            print(f"{folder / name}.svg", flush=True)
+            _keep(folder / f"{name}.svg", svg)
+
+
+def of_every_screen(asked: argparse.Namespace) -> None:
+    """Takes every screen at every size and theme that is asked for; then the page that shows them."""
+    asked.all.mkdir(parents=True, exist_ok=True)
+    names: list[str] = []  # of the screens, in the order in which they are seen
+    for size in asked.size or ALL_SIZES:
+        for theme in asked.theme or ALL_THEMES:
+            for session in EVERY_SCREEN:
+                if not asked.script or session.script.__name__ in asked.script:
+                    for name, svg in taken(_as_asked(session, size, theme, asked.lang)):
+                        _keep(asked.all / f"{name}-{size}-{theme}.svg", svg)
+                        names += [] if name in names else [name]
+    _keep(asked.all / "index.html", page(names, asked.size or ALL_SIZES, asked.theme or ALL_THEMES))
+
+
+def _as_asked(session: Session, size: str, theme: str, language: str) -> Session:
+    columns, rows = map(int, size.split("x"))
+    options = (*session.options, "--theme", theme)
+    return session._replace(size=(columns, rows), language=language, options=options, true_colours=True)
+
+
+def _keep(file: Path, text: str) -> None:
+    file.write_text(text, "utf-8")
+    print(file, flush=True)
+
+
+def _size(text: str) -> str:
+    """COLUMNSxROWS; raises ValueError for anything else, which argparse reports."""
+    if not re.fullmatch(r"[1-9]\d{1,2}x[1-9]\d{1,2}", text):
+        raise ValueError(text)
+    return text
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Takes the pictures that the command line asks for."""
+    parser = argparse.ArgumentParser(description="Takes the pictures of the screens.")
+    parser.add_argument("folder", nargs="?", type=Path, default=PICTURES, help="for the pictures of the documents")
+    parser.add_argument("--all", type=Path, metavar="FOLDER", help="every screen, into this folder, and a page of them")
+    parser.add_argument("--size", action="append", type=_size, help="COLUMNSxROWS, with --all; repeatable")
+    parser.add_argument("--theme", action="append", choices=tuple(THEMES), help="with --all; repeatable")
+    names = tuple(session.script.__name__ for session in EVERY_SCREEN)
+    parser.add_argument("--script", action="append", choices=names, help="with --all: only these; repeatable")
+    parser.add_argument("--lang", default="en", choices=("en", "pl"), help="with --all; default: en")
+    asked = parser.parse_args(arguments)
+    if not asked.all and (asked.size or asked.theme or asked.script or asked.lang != "en"):
+        parser.error("--size, --theme, --script and --lang need --all FOLDER")
+    if asked.all:
+        of_every_screen(asked)
+    else:
+        of_the_documents(asked.folder)
 
 
 if __name__ == "__main__":

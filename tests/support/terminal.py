@@ -38,9 +38,13 @@ class Act(NamedTuple):
 
 
 class Terminal:
-    """``drillctl ARGUMENTS`` in a folder that is its home too, on a terminal of ``size`` columns and rows."""
+    """``drillctl ARGUMENTS`` in a folder that is its home too, on a terminal of ``size`` columns and rows, of sixteen
+    colours or of 24 bits of them.
+    """
 
-    def __init__(self, *arguments: str, folder: Path, size: tuple[int, int] = (80, 24)):
+    def __init__(
+        self, *arguments: str, folder: Path, size: tuple[int, int] = (80, 24), true_colours: bool = False
+    ):  # fmt: skip
         columns, rows = size
         self.screen = pyte.Screen(columns, rows)
         self._stream = pyte.ByteStream(self.screen)
@@ -50,7 +54,8 @@ class Terminal:
         if not self.pid:
             fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
             os.chdir(folder)
-            os.execve(sys.executable, [sys.executable, "-m", "drillctl", *arguments], _surroundings(folder))
+            surroundings = _surroundings(folder, true_colours)
+            os.execve(sys.executable, [sys.executable, "-m", "drillctl", *arguments], surroundings)
 
     @property
     def text(self) -> str:
@@ -138,7 +143,9 @@ class Terminal:
         return came
 
 
-def _surroundings(home: Path) -> dict[str, str]:
-    """Nothing of the user's: tables, lists and language are the folder's own."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "LC_", "LANG"))}
-    return {**kept, "HOME": str(home), "TERM": "xterm", "LANG": "C.UTF-8"}
+def _surroundings(home: Path, true_colours: bool) -> dict[str, str]:
+    """Nothing of the user's: tables, lists, language and colours are the folder's own."""
+    of_the_user = ("XDG_", "LC_", "LANG", "COLORTERM", "NO_COLOR")
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(of_the_user)}
+    colours = {"TERM": "xterm-256color", "COLORTERM": "truecolor"} if true_colours else {"TERM": "xterm"}
+    return {**kept, **colours, "HOME": str(home), "LANG": "C.UTF-8"}

@@ -1,18 +1,23 @@
 """The pictures in docs show what the program shows; one that has gone stale is made anew by docs/pictures.py."""
 
+import inspect
 import re
 import sys
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 pyte = pytest.importorskip("pyte", reason="pyte (the dev extra) reads what the program draws")
 
-from docs import pictures, screen_svg  # noqa: E402 - they need pyte
+from docs import picture_scripts, pictures, screen_svg  # noqa: E402 - they need pyte
 from docs.pictures import SESSIONS, Session  # noqa: E402 - they too
+from drillctl.ui.widgets.themes import THEMES  # noqa: E402
+from tests.ui.whole import SCREENS  # noqa: E402
 
 # Dots of a board are left out: the trail has the places where the head was seen, which are others on a busy computer.
 DOTS = re.compile("[\u2800-\u28ff]")
+NAMED = re.compile(r'^    yield "([\w-]+)"$', re.MULTILINE)
 QUICK = ("work", "editors")  # these in every run; the others show the same screens in another size or language
 
 
@@ -22,7 +27,7 @@ def session_marked(session: Session) -> object:
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the folder that is masked is Linux's")
-@pytest.mark.parametrize("session", [session_marked(session) for session in SESSIONS])
+@pytest.mark.parametrize("session", [session_marked(session) for session in SESSIONS if not session.moves])
 def test_a_picture_shows_what_the_program_shows_now(session: Session) -> None:
     for name, svg in pictures.taken(session):
         kept = (pictures.PICTURES / f"{name}.svg").read_text("utf-8")
@@ -42,5 +47,26 @@ def test_a_screen_is_read_back_as_it_was_drawn() -> None:
 def test_every_picture_belongs_to_a_session_and_names_no_folder_of_ours() -> None:
     for file in pictures.PICTURES.glob("*.svg"):
         text = file.read_text("utf-8")
-        assert "/tmp/" not in text and str(pictures.ROOT) not in text
-        assert f'"{file.stem}"' in (pictures.ROOT / "docs" / "pictures.py").read_text("utf-8")
+        assert "/tmp/" not in text and str(picture_scripts.ROOT) not in text
+        assert f'"{file.stem}"' in Path(picture_scripts.__file__).read_text("utf-8")
+
+
+def test_a_screen_is_taken_at_the_size_and_in_the_theme_that_are_asked_for(tmp_path: Path) -> None:
+    folder = tmp_path / "all"
+    pictures.main(["--all", str(folder), "--size", "100x32", "--theme", "light", "--script", "panel"])
+    page = (folder / "index.html").read_text("utf-8")
+    assert sorted(file.name for file in folder.glob("*.svg")) == sorted(re.findall(r'src="([^"]+)"', page))
+    svg = (folder / "panel-100x32-light.svg").read_text("utf-8")
+    assert len(screen_svg.read(svg)) == 32
+    assert THEMES["light"]["ground"][1] in svg and THEMES["blue"]["ground"][1] not in svg
+
+
+def test_each_screen_that_every_machine_has_is_among_those_of_all() -> None:
+    shown = {name for session in pictures.EVERY_SCREEN for name in NAMED.findall(inspect.getsource(session.script))}
+    assert {name.replace("_", "-") for name in SCREENS} <= shown
+
+
+@pytest.mark.parametrize("wrong", [["--theme", "mono"], ["--all", "x", "--size", "80"]])
+def test_options_that_take_no_picture_are_refused(wrong: list[str]) -> None:
+    with pytest.raises(SystemExit):
+        pictures.main(wrong)
