@@ -38,6 +38,7 @@ RUNS = 7
 HOLES = 10_000
 BOARD_MM = (100, 80)
 STEPS_PER_MM = 1200 / 25.4
+DRUM, ROW = "boiler-drum", 400  # holes of a row on it
 TICK_HOLES = 4  # of the board, that tick is measured by
 GOLDEN_TICKS = 10_000_000
 
@@ -176,6 +177,18 @@ def commands(folder: Path) -> list[bool]:
     ]
 
 
+def drum_row(folder: Path) -> bool:
+    """A row of 400 holes on the boiler-drum drill, at 100,000 ticks a second, from a shell; nothing is recorded."""
+    pattern, sentences = folder / "row.toml", folder / "row.sentences"
+    eight = (Path(__file__).resolve().parents[1] / "examples" / "drum-row.toml").read_text("utf-8")
+    row = eight.replace("count = 8", f"count = {ROW}").replace("pitch_mm = 120.0", "pitch_mm = 8.0")
+    pattern.write_text(row, "utf-8")
+    call = [sys.executable, "-m", "drillctl", "convert", str(pattern), "--to", str(sentences), "--machine", DRUM]
+    subprocess.run(call, capture_output=True, check=True)
+    run_s = child_s(folder, "run", str(sentences), "--machine", DRUM)
+    return shown(f"part program of {ROW} holes, {DRUM}", f"{run_s:.2f} s", "2 s", run_s < 2)
+
+
 def same(times: int, folder: Path) -> int:
     """So many runs in each engine, in turn; how many different results there are."""
     job, found = Path(__file__).resolve().parents[1] / "examples" / "square.kmd", set()
@@ -201,7 +214,7 @@ def main() -> int:
         machine = Library((shipped_tables(),)).machine("pcb-drill")
         versions = f"python {sys.version.split()[0]}, numpy {np.__version__}"
         print(f"{versions}, load {os.getloadavg()[0]:.2f}, median of {RUNS}")
-        reached = [*boards(machine), golden(machine, folder), *commands(folder)]
+        reached = [*boards(machine), golden(machine, folder), *commands(folder), drum_row(folder)]
     return int(not all(reached))
 
 
