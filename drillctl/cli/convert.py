@@ -18,6 +18,7 @@ QUEUE, PART = ".kmd", ".sentences"
 PATTERN = ".toml"
 TEXT = ".trace"
 TRACES = (TEXT, ".seg")
+Writer = Callable[[argparse.Namespace], tuple[str, Sequence[str]]]  # gives the text and its warnings
 EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD programs name drill files
 
 
@@ -35,25 +36,34 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     )
     part = "write only the first N ticks of a trace in segments"
     verb.add_argument("--to-tick", type=options.up_to(10**12), metavar="N", help=part)
+    verb.add_argument("-q", "--quiet", action="store_true", help="don't say what was written")
     options.add_machine(verb)
     jobs.add_job(verb)
     verb.set_defaults(call=call)
 
 
 def call(arguments: argparse.Namespace) -> int:
-    """Makes the whole content first, then writes the file; on an error nothing is written."""
-    from drillctl.files.outputs import reserved
-
+    """Makes the whole content first, then writes the file and says so; on an error nothing is written."""
     ending = _ending(arguments.to)
     if ending in TRACES:
-        return _trace(arguments)
-    text, warnings = _WRITERS.get(ending, _excellon)(arguments)
+        _trace(arguments)
+    else:
+        _text(arguments, _WRITERS.get(ending, _excellon))
+    if not arguments.quiet:
+        streams.tell(f"{arguments.to} is written")
+    return 0
+
+
+def _text(arguments: argparse.Namespace, writer: Writer) -> None:
+    """Writes what a writer makes, and its warnings."""
+    from drillctl.files.outputs import reserved
+
+    text, warnings = writer(arguments)
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         for warning in warnings:
             streams.tell(f"warning: {warning}")
         assert output is not None
         output.write(lambda file: print(text, file=file, end=""))
-    return 0
 
 
 def _ending(out: Path) -> str:
@@ -75,7 +85,7 @@ def _ending(out: Path) -> str:
     return ending
 
 
-def _trace(arguments: argparse.Namespace) -> int:
+def _trace(arguments: argparse.Namespace) -> None:
     """Writes a trace in its other form; segments as small as the tables at hand allow."""
     from drillctl.files.outputs import reserved
     from drillctl.generation.waits import reading
@@ -89,7 +99,8 @@ def _trace(arguments: argparse.Namespace) -> int:
         wait(reading(arguments.file.name))
         record = read_record(arguments.file)
         if isinstance(record, Segments) and arguments.to.suffix.lower() == TEXT:
-            return _segments_as_text(arguments, record)
+            _segments_as_text(arguments, record)
+            return
         trace = shortened(record, arguments.file, arguments.to_tick)
         machine = machine_of(trace, arguments.file, library)
         with reserved([arguments.to], inputs=[arguments.file]) as (output,):
@@ -97,10 +108,9 @@ def _trace(arguments: argparse.Namespace) -> int:
             converted = in_form_of(arguments.to, trace, machine, wait)
             wait(Message("writing {name}", name=arguments.to.name))
             write_record(converted, output)
-    return 0
 
 
-def _segments_as_text(arguments: argparse.Namespace, segments: "Segments") -> int:
+def _segments_as_text(arguments: argparse.Namespace, segments: "Segments") -> None:
     """Writes segments as text, some changes at a time, however many there are."""
     from drillctl.files.outputs import reserved
     from drillctl.trace.files import write_record
@@ -109,7 +119,6 @@ def _segments_as_text(arguments: argparse.Namespace, segments: "Segments") -> in
     with reserved([arguments.to], inputs=[arguments.file]) as (output,):
         assert output is not None
         write_record(part, output)
-    return 0
 
 
 def _queue(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
@@ -158,4 +167,4 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     return data.decode("ascii"), file_warnings(arguments.file, drill_file)
 
 
-_WRITERS: Mapping[str, Callable[[argparse.Namespace], tuple[str, Sequence[str]]]] = {QUEUE: _queue, PART: _part}
+_WRITERS: Mapping[str, Writer] = {QUEUE: _queue, PART: _part}

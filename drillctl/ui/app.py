@@ -8,6 +8,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import urwid
@@ -25,8 +26,9 @@ from drillctl.ui.palette import actions
 from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
+from drillctl.ui.widgets.dialogs import nothing
 from drillctl.ui.widgets.finder import Finder
-from drillctl.ui.widgets.keys import COPY, EMERGENCY, FRAME_KEYS, TYPED_STOP, Key, called, help_lines
+from drillctl.ui.widgets.keys import COPY, EMERGENCY, FRAME_KEYS, TYPED_STOP, Key, called, help_lines, wheel_key
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
@@ -60,7 +62,7 @@ class App(Boxes):
         self._made: dict[str, urwid.Widget] = {}
         self._at_work = False
         self._next_beat: object = None
-        self.frame = MainFrame()
+        self.frame = MainFrame(self.press)
         self._use(screens_of(console.view()))
         terminal = terminal or _terminal()
         super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows), self.frame.say)
@@ -118,11 +120,23 @@ class App(Boxes):
     def unhandled(self, pressed: Pressed) -> bool:
         """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""
         if not isinstance(pressed, str):
-            event, _button, column, row = pressed
-            return self._menus.clicked(event, column, row)
+            event, button, column, row = pressed
+            return self._wheel(event, button) or self._menus.clicked(event, column, row)
         if pressed.startswith("meta "):
             return self._menus.drop(self.frame.bar.lettered(pressed.removeprefix("meta ")))
         return called(self, FRAME_KEYS, pressed)
+
+    def press(self, name: str) -> None:
+        """Does what a key does, by urwid's name of it: it was clicked."""
+        self.loop.process_input(self.filtered([name], []))
+
+    def _wheel(self, event: str, button: int) -> bool:
+        """Moves the cursor of the screen on top by a turn of the wheel that no widget took; False for other events."""
+        key = wheel_key(screen_keys(self.screens[-1]), button) if event == "mouse press" else None
+        if key is None or self.layers.top is not None:
+            return False
+        self.press(key)
+        return True
 
     def open(self, screen: urwid.Widget) -> None:
         """Puts a screen on top; one that is open already comes to the top."""
@@ -166,12 +180,14 @@ class App(Boxes):
         self._menus.drop(0)
 
     def help(self) -> None:
-        """Explains the screen on top, then lists the keys that work there, and the rest of its signs."""
+        """Explains the screen on top, then lists its keys, each of which can be clicked, and the rest of its signs."""
         screen = self.screens[-1]
-        keys = help_lines([*screen_keys(screen), *FRAME_KEYS])
+        keys = [*screen_keys(screen), *FRAME_KEYS]
+        acts = [partial(self.press, key.names[0]) if key.names else nothing for key in keys]
         title = getattr(screen, "title", "")
         first, last = (map(_, table.get(title, ())) for table in (EXPLAINED, SIGNS))
-        self.message(_(title) or _("Keys"), [*first, "", *keys, "", *last])
+        links = [*zip(help_lines(keys), acts, strict=True)]
+        self.explain(_(title) or _("Keys"), [*first], links, [*last])
 
     def find_action(self) -> None:
         """Opens a box that finds any action by its words."""

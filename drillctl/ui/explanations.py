@@ -139,6 +139,8 @@ SIGNS: Mapping[str, tuple[str, ...]] = {
         N_("to mm, steps: where it goes."),
         N_("12 +0 after an axis: column 12 of its phase table, ramp state 0."),
         N_("[24a]: the wire is on. Names in brackets are on, others are off."),
+        N_("In a table the column that is out: [x] the wire is on, |x| or |.| it is"),
+        N_("off. At rest 24 V is always off, whatever the table has there."),
         N_("Ticks: interrupts a second, and how many of them came late."),
         N_("Lost: steps that the simulated rotors did not follow, by axis."),
     ),

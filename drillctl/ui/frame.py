@@ -4,7 +4,7 @@ Rule: it only shows; what a click or a key does is decided in app.py. Where ther
 title; elsewhere the title stands in the line on the machine, which is drawn out to a rule.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import urwid
@@ -14,7 +14,7 @@ from drillctl.ui.widgets.borders import lines
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
 from drillctl.ui.widgets.menus import Item, hot_letter, label_markup, plain_label
 from drillctl.ui.widgets.sizes import layout
-from drillctl.ui.widgets.texts import Line, Size, Text, boxed, packed, width_of
+from drillctl.ui.widgets.texts import Line, Size, Text, boxed, indices_packed, packed, width_of
 from drillctl.ui.widgets.windows import Window
 from drillctl.viewmodel.console import MachineView
 
@@ -61,15 +61,40 @@ class MenuBar(Text):
 
 
 class KeyLine(urwid.Widget):
-    """Shows the keys that have a short word, in as many lines as they need."""
+    """Shows the keys that have a short word, in as many lines as they need; ``press`` is called with the one that is
+    clicked, by urwid's name.
+    """
 
     _sizing = frozenset([urwid.Sizing.FLOW])
     keys: Sequence[Key] = ()
 
+    def __init__(self, press: Callable[[str], object]):
+        super().__init__()
+        self._press = press
+
     def show(self, keys: Sequence[Key]) -> None:
         """Replaces the keys by those of another screen."""
-        self.keys = keys
+        self.keys = [key for key in keys if key.short]
         self._invalidate()
+
+    def at(self, columns: int, column: int, row: int) -> Key | None:
+        """Returns the key that is shown at a place, in a line of so many columns; None beside the keys."""
+        parts = key_parts(self.keys)
+        lines = indices_packed(parts, columns)
+        for index in lines[row] if row < len(lines) else ():
+            column -= width_of(parts[index])
+            if column < 0:
+                return self.keys[index]
+        return None
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """Presses the key that is clicked with the first button."""
+        assert len(size) == 1
+        key = self.at(size[0], col, row) if event == "mouse press" and button == 1 else None
+        if key is None or not key.names:
+            return False
+        self._press(key.names[0])
+        return True
 
     def rows(self, size: tuple[int], focus: bool = False) -> int:
         """How many lines the keys need in this width."""
@@ -85,16 +110,17 @@ class KeyLine(urwid.Widget):
 class MainFrame(urwid.Frame[Any, Any, Any]):
     """The menu bar and the line on the machine above, a screen in the middle, the next step and the keys below.
 
+    press   is called with a key that is clicked, by urwid's name
     screen  the one that is shown
     """
 
     screen: urwid.Widget
 
-    def __init__(self) -> None:
+    def __init__(self, press: Callable[[str], object]) -> None:
         self.bar = MenuBar()
         self._machine = Text("", wrap="ellipsis")
         self._step = Text("", wrap="ellipsis")
-        self._keys = KeyLine()
+        self._keys = KeyLine(press)
         self._window = Window(urwid.SolidFill())
         self._title: Line = []
         self._state: Line = []

@@ -11,7 +11,7 @@ import urwid
 
 from drillctl.language.words import _
 from drillctl.ui.widgets import dialogs
-from drillctl.ui.widgets.dialogs import Accept, ChoiceDialog, Field, FieldsDialog, offer
+from drillctl.ui.widgets.dialogs import Accept, Act, ChoiceDialog, Field, FieldsDialog, offer
 from drillctl.ui.widgets.finder import COLUMNS, ROWS, Finder
 from drillctl.ui.widgets.menus import PullDown
 from drillctl.ui.widgets.texts import Size, Text
@@ -144,6 +144,16 @@ class Boxes:
     def message(self, title: str, lines: Sequence[str]) -> None:
         """Opens a dialog that tells something."""
         self.layers.push_dialog(dialogs.message(title, lines, self.layers.pop))
+
+    def explain(
+        self, title: str, before: Sequence[str], links: Sequence[tuple[str, Act]], after: Sequence[str]
+    ) -> None:
+        """Opens a dialog that tells something; a line of ``links``, which stand in the middle, acts when clicked."""
+        self.layers.push_dialog(dialogs.explanation(title, before, links, after, self.layers.pop))
+
+    def say(self, text: str) -> None:
+        """Shows a word in the bottom lines, until the next key."""
+        self._say(text)
 
     def ask(self, question: str, yes: Callable[[], None]) -> None:
         """Opens a dialog of yes and no; every answer leaves a word in the bottom lines."""

@@ -54,6 +54,9 @@ class Shell:
     opened: list[urwid.Widget] = field(default_factory=list)
     closed: int = 0
 
+    def say(self, text: str) -> None:
+        self.told.append(("", [text]))
+
     def message(self, title: str, lines: Sequence[str]) -> None:
         self.told.append((title, list(lines)))
 

@@ -136,9 +136,9 @@ def test_space_turns_the_cell_under_the_cursor_over_and_undo_takes_it_back(edito
     press(editor, "down", "right", " ")
     assert editor.text == "1a 5 xx..\n1b 5 .xxx\n24a 24 x.x."
     assert "[x]" in text_of(editor) and "changed" in text_of(editor)
-    press(editor, "u")
+    press(editor, "ctrl u")
     assert editor.text == TABLE and not editor.changed
-    press(editor, "r")
+    press(editor, "ctrl r")
     assert editor.changed
 
 
@@ -335,7 +335,7 @@ def test_a_trial_says_what_was_lost_at_any_size_and_holds_for_its_table_alone(
     assert "no step lost" in text_of(editor, (columns, 30)), "of the saved table"
     press(editor, "right", " ")
     assert "LOST" not in text_of(editor, (columns, 30))
-    press(editor, "u")
+    press(editor, "ctrl u")
     assert "LOST 1 of 30 steps" in text_of(editor, (columns, 30)), "it is the table that was tried"
 
 

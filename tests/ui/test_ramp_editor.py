@@ -70,9 +70,9 @@ def test_a_number_has_an_end(editor: RampEditor) -> None:
 
 
 def test_undo_and_redo(editor: RampEditor) -> None:
-    press(editor, "5", "u")
+    press(editor, "5", "ctrl u")
     assert editor.text == TABLE and states(editor)[0][1] == "[-1]"
-    press(editor, "r")
+    press(editor, "ctrl r")
     assert editor.text.startswith("-1 5 ")
 
 
@@ -94,7 +94,7 @@ def test_a_pair_of_states_comes_and_goes_and_the_cursor_stays_on_its_state(edito
     assert ["1", "[1]", "2", "4", "1", "4"] in rows
     press(editor, "down", "delete")
     assert editor.text == TABLE and ["1", "[1]", "2", "4", "1", "4"] in states(editor), "on the outermost that is left"
-    press(editor, "u")
+    press(editor, "ctrl u")
     assert editor.text.startswith("-2 ")
 
 

@@ -154,7 +154,7 @@ def test_the_side_window_fits_and_tells_all(language: str, columns: int, rows: i
 def test_the_whole_table_stands_where_there_is_room_with_its_column_marked() -> None:
     (page,) = side_pages(VIEW, None, None, 48, 46)
     lines = plain_text(page)
-    assert lines.count("   [1a]    xxxxxx[.].....") == 3 and lines.count("    1b     ......[x]xxxxx") == 3
+    assert lines.count("   [1a]    xxxxxx[.].....") == 3 and lines.count("    1b     ......|x|xxxxx") == 3
     small = plain_text(side_pages(VIEW, None, None, 36, 18)[0])
     assert "X   7 +3 [1a] 1b [24a]" in small
 

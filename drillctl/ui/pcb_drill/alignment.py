@@ -16,7 +16,7 @@ from drillctl.ui.pcb_drill.measuring import LEAST_HOLES, Measuring, PlaceMm
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.dialogs import Answered
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
@@ -40,6 +40,7 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key(("a",), "A", "add", N_("measures another hole, by its number"), N_("Add")),
         Key(("delete",), "Del", "remove", N_("takes the hole off the list"), N_("Off")),
         Key(("f2",), "F2", "use", N_("places the board by these holes; with none, as before"), N_("Use")),
+        *UNDO_KEYS,
         *JOG_KEYS,
     )
 
@@ -110,6 +111,20 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
         if self.measuring.spots:
             self.measuring.remove(self._at)
             self._at = max(0, min(self._at, len(self.measuring.spots) - 1))
+        self._say("body", "")
+
+    def undo(self) -> None:
+        """Takes the last change of the list back."""
+        self.measuring.undo()
+        self._changed_back()
+
+    def redo(self) -> None:
+        """Makes the change again that was undone last."""
+        self.measuring.redo()
+        self._changed_back()
+
+    def _changed_back(self) -> None:
+        self._at = max(0, min(self._at, len(self.measuring.spots) - 1))
         self._say("body", "")
 
     def use(self) -> None:

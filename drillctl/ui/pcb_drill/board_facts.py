@@ -104,7 +104,7 @@ def _further(options: JobOptions) -> list[str]:
 
 def board_lines(board: BoardView) -> list[str]:
     """A board in words: size, format and why, tools with their time, the whole time, warnings."""
-    width_mm, height_mm = np.ptp(board.xy_mm, axis=0).tolist() if len(board.xy_mm) else (0.0, 0.0)
+    width_mm, height_mm = _size_mm(board)
     size = ngettext(
         "{name}: {count} hole, {width:.2f} x {height:.2f} mm", "{name}: {count} holes, {width:.2f} x {height:.2f} mm",
         len(board.xy_mm),
@@ -113,6 +113,23 @@ def board_lines(board: BoardView) -> list[str]:
     runner_up = [_("else: {format}").format(format=translated(board.runner_up))] if board.runner_up else []
     warnings = [_("warning: {text}").format(text=translated(text)) for text in board.warnings]
     return [size, sure, *runner_up, *_tool_lines(board), _whole_time(board), *warnings]
+
+
+def loaded_line(board: BoardView) -> str:
+    """What was loaded, in a line: holes, tools, size."""
+    holes, tools = len(board.xy_mm), len(board.estimate.tools)
+    width_mm, height_mm = _size_mm(board)
+    return _("loaded: {name}, {holes}, {tools}, {width:.1f} x {height:.1f} mm").format(
+        name=board.name, width=width_mm, height=height_mm,
+        holes=ngettext("{count} hole", "{count} holes", holes).format(count=holes),
+        tools=ngettext("{count} tool", "{count} tools", tools).format(count=tools),
+    )  # fmt: skip
+
+
+def _size_mm(board: BoardView) -> tuple[float, float]:
+    """Width and height of what is drilled."""
+    width_mm, height_mm = np.ptp(board.xy_mm, axis=0).tolist() if len(board.xy_mm) else (0.0, 0.0)
+    return width_mm, height_mm
 
 
 def is_warning(line: str) -> bool:

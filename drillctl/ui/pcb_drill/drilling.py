@@ -25,6 +25,7 @@ from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import Console, MachineView
+from drillctl.viewmodel.jobs import UnfinishedJob
 from drillctl.viewmodel.records import Progress
 
 BOARD_KEYS = (
@@ -94,7 +95,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._windows.show(view, board, progress)
         of_board = progress if board and progress and progress.holes_total == len(board.xy_mm) else None
         if self._was_at_work and not view.at_work and of_board:
-            self._note = ("body", _ended(of_board))
+            self._note = ("body", _ended(of_board, self._cut_off() is not None))
         self._was_at_work = view.at_work
         self._footer.set_text(self._bottom())
 
@@ -106,8 +107,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         if board is None:
             self._answer(self._console.start(dry=False))
             return
-        cut_off = next((job for job in self._console.unfinished() if job.file == board.file), None)
-        if cut_off is not None:
+        if (cut_off := self._cut_off()) is not None:
             offer_job(cut_off, self._console, self._shell, anew=self._drill)
             return
         count = len(board.xy_mm)
@@ -115,6 +115,12 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
             count=count, name=board.name
         )
         self._shell.ask(question, self._drill)
+
+    def _cut_off(self) -> UnfinishedJob | None:
+        """The job of the loaded board that was interrupted."""
+        board = self._console.board()
+        jobs = self._console.unfinished() if board else ()
+        return next((job for job in jobs if board and job.file == board.file), None)
 
     def _refused(self) -> bool:
         """Whether no motion can be begun just now; then the bottom line says why, and nothing is asked."""
@@ -240,8 +246,9 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.go_to(x_mm, y_mm), where)
 
 
-def _ended(of_board: Progress) -> str:
-    """How far a board was drilled when its job ended."""
+def _ended(of_board: Progress, resumable: bool) -> str:
+    """How far a board was drilled when its job ended, and how the rest can be drilled where that is kept."""
     total = of_board.holes_total
     text = ngettext("ended: {done} of {count} hole in {time}", "ended: {done} of {count} holes in {time}", total)
-    return text.format(done=of_board.holes_done, count=total, time=clock(of_board.machine_seconds))
+    told = text.format(done=of_board.holes_done, count=total, time=clock(of_board.machine_seconds))
+    return f"{told}; {_('S offers to drill the rest')}" if resumable else told

@@ -16,8 +16,17 @@ from drillctl.files.inputs import real_path
 from drillctl.language import Message
 from drillctl.language.number_text import pair_mm
 from drillctl.language.words import N_, _, translated
+from drillctl.ui.models.editing import History
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
-from drillctl.ui.pcb_drill.board_facts import CHOICES, board_lines, format_name, is_warning, option_lines, recent_line
+from drillctl.ui.pcb_drill.board_facts import (
+    CHOICES,
+    board_lines,
+    format_name,
+    is_warning,
+    loaded_line,
+    option_lines,
+    recent_line,
+)
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.browser import Browser, preview
 from drillctl.ui.pcb_drill.examples import offer_examples
@@ -25,7 +34,7 @@ from drillctl.ui.pcb_drill.typed import FORMATS, accepted, length_mm, panel_of, 
 from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.dialogs import Answered, Field
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.texts import Icon, Size, Text
 from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
@@ -55,11 +64,13 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         Key(("r",), "R", "cycle", N_("the order of the holes"), N_("Order"), "order"),
         Key(("k",), "K", "cycle", N_("what becomes of holes behind the end, M30 (--after-end)"), argument="after_end"),
         Key(("w",), "W", "how_to_drill", N_("pecks, spots, tools left out, drills at hand"), N_("How")),
+        *UNDO_KEYS,
     )
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False, folder: Path | None = None):
         self._console, self._shell = console, shell
         self._options, self._loaded = JobOptions(), Path()
+        self._history = History(self._options)  # of the options of the file at hand
         self._picture = BoardPicture(plain)
         self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
         facts = urwid.ListBox(self._rows)
@@ -150,6 +161,16 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def set_format(self, name: str) -> None:
         """Reads the file by this format; recognises the format for an empty text."""
         self._change(self._tell, format=name.strip() or None)
+
+    def undo(self) -> None:
+        """Reads the file with the options before the last change."""
+        if self._history.undo():
+            self._read(self._loaded, self._history.now, self._tell)
+
+    def redo(self) -> None:
+        """Makes the change of the options again that was undone last."""
+        if self._history.redo():
+            self._read(self._loaded, self._history.now, self._tell)
 
     def offset(self) -> None:
         """Asks for the offset from the base."""
@@ -245,8 +266,14 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
     def _taken(self, file: Path, options: JobOptions, problems: Problems) -> Problems:
         """Shows a board that was read without problems; returns these."""
         if not problems:
+            if file == self._loaded:
+                self._history.do(options)
+            else:
+                self._history = History(options)
             self._options, self._loaded = options, file
             self._look_at(file if file.name else self._browser.current)
+            if file.name and (board := self._console.board()):
+                self._shell.say(loaded_line(board))
         return problems
 
     def _look_at(self, path: Path) -> None:

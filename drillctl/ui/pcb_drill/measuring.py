@@ -4,11 +4,12 @@ Rule: places are in millimetres from machine zero, whatever the working base is;
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.ui.models.editing import History
 from drillctl.viewmodel.console import BoardView, Problems
 from drillctl.viewmodel.job_options import MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport
@@ -19,7 +20,7 @@ MOST_HOLES = 12
 LEAST_HOLES = 2
 
 
-@dataclass
+@dataclass(frozen=True)
 class Spot:
     """A hole by its number from 1, in the file's coordinates, and where it was found, None as long as it was not."""
 
@@ -36,10 +37,14 @@ class Measuring:
 
     def __init__(self, board: BoardView, measured: tuple[MeasuredHole, ...], face_down: bool, align: Align):
         self._board, self._face_down, self._align = board, face_down, align
-        self.spots = [_spot_of(board, hole) for hole in measured] or [
-            self._spot(index) for index in far_apart(board.file_xy_mm)
-        ]
+        spots = [_spot_of(board, hole) for hole in measured]
+        self._history = History(tuple(spots or map(self._spot, far_apart(board.file_xy_mm))))
         self._look()
+
+    @property
+    def spots(self) -> tuple[Spot, ...]:
+        """The holes of the list."""
+        return self._history.now
 
     @property
     def measured(self) -> tuple[MeasuredHole, ...]:
@@ -56,17 +61,26 @@ class Measuring:
         there = any(spot.number == number for spot in self.spots)
         if there or not 1 <= number <= len(self._board.xy_mm) or len(self.spots) >= MOST_HOLES:
             return False
-        self.spots.append(self._spot(number - 1))
+        self._change((*self.spots, self._spot(number - 1)))
         return True
 
     def remove(self, index: int) -> None:
         """Takes a hole off the list, by its index."""
-        del self.spots[index]
-        self._look()
+        self._change((*self.spots[:index], *self.spots[index + 1 :]))
 
     def find(self, index: int, place_mm: PlaceMm) -> None:
         """Notes the place where a hole was found, in mm from machine zero."""
-        self.spots[index].found_mm = place_mm
+        found = replace(self.spots[index], found_mm=place_mm)
+        self._change((*self.spots[:index], found, *self.spots[index + 1 :]))
+
+    def undo(self) -> None:
+        """Takes the last change of the list back."""
+        self._history.undo()
+        self._look()
+
+    def redo(self) -> None:
+        """Makes the change again that was undone last."""
+        self._history.redo()
         self._look()
 
     def expected_mm(self, index: int, base_mm: PlaceMm) -> PlaceMm:
@@ -87,6 +101,10 @@ class Measuring:
     def _spot(self, index: int) -> Spot:
         x_mm, y_mm = self._board.file_xy_mm[index].tolist()
         return Spot(index + 1, (x_mm, y_mm))
+
+    def _change(self, spots: tuple[Spot, ...]) -> None:
+        self._history.do(spots)
+        self._look()
 
     def _look(self) -> None:
         enough = len(self.measured) >= LEAST_HOLES

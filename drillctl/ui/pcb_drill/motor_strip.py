@@ -1,7 +1,7 @@
 """The motors side by side: phase table with its column, ramp, speed, and where the rotor of a simulated motor is.
 
-Rule: the column that is out and the wires that are on stand in brackets, the forcing wires' pulses are capital X, so
-that nothing is told by colour alone. Motors for which there is no room stand on further pages.
+Rule: the wires that are on stand in brackets, in the column that is out too (machine_lines.py); the forcing wires'
+pulses are capital X, so that nothing is told by colour alone. Motors for which there is no room stand on further pages.
 """
 
 from itertools import zip_longest

@@ -9,13 +9,14 @@ from typing import Any
 import urwid
 
 from drillctl.language.words import N_, _, translated
+from drillctl.ui.models.editing import History
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
 from drillctl.ui.screens.field_panel import TICK_RATE, about_field, effect_lines
 from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.bench import Bench
@@ -40,6 +41,7 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         Key(("f5",), "F5", "choose", N_("drives this machine, as it was saved"), N_("Drive it")),
         Key(("f7",), "F7", "copy", N_("copies this machine's file under another name"), N_("Copy")),
         Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped file is in force again"), N_("Reset")),
+        *UNDO_KEYS,
         Key(
             ("f12",), "F12", "measure",
             N_("measures the axis's scale; on the tick rate: what this computer carries"), N_("Measure"),
@@ -90,10 +92,22 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         lines = about_field(self._draft, self._field, self._carried, beside - BORDER_COLUMNS) if beside else []
         return with_panel(super().render((left, rows), focus), _("This field"), lines, beside, rows)
 
-    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool | None:
-        """Hands an event to the fields, unless it is on the panel."""
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """Goes to the field that is clicked, and through the fields with the wheel; the panel beside takes nothing."""
         left = self._left(size)
-        return super().mouse_event(left, event, button, col, row, focus) if col < left[0] else False
+        taken = col < left[0] and bool(super().mouse_event(left, event, button, col, row, focus))
+        self._look()
+        return taken
+
+    def undo(self) -> None:
+        """Takes the last change of a field back."""
+        self._history.undo()
+        self._restore()
+
+    def redo(self) -> None:
+        """Makes the change again that was undone last."""
+        self._history.redo()
+        self._restore()
 
     def go(self, by: int) -> None:
         """Moves the cursor by so many fields; it stops at the ends."""
@@ -185,6 +199,7 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         at = self._list.focus_position if self._rows else 0
         self._draft = ConfigurationDraft(self._tables, self._tables.read("machines", self._name))
         self._edits = [Edit(edit_text=field.value) for field in self._draft.fields]
+        self._history = History(self._typed())
         self._rows[:] = [_row(field, edit) for field, edit in zip(self._draft.fields, self._edits, strict=True)]
         if self._edits:
             self._list.set_focus(min(at, len(self._edits) - 1))
@@ -206,6 +221,20 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
             self._shell.message(_("Locked"), [translated(problem) for problem in refusal])
             edit.set_edit_text(field.value)
         self._draft.type(field, str(edit.edit_text))
+        self._history.do(self._typed())
+        self._look()
+
+    def _typed(self) -> tuple[str, ...]:
+        return tuple(str(edit.edit_text) for edit in self._edits)
+
+    def _restore(self) -> None:
+        """Puts the texts of the history back into the fields, the cursor to the one that changed."""
+        for at, (field, text) in enumerate(zip(self._draft.fields, self._history.now, strict=True)):
+            if self._edits[at].edit_text != text:
+                self._edits[at].set_edit_text(text)
+                self._edits[at].set_edit_pos(len(text))
+                self._draft.type(field, text)
+                self._list.set_focus(at)
         self._look()
 
     def _go_on_with(self, name: str) -> None:

@@ -1,4 +1,8 @@
-"""Phases and tools as lines of text: what is on stands in brackets. An axis may be live or at a tick of a run."""
+"""Phases and tools as lines of text: what is on stands in brackets. An axis may be live or at a tick of a run.
+
+Rule: brackets always mean on. The column that is put out stands in them where the wire is on; where it is off, as
+forcing is at rest whatever the table has there, between bars: ``|x|``.
+"""
 
 from typing import Protocol
 
@@ -38,7 +42,7 @@ def phase_line(axis: Phases) -> Line:
 
 
 def phase_table(axis: Phases) -> list[Line]:
-    """The table as printed, a wire a line, the column that is put out in brackets."""
+    """The table as printed, a wire a line, the column that is put out in brackets or between bars."""
     top = _("column {column}, ramp {state} of {top}").format(
         column=axis.column, state=f"{axis.state:+d}", top=axis.top_state
     )
@@ -53,7 +57,8 @@ def lamp(name: str, lit: bool) -> tuple[str, str]:
 def _wire_line(column: int, name: str, row: str, lit: bool) -> Line:
     before, cell, after = row[:column], row[column : column + 1], row[column + 1 :]
     name_cell = f"[{name}]" if lit else f" {name} "
-    return [("lit" if lit else "dark", f"   {name_cell:8}"), ("dark", before), ("lit", f"[{cell}]"), ("dark", after)]
+    look, here = ("lit", f"[{cell}]") if lit else ("dark", f"|{cell}|")
+    return [(look, f"   {name_cell:8}"), ("dark", before), (look, here), ("dark", after)]
 
 
 def tool_name(tool: ToolWanted) -> str:

@@ -13,7 +13,7 @@ from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.screens.tick_log import TickLog, port_line
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.console import AxisView, Console, MachineView, Problems
@@ -34,8 +34,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         Key(("f6",), "F6", "run_to_cursor", N_("runs down to the cursor's line, this one too"), N_("To cursor")),
         Key(("f7",), "F7", "run_line", N_("runs the cursor's line alone and goes to the next"), N_("One")),
         Key(("f8",), "F8", "tick", N_("one tick of the queue, then the clock waits"), N_("Tick")),
-        Key(("ctrl u",), "Ctrl+U", "undo", N_("takes the last change back")),
-        Key(("ctrl r",), "Ctrl+R", "redo", N_("makes it again")),
+        *UNDO_KEYS,
         Key(("f2",), "F2", "save", N_("saves the queue to a file"), N_("Save")),
         Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
     )

@@ -22,6 +22,9 @@ class Shell(Protocol):
     def message(self, title: str, lines: Sequence[str]) -> None:
         """Opens a dialog that tells something, until Enter or Esc."""
 
+    def say(self, text: str) -> None:
+        """Shows a word in the bottom lines, until the next key."""
+
     def ask(self, question: str, yes: Callable[[], None]) -> None:
         """Opens a dialog of yes and no; ``yes`` is called on a yes. Enter and Esc mean no."""
 

@@ -13,7 +13,7 @@ from drillctl.ui.models.editing import History
 from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, titled, with_panel
 from drillctl.ui.widgets.texts import Line, boxed
 from drillctl.viewmodel.bench import Bench, BenchReport
@@ -27,8 +27,7 @@ CHARTS, PANEL_TEXT_ROWS = 3, 13  # of a panel: its charts, and the rows of every
 LEAST_CHART_ROWS, MOST_CHART_ROWS = 3, 12
 TABLE_KEYS = (
     Key(("f5",), "F5", "try_out", N_("tries the table on motors of a bench: which moves lose steps"), N_("Try")),
-    Key(("u",), "U", "undo", N_("takes the last change back"), N_("Undo")),
-    Key(("r",), "R", "redo", N_("makes it again"), N_("Redo")),
+    *UNDO_KEYS,
     Key(("f2",), "F2", "save", N_("saves to your own copy; a table with a problem is never saved"), N_("Save")),
     Key(("f3",), "F3", "diff", N_("what differs from the shipped table"), N_("Diff")),
     Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped table is in force again"), N_("Reset")),

@@ -11,7 +11,7 @@ import urwid
 
 from drillctl.language import Message
 from drillctl.language.words import _, translated
-from drillctl.ui.widgets.texts import Box, Button, Edit, Pick, Size, Text
+from drillctl.ui.widgets.texts import Box, Button, Edit, Link, Pick, Size, Text
 
 WIDEST = 72
 LEAST_BUTTON = 14
@@ -93,6 +93,22 @@ def nothing() -> None:
 def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing) -> Dialog:
     """A dialog that tells something; ``then`` is called after Enter."""
     return Dialog(title, [Text(line) for line in lines], [(_("OK"), then)], closing)
+
+
+def explanation(
+    title: str, before: Sequence[str], links: Sequence[tuple[str, Act]], after: Sequence[str], closing: Act
+) -> Dialog:
+    """A dialog that tells something; ``links`` in the middle are lines that close it and act when they are clicked."""
+
+    def line(text: str, act: Act) -> Link:
+        def clicked() -> None:
+            closing()
+            act()
+
+        return Link(text, clicked)
+
+    body = [*map(Text, before), Text(""), *(line(*link) for link in links), Text(""), *map(Text, after)]
+    return Dialog(title, body, [(_("OK"), nothing)], closing)
 
 
 def question(text: str, yes: Act, closing: Act) -> Dialog:

@@ -47,6 +47,21 @@ FRAME_KEYS = (
 )
 
 
+# The same in every editor. Letters are typed in some of them.
+UNDO_KEYS = (
+    Key(("ctrl u",), "Ctrl-U", "undo", N_("takes the last change back"), N_("Undo")),
+    Key(("ctrl r",), "Ctrl-R", "redo", N_("makes it again")),
+)
+WHEEL = {4: "up", 5: "down"}  # buttons of the mouse, and the key that each of them stands for
+CURSOR_METHODS = ("go", "upwards", "downwards", "row")  # of keys that move a cursor and nothing else
+
+
+def wheel_key(keys: Iterable[Key], button: int) -> str | None:
+    """Returns the key that a turn of the wheel stands for where it moves a cursor; None for any other key or button."""
+    name = WHEEL.get(button)
+    return name if any(name in key.names and key.method in CURSOR_METHODS for key in keys) else None
+
+
 def called(target: object, keys: Iterable[Key], pressed: str) -> bool:
     """Calls the method of the key that was pressed, if there is such a row.
 

@@ -86,21 +86,12 @@ class Box(urwid.LineBox[urwid.Widget]):
         super().set_title(shown(text))
 
 
-class Pick(Text):
-    """``chosen`` is called for Enter and for the further ``keys``, and for a click with the first button."""
+class Link(Text):
+    """``chosen`` is called for a click with the first button. The cursor doesn't come here, so no key calls it."""
 
-    _selectable = True
-
-    def __init__(self, text: str | Line, chosen: Callable[[], object], *keys: str):
-        self._chosen, self._keys = chosen, ("enter", *keys)
-        super().__init__(text, wrap="ellipsis")
-
-    def keypress(self, size: Size, key: str) -> str | None:
-        """Chooses the line for Enter and the further keys; returns any other key."""
-        if key not in self._keys:
-            return key
-        self._chosen()
-        return None
+    def __init__(self, text: str | Line, chosen: Callable[[], object], wrap: Literal["space", "ellipsis"] = "space"):
+        self._chosen = chosen
+        super().__init__(text, wrap=wrap)
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
         """Chooses the line for a press of the first button."""
@@ -108,6 +99,23 @@ class Pick(Text):
             return False
         self._chosen()
         return True
+
+
+class Pick(Link):
+    """``chosen`` is called for Enter and for the further ``keys``, and for a click with the first button."""
+
+    _selectable = True
+
+    def __init__(self, text: str | Line, chosen: Callable[[], object], *keys: str):
+        self._keys = ("enter", *keys)
+        super().__init__(text, chosen, wrap="ellipsis")
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """Chooses the line for Enter and the further keys; returns any other key."""
+        if key not in self._keys:
+            return key
+        self._chosen()
+        return None
 
 
 def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
@@ -130,11 +138,20 @@ def around(cursor: int, count: int, room: int) -> range:
 
 def packed(parts: Sequence[Line], columns: int) -> list[Line]:
     """Parts side by side in as many lines as they need; no part is broken."""
-    lines: list[Line] = [[]]
-    for part in parts:
-        if lines[-1] and width_of([*lines[-1], *part]) > columns:
+    return [[piece for index in line for piece in parts[index]] for line in indices_packed(parts, columns)]
+
+
+def indices_packed(parts: Sequence[Line], columns: int) -> list[list[int]]:
+    """For each line of ``packed`` the indices of the parts that stand in it, from left to right."""
+    lines: list[list[int]] = [[]]
+    used = 0
+    for index, part in enumerate(parts):
+        width = width_of(part)
+        if lines[-1] and used + width > columns:
             lines.append([])
-        lines[-1].extend(part)
+            used = 0
+        lines[-1].append(index)
+        used += width
     return lines
 
 
