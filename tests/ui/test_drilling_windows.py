@@ -105,7 +105,7 @@ def test_a_motor_shows_column_forcing_ramp_and_the_rotor_where_it_is() -> None:
     view = replace(VIEW, axes=(axis,), lost_steps=(0,))
     (page,) = motor_pages(view, Speeds(), 108, 11)
     text = "\n".join(texts(page))
-    assert "[1a]" in text and "[x]xx..." in text and "[X]....." in text and "█████▌" in text and "Rotor" not in text
+    assert "[1a]" in text and "[x]xx..." in text and "|X|....." in text and "█████▌" in text and "Rotor" not in text
     behind = replace(view, axes=(replace(axis, behind_steps=2.25),))
     assert "....●.|......" in texts(motor_pages(behind, Speeds(), 108, 11)[0])[-1]
     lost = replace(view, axes=(replace(axis, behind_steps=12.0),), lost_steps=(12,))
