@@ -61,7 +61,7 @@ class Alerts:
             (_("Not yet"), dialogs.nothing),
             (_("It is in"), self._console.tool_changed),
             (_("Hold"), self._console.hold),
-            (_("Stop"), self._console.stop),
+            (f"{_('Stop')} (X)", self._console.stop),
         ]
         return dialogs.Dialog(_("Tool change"), [Text(line) for line in lines], buttons, self._layers.pop, answers=True)
 

@@ -26,9 +26,19 @@ from drillctl.ui.palette import actions
 from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
-from drillctl.ui.widgets.dialogs import nothing
+from drillctl.ui.widgets.dialogs import Dialog, nothing
 from drillctl.ui.widgets.finder import Finder
-from drillctl.ui.widgets.keys import COPY, EMERGENCY, FRAME_KEYS, TYPED_STOP, Key, called, help_lines, wheel_key
+from drillctl.ui.widgets.keys import (
+    COPY,
+    EMERGENCY,
+    FRAME_KEYS,
+    STOP_JOB,
+    TYPED_STOP,
+    Key,
+    called,
+    help_lines,
+    wheel_key,
+)
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
@@ -107,7 +117,7 @@ class App(Boxes):
         if any(isinstance(key, str) and key != "window resize" for key in keys):
             self.frame.say("")
         if not stops.intersection(keys):
-            return self._without_copies(keys)
+            return self._without_stops(self._without_copies(keys))
         self.emergency_stop()  # nothing typed with it may still reach the machine, an acknowledgement least of all
         return [key for key in keys if key == "window resize"]
 
@@ -116,6 +126,16 @@ class App(Boxes):
         if COPY.names[0] in keys:
             self.copy_screen()
         return [key for key in keys if key not in COPY.names]
+
+    def _without_stops(self, keys: list[Pressed]) -> list[Pressed]:
+        """Stops the job that runs for its key over a box too, unless a text is typed there; else returns all keys."""
+        asked = any(isinstance(key, str) and key.lower() == STOP_JOB for key in keys)
+        boxed = isinstance(self.layers.top, Dialog) and not self.layers.typing
+        if not asked or not boxed or not self._console.view().at_work:
+            return keys
+        self._console.stop()
+        self.frame.say(_("stop; the position is kept"))
+        return [key for key in keys if key == "window resize"]
 
     def unhandled(self, pressed: Pressed) -> bool:
         """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""

@@ -22,6 +22,7 @@ import pyte
 PATIENCE_S = 40.0
 QUIET_S = 0.5  # a screen that has not changed for so long is taken as finished: ten beats of the program
 KEYS = {
+    "Ctrl-U": "\x15",
     "Enter": "\r", "Esc": "\x1b", "Tab": "\t", "Backspace": "\x7f", "Up": "\x1b[A", "Down": "\x1b[B",
     "Right": "\x1b[C", "Left": "\x1b[D", "Home": "\x1b[H", "End": "\x1b[F", "PgUp": "\x1b[5~", "PgDn": "\x1b[6~",
     "F1": "\x1bOP", "F2": "\x1bOQ", "F3": "\x1bOR", "F4": "\x1bOS", "F5": "\x1b[15~", "F6": "\x1b[17~",

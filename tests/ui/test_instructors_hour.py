@@ -35,7 +35,7 @@ def table() -> Iterator["named.Act"]:
     yield Act(("Enter",), (word("Phase table") + ": ",))
     yield Act(("Del",), (word(", changed"),))
     yield Act(("F5",), (word("LOST {lost} of {steps} steps").split(" {")[0],))
-    yield Act(("u",), (), gone=(word(", changed"),))
+    yield Act(("Ctrl-U",), (), gone=(word(", changed"),))
     yield Act(("F5",), (word("no step lost"),), gone=(word("LOST {lost} of {steps} steps").split(" {")[0],))
 
 

@@ -66,6 +66,24 @@ def test_the_tool_change_is_answered_by_letters_too(key: str, done: list[tuple[s
     assert program.console.asked == done
 
 
+@pytest.mark.parametrize("box", ["tool", "f1", "?"])
+@pytest.mark.parametrize("key", ["x", "X"])
+def test_x_stops_the_job_over_a_box_too(box: str, key: str) -> None:
+    tool = ToolWanted(2, 1.0) if box == "tool" else None
+    program = Program(FakeConsole(now=replace(VIEW, tool_wanted=tool, at_work=True), loaded=BOARD))
+    program.app.turn()
+    program.press(*([box] if tool is None else []))
+    assert program.app.layers.top is not None
+    program.press(key)
+    assert program.console.asked == [("stop",)]
+
+
+def test_x_is_typed_in_a_field_while_a_job_runs() -> None:
+    program = Program(FakeConsole(now=replace(VIEW, at_work=True), loaded=BOARD))
+    program.press("t", "x")
+    assert program.app.layers.typing and not program.console.asked
+
+
 def test_letters_are_typed_where_text_is_typed() -> None:
     program = Program(FakeConsole(loaded=BOARD))
     program.press("t", *"qyn?")

@@ -21,7 +21,7 @@ from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.tick_rate import ask_tick_hz
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import STOP_JOB, Key, called
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import Console, MachineView
@@ -51,7 +51,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key(("s",), "S", "start", N_("drills the board; asks first"), N_("Start")),
         Key(("d",), "D", "dry_run", N_("goes to every hole with the drill up"), N_("Dry")),
         Key((" ",), N_("Space"), "hold_or_resume", N_("holds the job, or goes on with it"), N_("Hold")),
-        Key(("x",), "X", "stop", N_("ends the job; the position is kept"), N_("Stop")),
+        Key((STOP_JOB,), "X", "stop", N_("ends the job; the position is kept"), N_("Stop")),
         Key(("c",), "C", "tool_changed", N_("the tool that the job waits for is in; asks first")),
         Key(("i",), "I", "initialise", N_("head up, then X=0, Y=0 by the limit sensors"), N_("Init")),
         Key(("f",), "F", "files", N_("opens the files"), N_("Files")),

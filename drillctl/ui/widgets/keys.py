@@ -27,6 +27,7 @@ class Key(NamedTuple):
 # Live everywhere, in dialogs, menus and fields too: looked at before anything else. F10 always; the key that can also
 # be typed is a character only in a text field, while nothing moves.
 TYPED_STOP = "!"
+STOP_JOB = "x"  # ends the job, on the screens that run one and in boxes over any screen
 EMERGENCY = Key(
     ("f10", TYPED_STOP), "F10 !", "emergency_stop",
     N_("emergency stop, always; ! is typed in fields at rest"), N_("E-STOP"),
