@@ -2,6 +2,7 @@
 because the computer is busy, or because the catalogues were changed and not compiled yet.
 """
 
+import os
 import runpy
 import signal
 from pathlib import Path
@@ -14,6 +15,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if signal.getsignal(signal.SIGQUIT) is signal.SIG_IGN:
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+
+# The program is started hundreds of times; without kept bytecode each start compiles every module anew.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 ROOT = Path(__file__).resolve().parents[1]
 
