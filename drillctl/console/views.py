@@ -171,5 +171,5 @@ def _shown(setting: Setting) -> str:
 def _bounds(setting: Setting) -> str:
     if setting.kind is str:
         return ""
-    low = f"above {setting.above:g}" if setting.above is not None else f"{setting.least:.0f}"
+    low = f">{setting.above:g}" if setting.above is not None else f"{setting.least:.0f}"
     return f"{low}..{setting.greatest:.0f}"

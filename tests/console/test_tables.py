@@ -169,7 +169,7 @@ def test_fields_have_values_bounds_and_choices(bench: TableFiles) -> None:
     assert fields[("axis", 0, "range", 1)].value == "16535" and fields[("axis", 0, "range", 1)].axis == "x"
     assert fields[("tick_hz",)].bounds == "1..100000"
     assert fields[("configuration", "longest_drilling_s")].value == "18"
-    assert fields[("configuration", "longest_drilling_s")].bounds == "above 0..3600"
+    assert fields[("configuration", "longest_drilling_s")].bounds == ">0..3600"
     assert bench.fields("name = 1") == ()
 
 
