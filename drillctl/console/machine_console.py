@@ -16,6 +16,7 @@ from drillctl.console.job_request import align
 from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operator_state import WorkingBase
+from drillctl.console.readiness import BUSY, busy, occupied, ticks_change_something
 from drillctl.console.running_job import RunningJob, took_a_base
 from drillctl.console.scope import RunRecording
 from drillctl.console.views import machine_list, machine_view, plant_in_words
@@ -33,9 +34,6 @@ from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
 from drillctl.viewmodel.workpieces import Workpieces
-
-BUSY = Message("the machine is at work; hold or stop it first")
-ZERO_ONLY = Message("only the return to zero is allowed now (KMD_POWROT)")
 
 
 class MachineConsole:
@@ -92,7 +90,8 @@ class MachineConsole:
         self.recording.keep()
         self._jogs.carry_on(self.at_work, time.monotonic())
         self._workpieces.carry_on()
-        return self.used.runs_free and self._gets_on()
+        works_on = self.at_work and self._job.prompt.wanted is None
+        return self.used.runs_free and ticks_change_something(self.link, works_on)
 
     def view(self) -> MachineView:
         """The machine as its status record and the running job have it now."""
@@ -138,7 +137,7 @@ class MachineConsole:
         """Changes the machine or its port by ``how``; refused while something moves. Board and base are forgotten where
         another ticker runs afterwards.
         """
-        if not self.link.lost() and (problems := self._occupied()):
+        if not self.link.lost() and (problems := occupied(self.link, self.at_work)):
             return problems
         before = self.link, self.machine
         problems = how(self.used)
@@ -204,7 +203,7 @@ class MachineConsole:
         except KmdError as error:
             return error.messages
         returns = Op(int(program["opcode"][0])) == Op.POWROT
-        if problems := self._occupied() if returns else self.busy():
+        if problems := occupied(self.link, self.at_work) if returns else self.busy():
             return problems
         self._job.begin(Job("queue", program, self.machine))
         return ()
@@ -275,31 +274,12 @@ class MachineConsole:
 
     def busy(self) -> Problems:
         """Why nothing new can be begun now; empty where it can."""
-        zero_only = self.link.status()["condition"] == Condition.ZERO_ONLY
-        return self._occupied() or ((ZERO_ONLY,) if zero_only else ())
-
-    def _occupied(self) -> Problems:
-        """Why not even a return to zero can be begun now; empty where it can."""
-        status = self.link.status()
-        if self.link.lost():
-            return (Message("the ticker's process is gone; acknowledge, and it is started anew"),)
-        if status["condition"] == Condition.LATCHED:
-            return (Message("a fault waits to be acknowledged"),)
-        return (BUSY,) if self.at_work or status["moving"] else ()
+        return busy(self.link, self.at_work)
 
     def close(self) -> None:
         """Ends the machine's processes, its outputs safe, and closes the journal."""
         self.used.close()
         self._boards.close()
-
-    def _gets_on(self) -> bool:
-        """Whether ticks would change anything: not at rest, held, with the clock stopped or before a tool change."""
-        status = self.link.status()
-        if self.link.gate.paused:
-            return bool(status["hot_ticks"])  # the forcing voltage goes off all the same
-        if status["moving"] or status["hot_ticks"] or status["condition"] in (Condition.STOPPING, Condition.RETURNING):
-            return True
-        return self.at_work and self._job.prompt.wanted is None and status["condition"] != Condition.HOLDING
 
     def _drill(self) -> Problems:
         """Drills what is left of the planned board, from the base it was planned for, into its journal."""

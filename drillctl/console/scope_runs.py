@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from drillctl.console.machine_console import BUSY, MachineConsole
+from drillctl.console.machine_console import MachineConsole
+from drillctl.console.readiness import BUSY
 from drillctl.console.scope import RunRecording, RunScope
 from drillctl.generation.waits import Waits, reading, unwatched
 from drillctl.language import Message

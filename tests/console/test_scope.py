@@ -11,7 +11,8 @@ import pytest
 from drillctl.cli import main
 from drillctl.console import scope
 from drillctl.console import scope_runs as tracefile
-from drillctl.console.machine_console import BUSY, MachineConsole
+from drillctl.console.machine_console import MachineConsole
+from drillctl.console.readiness import BUSY
 from drillctl.console.scope import RunScope
 from drillctl.console.scope_layout import lanes_of
 from drillctl.console.scope_runs import ScopeRuns, TraceFile

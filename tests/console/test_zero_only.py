@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from drillctl.console.machine_console import ZERO_ONLY, MachineConsole
+from drillctl.console.machine_console import MachineConsole
+from drillctl.console.readiness import ZERO_ONLY
 from drillctl.console.signals import MachineSignals
 from drillctl.machine import Library
 from drillctl.ticker.launch import RunSettings
