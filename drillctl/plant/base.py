@@ -8,6 +8,7 @@ from math import inf
 
 from drillctl.machine import Machine
 from drillctl.plant.carriage import Carriage, Switch
+from drillctl.plant.effects import Effect
 from drillctl.plant.rotor import Rotor
 
 # Signals of an axis in a trace, by the suffix of the axis's name: the carriage's place in whole steps; the columns by
@@ -23,21 +24,23 @@ class Plant:
     described  the plant in a word or some, for a trace's header; ``seed`` is that of its random numbers
     inputs     the input image, 1 where a sensor's wire is high
     touches    how often the first head's bit has met the board, coming down
+    effects    what the carriages act on beside their sensors, by name (effects.py)
     """
 
     lanes: tuple[str, ...] = PLACE_LANES
     described = ""
     seed = 0
 
-    def __init__(self, machine: Machine, rotors: Sequence[Rotor], carriages: Sequence[Carriage]):
+    def __init__(
+        self, machine: Machine, rotors: Sequence[Rotor], carriages: Sequence[Carriage], effects: Mapping[str, Effect]
+    ):
         self.rotors, self.carriages = tuple(rotors), tuple(carriages)
         self.image = 0
         self._together = _lines([sensor for carriage in self.carriages for sensor in carriage.sensors])
         self.inputs = sum(1 << line.bit for line in machine.inputs if line.active_level == 0)  # nothing is pressed
         self.touches = 0
-        self._head = machine.drill_axes[0]
-        self._surface = machine.board_surface[self._head]
-        self._in_board = False
+        self.effects = effects
+        self._effects_on = [[each for each in effects.values() if each.axis == n] for n in range(len(self.rotors))]
         for index in range(len(self.rotors)):
             self._carry(index)
         for sensors in self._together.values():
@@ -73,12 +76,11 @@ class Plant:
         return round(self.position_steps(axis)), round(behind_columns)
 
     def quiet_steps(self, axis: int) -> tuple[float, float]:
-        """Returns the places between which (neither included) no sensor of an axis changes, and no bit meets or leaves
-        the board.
+        """Returns the places between which (neither included) no sensor of an axis changes, and nothing that it acts
+        on: no bit meets or leaves the board.
         """
         bounds = [sensor.changes_at() for sensor in self.carriages[axis].sensors]
-        if axis == self._head and self._surface is not None:
-            bounds.append((self._surface, inf) if self._in_board else (-inf, self._surface))
+        bounds += [effect.changes_at() for effect in self._effects_on[axis]]
         return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
     def _answer(self, sensor: Switch) -> None:
@@ -92,10 +94,8 @@ class Plant:
         for sensor in self.carriages[index].sensors:
             if sensor.moved_to(steps):
                 self._answer(sensor)
-        if index == self._head and self._surface is not None:
-            in_board = steps >= self._surface
-            self.touches += in_board and not self._in_board
-            self._in_board = in_board
+        for effect in self._effects_on[index]:
+            self.touches += effect.moved_to(steps)
 
 
 def _lines(sensors: Sequence[Switch]) -> Mapping[int, Sequence[Switch]]:

@@ -6,6 +6,7 @@ Rule: it moves at once when its image changes. Speed, ramp and forcing make no d
 from drillctl.machine import Machine
 from drillctl.plant.base import Plant
 from drillctl.plant.carriage import Carriage, Switch
+from drillctl.plant.effects import effects_of
 from drillctl.plant.rotor import rotor_of
 
 
@@ -20,7 +21,7 @@ class IdealPlant(Plant):
             Carriage(table, [Switch(sensor) for sensor in machine.sensors if sensor.axis == index])
             for index, table in enumerate(machine.axes)
         ]
-        super().__init__(machine, rotors, carriages)
+        super().__init__(machine, rotors, carriages, effects_of(machine))
 
     def drive(self, image: int) -> None:
         """Takes a new output image: each rotor whose bits changed moves, and its carriage with it."""
@@ -35,14 +36,15 @@ class IdealPlant(Plant):
                     self._carry(index)
 
     def memory(self, axis: int) -> tuple[bool, ...]:
-        """Returns the state of an axis's sensors, and for the first head whether its bit is in the board."""
-        in_board = axis == self._head and self._in_board
-        return in_board, *(sensor.reached for sensor in self.carriages[axis].sensors)
+        """Returns the state of what an axis acts on, then of its sensors."""
+        states = [effect.state for effect in self._effects_on[axis]]
+        return *states, *(sensor.reached for sensor in self.carriages[axis].sensors)
 
     def recall(self, axis: int, memory: tuple[bool, ...]) -> None:
         """Restores the state that ``memory`` returned."""
-        if axis == self._head:
-            self._in_board = memory[0]
-        for sensor, reached in zip(self.carriages[axis].sensors, memory[1:], strict=True):
+        effects = self._effects_on[axis]
+        for effect, state in zip(effects, memory, strict=False):
+            effect.state = state
+        for sensor, reached in zip(self.carriages[axis].sensors, memory[len(effects) :], strict=True):
             if sensor.recall(reached):
                 self._answer(sensor)

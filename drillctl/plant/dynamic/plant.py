@@ -18,6 +18,7 @@ from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
 from drillctl.plant.dynamic.rotor import DynamicRotor
+from drillctl.plant.effects import effects_of
 from drillctl.plant.faults import Faults, PlantRefused
 
 
@@ -48,12 +49,15 @@ class DynamicPlant(Plant):
         self._wires = array("Q", [*chain.from_iterable(motor.wires() for motor in self.motors), 0])
         for index in axes:
             kernel.supply(self._rows, index * law.ROW, self._wires, index * law.WIRES, 0)
-        super().__init__(machine, self.motors, self.belts)
+        effects = effects_of(machine)
         if known_faults.of("broken"):
-            self._surface = None
+            effects.pop("board", None)
+        super().__init__(machine, self.motors, self.belts, effects)
+        self._head = machine.drill_axes[0]
+        surface = machine.board_surface[self._head] if "board" in effects else None
         head = machine.axes[self._head]
         worn_m = known_faults.of("blunt") or 0.0
-        self._bit = Bit(head, len(axes), self._surface, machine.surroundings, worn_m, kernel)
+        self._bit = Bit(head, len(axes), surface, machine.surroundings, worn_m, kernel)
         self._bound()
         self._resting = False
         self._one = np.zeros(1, np.uint64)
@@ -113,7 +117,7 @@ class DynamicPlant(Plant):
     def _bound(self) -> None:
         """Notes between which places no sensor changes and the bit neither meets nor leaves the board."""
         self._fluttering = any(belt.flutters for belt in self.belts)
-        self._bit.columns[law.IN_BOARD] = self._in_board
+        self._bit.columns[law.IN_BOARD] = "board" in self.effects and self.effects["board"].state
         for index in range(len(self.motors)):
             begin = index * law.ROW
             self._rows[begin + law.LOW], self._rows[begin + law.HIGH] = self.quiet_steps(index)
