@@ -102,6 +102,6 @@ def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
     module = build_hook()
     monkeypatch.setattr(module, "build", no_compiler)
     hook, build_data = SimpleNamespace(target_name="wheel", root=str(tmp_path)), {"force_include": {}}
-    module.KernelHook.initialize(hook, "editable", build_data)
+    module.CompilingHook.initialize(hook, "editable", build_data)
     assert build_data == {"force_include": {}}
     assert "runs uncompiled: command 'cc' failed" in capsys.readouterr().err
