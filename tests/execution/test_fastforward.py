@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, seed, settings
+from hypothesis import example, given, seed, settings
 from hypothesis import strategies as st
 
 from drillctl.generation.job import names_of
@@ -135,6 +135,7 @@ FINE = st.sampled_from([
 ])  # fmt: skip
 
 
+@example(moves=[("KMD_RUCHd y={}", 7), ("KMD_RUCHd y=-{}", 7)] * 3, asked={}, ticks=20_000)  # strokes made again
 @seed(726)
 @settings(max_examples=5, deadline=None)
 @given(
