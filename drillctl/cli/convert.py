@@ -12,12 +12,14 @@ from drillctl.cli.operating import waiting
 from drillctl.language import Message, known_words, message_of
 
 if TYPE_CHECKING:
+    from drillctl.generation.waits import Waits
     from drillctl.trace import Segments
 
 QUEUE, PART = ".kmd", ".sentences"
 PATTERN = ".toml"
 TEXT = ".trace"
-TRACES = (TEXT, ".seg")
+SEGMENTS = ".seg"
+TRACES = (TEXT, SEGMENTS)
 Writer = Callable[[argparse.Namespace], tuple[str, Sequence[str]]]  # gives the text and its warnings
 EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD programs name drill files
 
@@ -92,11 +94,13 @@ def _trace(arguments: argparse.Namespace) -> None:
     from drillctl.replay.compare import in_form_of
     from drillctl.replay.header import machine_of
     from drillctl.trace import Segments
-    from drillctl.trace.files import read_record, shortened, write_record
+    from drillctl.trace.files import is_text, read_record, shortened, write_record
 
     library = options.library(arguments)
     with waiting() as wait:
         wait(reading(arguments.file.name))
+        if arguments.to.suffix.lower() == SEGMENTS and is_text(arguments.file) and _text_as_segments(arguments, wait):
+            return
         record = read_record(arguments.file)
         if isinstance(record, Segments) and arguments.to.suffix.lower() == TEXT:
             _segments_as_text(arguments, record)
@@ -108,6 +112,23 @@ def _trace(arguments: argparse.Namespace) -> None:
             converted = in_form_of(arguments.to, trace, machine, wait)
             wait(Message("writing {name}", name=arguments.to.name))
             write_record(converted, output)
+
+
+def _text_as_segments(arguments: argparse.Namespace, wait: "Waits") -> bool:
+    """Writes a text trace in segments where the tables at hand make the same run of it, without having its changes in
+    memory; returns whether it was so.
+    """
+    from drillctl.files.outputs import reserved
+    from drillctl.replay.compare import segments_of_text
+    from drillctl.trace.files import write_record
+
+    segments = segments_of_text(arguments.file, arguments.to, options.library(arguments), wait)
+    if segments is None:
+        return False
+    with reserved([arguments.to], inputs=[arguments.file]) as (output,):
+        assert output is not None
+        write_record(segments, output)
+    return True
 
 
 def _segments_as_text(arguments: argparse.Namespace, segments: "Segments") -> None:

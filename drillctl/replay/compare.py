@@ -20,7 +20,7 @@ from drillctl.ticker.fast_ticker import TICK, FastTicker
 from drillctl.ticker.sampler import wire_names
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
-from drillctl.trace.files import read_record, read_trace, takes_segments, whole_trace, write_record
+from drillctl.trace.files import read_record, read_trace, summary_of, takes_segments, whole_trace, write_record
 
 RUNNING_AGAIN = Message("running it again")
 
@@ -91,6 +91,18 @@ def in_form_of(file: Path, trace: Trace, machine: Machine, waits: Waits = unwatc
         return trace
     taped = taped_again(trace, machine, file, waits)
     return taped if taped.change_count == len(trace.ticks) and taped.trace() == trace else Segments.of_trace(trace)
+
+
+def segments_of_text(file: Path, out: Path, library: Library, waits: Waits = unwatched) -> Segments | None:
+    """The run of a text trace in segments, to be written to ``out``; None where the tables at hand do not make the same
+    run of it on the ideal plant. The memory it takes grows with the commands. Raises as ``replay``.
+    """
+    kept = summary_of(file, waits(reading(file.name)))
+    machine = machine_of(kept.rest, file, library)
+    if not takes_segments(out, machine.cards):
+        return None
+    taped = taped_again(kept.rest, machine, file, waits)
+    return taped if kept.of(taped) else None
 
 
 def taped_again(recorded: Trace, machine: Machine, file: Path, waits: Waits = unwatched) -> Segments:

@@ -7,6 +7,7 @@ host is ever written.
     record     Signal, Recorder -> Trace: columns tick, signal, value; changes only
     text       Trace -> text file, the form of golden files
     reader     text file -> Trace, or a TraceError that names file and line; text_lines, text_changes: its parts
+    text_summary  a text trace whose outputs are only summed up
     diff       the first tick at which two traces differ, and the command it happened in
     tapes      pool of port images, and the output of an axis as slices of it
     segments   a trace in the segment form; segment_file: as a file

@@ -9,8 +9,19 @@ from typing import TypeVar
 
 from drillctl.files.outputs import Output, OutputError
 from drillctl.language import Message, message_of
-from drillctl.trace import Segments, Trace, TraceError, is_segments, read_segments, read_text, segment_bytes, write_text
+from drillctl.trace import (
+    Segments,
+    Trace,
+    TraceError,
+    is_segments,
+    is_trace,
+    read_segments,
+    read_text,
+    segment_bytes,
+    write_text,
+)  # fmt: skip
 from drillctl.trace.segments import MOST_CHANGES
+from drillctl.trace.text_summary import TextSummary, read_summary
 
 SEGMENTS = ".seg"
 MOST_CARDS = 2  # 64 bits
@@ -24,6 +35,16 @@ def read_record(file: Path, advance: Callable[[int, int], None] = lambda done, t
     if _read(file, is_segments):
         return _read(file, read_segments)
     return _read(file, lambda path: read_text(path, advance=advance))
+
+
+def is_text(file: Path) -> bool:
+    """Whether a file begins as a text trace. Raises TraceError where it can't be read."""
+    return _read(file, is_trace)
+
+
+def summary_of(file: Path, advance: Callable[[int, int], None]) -> TextSummary:
+    """The summary of a text trace, whose changes are not kept. ``advance``, errors: as ``read_record``."""
+    return _read(file, lambda path: read_summary(path, advance))
 
 
 def read_trace(file: Path, to_tick: int | None = None) -> Trace:

@@ -5,7 +5,7 @@ and everything is bounded, since a golden file may come from anyone. Kinds follo
 a name or command are taken as they are.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +26,19 @@ REMARKS_LIMIT = 10_000  # lines behind the end
 CHANGES_LIMIT = 20_000_000  # 20 bytes each; longer runs are kept in segments
 
 
+Kept = Callable[[Sequence[str], Stretch], Stretch]
+
+
 def read_text(
-    source: Target, name: str | None = None, advance: Callable[[int, int], None] = lambda done, total: None
+    source: Target,
+    name: str | None = None,
+    advance: Callable[[int, int], None] = lambda done, total: None,
+    kept: Kept = lambda names, stretch: stretch,
 ) -> Trace:
     """Returns the trace in a path or an open text file; errors call it `name` (by default the path).
 
     `advance` is called with how many bytes of a path are read, and of how many; what it raises ends the reading.
+    `kept` is given the signals' names and the changes, a stretch at a time; the trace has those that it returns.
 
     Raises TraceError for a file that is not a whole, canonical trace, OSError as `open`.
     """
@@ -40,16 +47,17 @@ def read_text(
         lines = Lines(file, name or (str(source) if file is not source else "<trace>"), read)
         header, signals = _read_head(lines)
         changes = TextChanges(lines, signals)
-        ticks, signal, values = _columns(lines, changes)
+        read_on = (kept(tuple(signals), stretch) for stretch in changes.stretches())
+        ticks, signal, values = _columns(lines, read_on)
         trailer = tuple(_remark(lines, line, count) for count, line in enumerate(lines))
     return Trace(header, changes.signals(), ticks, signal, values, changes.end, trailer)
 
 
-def _columns(lines: Lines, changes: TextChanges) -> tuple[Values, NDArray[np.int32], Values]:
+def _columns(lines: Lines, stretches: Iterable[Stretch]) -> tuple[Values, NDArray[np.int32], Values]:
     """Returns ticks, signals and values (n,) of all changes; they are canonical already."""
     kept: list[Stretch] = []
     count = 0
-    for stretch in changes.stretches():
+    for stretch in stretches:
         kept.append(stretch)
         count += len(stretch.ticks)
         if count > CHANGES_LIMIT:

@@ -30,7 +30,7 @@ class TraceError(Refusal):
 class Lines:
     """The lines of one file without their ends. `number` counts those that were given out, from 1.
 
-    `tell` is called after each page that is read from the file.
+    `tell` is called after each full page that is read from the file.
     """
 
     def __init__(self, file: TextIO, name: str, tell: Callable[[], None]) -> None:
@@ -76,7 +76,8 @@ class Lines:
         while not page and read != "" and len(self._cut) < LINE_LIMIT:
             read = self._file.read(PAGE_CHARACTERS)
             *page, self._cut = (self._cut + read).split("\n")
-        self._tell()
+        if read and len(read) == PAGE_CHARACTERS:
+            self._tell()
         if not page and self._cut:
             page, self._cut, self._unended = [self._cut], "", True
         self._page, self._given = page or [], 0
