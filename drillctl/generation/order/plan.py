@@ -58,7 +58,6 @@ def plan_groups(
     if how == "optimised" and stops.tools:
         return _best(stops, travel, cost, budget or Budget(), advance)
     path = _file_path(stops) if how == "file" else nearest_path(stops, travel, advance)
-    advance(1, 1)
     return stops.orders(path)
 
 
@@ -66,7 +65,6 @@ def _best(stops: Stops, travel: TravelCost, cost: Cost | None, budget: Budget, a
     """Begin with the shorter of the two cheap paths, since repairs only ever shorten; and take the best of all."""
     cheap = sorted((_file_path(stops), nearest_path(stops, travel)), key=lambda path: stops.length_ticks(path, travel))
     found = [optimised_path(stops, travel, cheap[0], budget, advance), *cheap]
-    advance(1, 1)
     orders = [stops.orders(path) for path in found]
     return orders[0] if cost is None else min(orders, key=cost)
 
