@@ -36,3 +36,12 @@ def test_a_box_is_as_urwid_would_draw_it(encoding: str, lines: list[Line], colum
 def test_what_is_twice_as_wide_and_cut_leaves_a_gap() -> None:
     (row,) = boxed([["a漢漢", ("good", "b")]], 4, 1).text
     assert row.decode() == "a漢 "
+
+
+@given(lines=LINES, part=st.tuples(st.integers(0, 9), st.integers(0, 3), st.integers(1, 10), st.integers(1, 3)))
+def test_a_part_of_a_box_in_other_looks_is_as_urwid_would_cut_it(lines: list[Line], part: tuple[int, ...]) -> None:
+    looks = {None: "body", "good": "focus"}
+    box = boxed(lines, 20, 6)
+    for trimmed in (part, (0, *part[1:2], 20, *part[3:])):
+        by_its_base = urwid.TextCanvas.content(box, *trimmed, looks)
+        assert list(box.content(*trimmed, looks)) == list(by_its_base)

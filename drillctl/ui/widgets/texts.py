@@ -4,9 +4,9 @@ Rule: whatever they are given, a terminal only prints: what it would obey is esc
 these; tests/ui/test_hidden_characters.py holds that no screen makes urwid's own.
 """
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import urwid
 
@@ -17,6 +17,8 @@ Part = str | tuple[str, str]
 Line = list[Part]
 Names = list[tuple[Hashable, int]]  # of attributes, and of how many bytes
 Charsets = list[tuple[Literal["0", "U"] | None, int]]
+Run = tuple[Hashable, Literal["0", "U"] | None, bytes]  # attribute, character set, text
+Looks = Mapping[Hashable, Hashable]  # attributes that stand for others
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid hands it to a widget: nothing, columns, or a box
 DRAWN = 1024  # lines that are kept as they were drawn last: several screens of a large terminal
 KEPT = LINES.replace("\t", "")  # urwid gives a tab no columns
@@ -124,10 +126,27 @@ def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
     """
     encoding = urwid.util.get_encoding()
     drawn = [_drawn(tuple(line), columns, encoding) for line in [*lines[:rows], *[[]] * (rows - len(lines))]]
-    texts = [text for text, _names, _sets in drawn]
-    attributes = [[*names] for _text, names, _sets in drawn]  # of its own for each canvas
-    charsets = [[*sets] for _text, _names, sets in drawn]
-    return urwid.TextCanvas(texts, attributes, charsets, maxcol=columns, check_width=False)
+    return _Rows(drawn, columns)
+
+
+class _Rows(urwid.TextCanvas):
+    """Rows that are already cut into runs of one look: urwid's own canvas cuts them anew whenever it is drawn."""
+
+    def __init__(self, drawn: Sequence["_Row"], columns: int):
+        self._runs = [row.runs for row in drawn]
+        attributes = [[*row.names] for row in drawn]  # of its own for each canvas
+        charsets = [[*row.sets] for row in drawn]
+        super().__init__([row.text for row in drawn], attributes, charsets, maxcol=columns, check_width=False)
+
+    def content(
+        self, trim_left: int = 0, trim_top: int = 0, cols: int = 0, rows: int = 0, attr: Looks | None = None
+    ) -> Iterator[list[Run]]:
+        """The rows of a part of the canvas as urwid wants them; ``attr`` maps names of attributes to others."""
+        if trim_left or cols not in (0, self.cols()):
+            yield from super().content(trim_left, trim_top, cols, rows, attr)
+            return
+        for runs in self._runs[trim_top : trim_top + rows if rows else None]:
+            yield [(attr.get(name, name), charset, text) for name, charset, text in runs] if attr else [*runs]
 
 
 def around(cursor: int, count: int, room: int) -> range:
@@ -155,11 +174,20 @@ def indices_packed(parts: Sequence[Line], columns: int) -> list[list[int]]:
     return lines
 
 
-@lru_cache(DRAWN)
-def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> tuple[bytes, Names, Charsets]:
-    """A line as canvases have it: its bytes, and how many of them are of each attribute, and of each character set.
-    Kept, as most lines are the same in the next frame; ``encoding`` is the one in force.
+class _Row(NamedTuple):
+    """A line as canvases have it: its bytes, how many of them are of each attribute and of each character set, and the
+    same as runs of one look.
     """
+
+    text: bytes
+    names: Names
+    sets: Charsets
+    runs: Sequence[Run]
+
+
+@lru_cache(DRAWN)
+def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> _Row:
+    """A line for a canvas. Kept, as most lines are the same in the next frame; ``encoding`` is the one in force."""
     text, room = b"", columns
     attributes: Names = []
     charsets: Charsets = []
@@ -173,7 +201,17 @@ def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> tuple[bytes, 
         charsets += sets
         if end < len(words):
             break
-    return text + b" " * room, [*attributes, (None, room)], [*charsets, (None, room)]
+    text, names, sets = text + b" " * room, [*attributes, (None, room)], [*charsets, (None, room)]
+    return _Row(text, names, sets, tuple(_runs(text, names, sets)))
+
+
+def _runs(text: bytes, names: Names, sets: Charsets) -> Iterator[Run]:
+    """The text in pieces of one attribute and one character set; none is empty."""
+    begin = 0
+    for (name, charset), length in urwid.util.rle_product(names, sets):
+        if length:
+            yield name, charset, text[begin : begin + length]
+        begin += length
 
 
 def _fitting(words: str, room: int) -> tuple[int, int]:
