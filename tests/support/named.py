@@ -39,11 +39,13 @@ class Reader(Terminal):
         """Opens the help of the screen, ``known_by`` a line of it, and turns its pages to the last."""
         last = f"< {word('OK')}"  # the button below the text
         self.play([Act(("F1",), (known_by,))])
+        self.settle()  # a page that is half drawn names half of its keys
         self.helped += self.text
         while last not in self.text:
             page = self.text
             self.press("PgDn")
             self.until(lambda page=page: self.text != page, "the help shows no further page")
+            self.settle()
             self.helped += self.text
         self.play([Act(("Esc",), (), gone=(last,))])
 

@@ -230,7 +230,8 @@ class ChoiceDialog(Dialog):
 
 def offer(title: str, lines: Sequence[str], ways: Sequence[tuple[str, Act]], closing: Act) -> Dialog:
     """A dialog with a button for each of ``ways``; the first button, which Enter means, and Esc do nothing."""
-    return Dialog(title, [Text(line) for line in lines], [(_("Not now"), nothing), *ways], closing)
+    body = [*map(Text, lines), Text(("dark", _("Enter and Esc: not now. Right, then Enter: another button.")))]
+    return Dialog(title, body, [(_("Not now"), nothing), *ways], closing)
 
 
 def _call(chosen: Callable[[int], object], index: int) -> Act:
