@@ -50,7 +50,7 @@ def _gear_f(home: Path, size: tuple[int, int], seconds: float) -> None:
         ])  # fmt: skip
         terminal.until(lambda: _steps(terminal) > 2000, "it never came up the ramp")  # the ramp is 10 mm long
         before_s, steps, spent = time.monotonic(), _steps(terminal), _spent_s(terminal.pid)
-        frames = terminal.frames(seconds, 0.01)
+        frames = terminal.frames(seconds)
         passed_s = time.monotonic() - before_s
         desk, ticker = (now - then for now, then in zip(_spent_s(terminal.pid), spent, strict=True))
         pace = (_steps(terminal) - steps) / passed_s / (100_000 / 24)

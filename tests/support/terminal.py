@@ -20,6 +20,7 @@ from typing import NamedTuple
 import pyte
 
 PATIENCE_S = 40.0
+FRAME = b"\x1b[?25l"  # urwid hides the cursor at the beginning of each
 QUIET_S = 0.5  # a screen that has not changed for so long is taken as finished: ten beats of the program
 KEYS = {
     "Ctrl-U": "\x15",
@@ -98,15 +99,24 @@ class Terminal:
             before = now
             self._read(QUIET_S)
 
-    def frames(self, seconds: float, pause_s: float) -> int:
-        """Reads for so long; how often something was drawn, with pauses between."""
+    def frames(self, seconds: float) -> int:
+        """Reads for so long; how many frames the program drew."""
+        came = self.collected(seconds)
+        self.show(came)
+        return came.count(FRAME)
+
+    def collected(self, seconds: float) -> bytes:
+        """What comes within this time. Not drawn here meanwhile, which would take time from the program."""
         until_s = time.monotonic() + seconds
-        frames = 0
-        while time.monotonic() < until_s:
-            frames += self._read(0.05)
-            while self._read(pause_s):
-                pass
-        return frames
+        came = []
+        while (left_s := until_s - time.monotonic()) > 0:
+            if select.select([self._line], [], [], left_s)[0]:
+                came.append(os.read(self._line, 65536))
+        return b"".join(came)
+
+    def show(self, came: bytes) -> None:
+        """Draws what was collected."""
+        self._stream.feed(came)
 
     def exit_code(self) -> int:
         """Waits for the end, and says how it was: below zero by a signal."""
