@@ -36,7 +36,7 @@ def wait_for(condition: Callable[[], object], seconds: float = 20.0) -> None:
 @SIGNALS
 def test_in_the_middle_of_a_queue(number: int, code: int, started: Started, folder: Path) -> None:
     (folder / "long.kmd").write_text("KMD_INICJALIZACJA\n" + LONG)
-    process = started("run", "long.kmd", "--json", "--trace", "l.trace", "--holes", "l.csv")
+    process = started("run", "long.kmd", "--engine", "tick", "--json", "--trace", "l.trace", "--holes", "l.csv")
     wait_for(lambda: len(list(folder.glob(".l.*"))) == 2)
     time.sleep(0.7)
     process.send_signal(number)

@@ -169,7 +169,7 @@ def test_with_json_a_refusal_is_an_object_of_every_verb(
         (["runn", "x"], "run"), (["run", "x", "--order", "optimized"], "optimised"),
         (["run", "x", "--mahcine", "x"], "--machine"), (["run", "hole.kmd", "--machine", "pcb-dril"], "pcb-drill"),
         (["run", "hole.kmd", "--port", "simulate"], "simulated"), (["tables", "chek", "x"], "check"),
-        (["run", "hole.kmd", "--plant", "dynamic", "--fault", "blumt=1"], "blunt=N"),
+        (["run", "hole.kmd", "--plant", "dynamic", "--fault", "blumt=1"], "blunt=N, N from 0 to 1000"),
         (["sweep", "--out", "o", "--ramp", "seven-stat"], "seven-state"), (["run", "slip.kmd"], "KMD_CZEKAJ"),
         (["sweep", "--out", "o", "--vary", "coulom_nm=1"], "coulomb_nm"),
         (["run", "lamp.kmd", "--machine", "cnc-shield"], "spindle"),
