@@ -66,7 +66,7 @@ SESSIONS = (
 EVERY_SCREEN = (
     Session(scripts.beginning),
     Session(scripts.work, options=ASKING),
-    Session(scripts.moving, options=DYNAMIC),
+    Session(scripts.moving, options=DYNAMIC, moves=True),
     Session(scripts.editors),
     Session(scripts.looking),
     Session(scripts.devices),
