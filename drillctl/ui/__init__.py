@@ -1,6 +1,7 @@
 """LAYER 1: what a person sees. Every view is a function of a record from viewmodel.
 
     app.py     the loop of the program on the screen: the machine's news in, keys out
+    first_keys.py  emergency stop, stop and copy, looked for before any widget sees a key
     frame.py   the menu bar, the line on the machine, the next step, the line of keys
     explanations.py  what F1 says of each screen and its signs, before its keys
     next_step.py  what the machine waits for, with the keys of the screen on top

@@ -1,7 +1,6 @@
 """The program on the screen: one loop that lets the machine's news in, shows them, and hands keys to whom they concern.
 
-Rule: the emergency stop is looked for before any widget sees a key, so it works in dialogs, menus and fields. Nothing
-here blocks.
+Rule: nothing here blocks.
 """
 
 import os
@@ -18,6 +17,7 @@ from drillctl.ui.alerts import Alerts
 from drillctl.ui.background import Background
 from drillctl.ui.dropping import Dropping
 from drillctl.ui.explanations import EXPLAINED, SIGNS
+from drillctl.ui.first_keys import RESIZE, FirstKeys, Pressed
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
@@ -26,19 +26,9 @@ from drillctl.ui.palette import actions
 from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
-from drillctl.ui.widgets.dialogs import Dialog, nothing
+from drillctl.ui.widgets.dialogs import nothing
 from drillctl.ui.widgets.finder import Finder
-from drillctl.ui.widgets.keys import (
-    COPY,
-    EMERGENCY,
-    FRAME_KEYS,
-    STOP_JOB,
-    TYPED_STOP,
-    Key,
-    called,
-    help_lines,
-    wheel_key,
-)
+from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called, help_lines, wheel_key
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
@@ -49,7 +39,6 @@ FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for 
 TURNING_S = 0.035  # of a beat that a machine gets which runs free and is at work; keys and picture have the rest
 
 Maker = Callable[[Console, Shell], urwid.Widget]
-Pressed = str | tuple[str, int, int, int]
 
 
 class App(Boxes):
@@ -79,6 +68,7 @@ class App(Boxes):
         self._menus = Dropping(self.frame.bar, self.layers, self._choose)
         self._alerts = Alerts(console, self.layers, lambda: self._family.initialise)
         self._background = Background(self.layers, self.frame.say)
+        self._first_keys = FirstKeys(console, self.layers, self, self.frame.say)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
         )
@@ -108,34 +98,14 @@ class App(Boxes):
         self._background.turn()
 
     def filtered(self, keys: list[Pressed], _raw: list[int]) -> list[Pressed]:
-        """Looks for the emergency stop and for a new size of the terminal before any widget sees the keys."""
-        stops = {*EMERGENCY.names} - ({TYPED_STOP} if TYPED_STOP in keys and self._typing_at_rest() else set())
-        if "window resize" in keys:
+        """Looks at the keys before any widget does (first_keys.py); returns those that are left."""
+        if RESIZE in keys:
             self.layers.restack()
         if not self._at_work:
             self._hasten()
-        if any(isinstance(key, str) and key != "window resize" for key in keys):
+        if any(isinstance(key, str) and key != RESIZE for key in keys):
             self.frame.say("")
-        if not stops.intersection(keys):
-            return self._without_stops(self._without_copies(keys))
-        self.emergency_stop()  # nothing typed with it may still reach the machine, an acknowledgement least of all
-        return [key for key in keys if key == "window resize"]
-
-    def _without_copies(self, keys: list[Pressed]) -> list[Pressed]:
-        """Keeps a copy of the screen for the key that asks for it, over dialogs too; returns the other keys."""
-        if COPY.names[0] in keys:
-            self.copy_screen()
-        return [key for key in keys if key not in COPY.names]
-
-    def _without_stops(self, keys: list[Pressed]) -> list[Pressed]:
-        """Stops the job that runs for its key over a box too, unless a text is typed there; else returns all keys."""
-        asked = any(isinstance(key, str) and key.lower() == STOP_JOB for key in keys)
-        boxed = isinstance(self.layers.top, Dialog) and not self.layers.typing
-        if not asked or not boxed or not self._console.view().at_work:
-            return keys
-        self._console.stop()
-        self.frame.say(_("stop; the position is kept"))
-        return [key for key in keys if key == "window resize"]
+        return self._first_keys.left_of(keys)
 
     def unhandled(self, pressed: Pressed) -> bool:
         """What no widget wanted: the frame's keys, hot letters, and clicks on the bar or beside a menu."""
@@ -281,12 +251,6 @@ class App(Boxes):
         self._first = self._made[family.first] = family.makers[family.first](self._console, self, self._plain)
         self.screens = [self._first]
         self.frame.bar.show(family.menus)
-
-    def _typing_at_rest(self) -> bool:
-        """Whether a text field has the cursor while nothing moves or waits to be executed."""
-        view = self._console.view()
-        idle = not (view.moving or view.command or view.queued)
-        return idle and self.layers.typing
 
     def _beat(self, loop: urwid.MainLoop, _data: object = None) -> None:
         """Runs one turn of the loop; the next one is due a beat after this one began."""
