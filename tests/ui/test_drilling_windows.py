@@ -73,6 +73,13 @@ def test_speed_is_the_way_over_the_machine_s_own_time() -> None:
     assert not speeds.of["x"]
 
 
+def test_a_place_counted_from_another_base_is_no_motion() -> None:
+    speeds = Speeds()
+    for tick, steps in ((100, 0), (150, 20), (151, -500), (201, -490)):
+        speeds.see(moved(VIEW, tick, steps))
+    assert speeds.of["x"] == deque([200.0, 0.0, 100.0])
+
+
 @pytest.mark.parametrize("language", words.LANGUAGES)
 def test_the_machine_s_window_has_the_place_the_gauge_and_the_commands_to_come(language: str) -> None:
     words.use(language)

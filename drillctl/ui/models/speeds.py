@@ -27,8 +27,9 @@ class Speeds:
         if view.tick == before.tick:
             return False
         self._before = view
-        seconds = (view.tick - before.tick) / max(view.tick_hz, 1)
-        speeds = {axis.name: _way(axis, then) / seconds for axis, then in zip(view.axes, before.axes, strict=True)}
+        ticks = view.tick - before.tick
+        steps = {axis.name: _steps(axis, then, ticks) for axis, then in zip(view.axes, before.axes, strict=True)}
+        speeds = {name: way * max(view.tick_hz, 1) / ticks for name, way in steps.items()}
         if not any(speeds.values()) and not any(map(self.now, speeds)):
             return False
         for name, speed in speeds.items():
@@ -41,5 +42,9 @@ class Speeds:
         return values[-1] if values else 0.0
 
 
-def _way(axis: AxisView, then: AxisView) -> int:
-    return abs(axis.position_steps - then.position_steps)
+def _steps(axis: AxisView, then: AxisView, ticks: int) -> int:
+    """How many steps an axis made in so many ticks. It makes at most one a tick: a place that is further away was
+    counted from another base then (KMD_BAZA), and nothing has moved.
+    """
+    way = abs(axis.position_steps - then.position_steps)
+    return way if way <= ticks else 0
