@@ -232,7 +232,7 @@ def _check_reach(
     outside = (steps < reach[:, 0]) | (steps > reach[:, 1])
     problems = []
     for hole in np.flatnonzero(outside.any(axis=1)).tolist():
-        told = "; ".join(
+        listed = "; ".join(
             Counted(
                 "{axis} {count} step is outside {low}..{high}",
                 "{axis} {count} steps is outside {low}..{high}",
@@ -252,7 +252,7 @@ def _check_reach(
                 x=x_mm,
                 y=y_mm,
                 machine=machine.name,
-                axes=told,
+                axes=listed,
             ).at(drill_file.name, hits.line[hole])
         )
     if problems:

@@ -65,8 +65,8 @@ class Board:
         ideal = run_program(program, machine.at_rate(rate), IDEAL_PLANT)
         if not ideal.complete or not ideal.touches:
             raise LabError(Message("drills no hole, or ends in a fault, even with ideal motors").at(name))
-        told = (machine, [axis.dynamics for axis in machine.axes], machine.surroundings, tuple(axes))
-        content = hashlib.sha256(repr(told).encode())
+        described = (machine, [axis.dynamics for axis in machine.axes], machine.surroundings, tuple(axes))
+        content = hashlib.sha256(repr(described).encode())
         for rate, program in sorted(programs.items()):
             content.update(b"%d" % rate + program.tobytes())
         places = {touch.tag: touch.places for touch in ideal.touches}

@@ -28,8 +28,8 @@ def _check_bits(source: Source, raw: MachineFile) -> None:
         if bit is None:
             continue
         if bit in taken:
-            told = {"kind": kind, "name": name, "bit": bit, "other": taken[bit]}
-            reason = Message("{kind} {name}: input bit {bit} is {other}'s already", **told)
+            fields = {"kind": kind, "name": name, "bit": bit, "other": taken[bit]}
+            reason = Message("{kind} {name}: input bit {bit} is {other}'s already", **fields)
             raise source.error(reason, kind, index, "bit")
         taken[bit] = name
 
@@ -59,8 +59,8 @@ def _line(source: Source, raw: MachineFile, index: int) -> InputRow | None:
         return None
     if row.line not in names:
         words = known_words(row.line, names)
-        told = {"name": row.name, "line": row.line, "words": words}
-        reason = Message("sensor {name}: no input is named {line!r}; {words}", **told)
+        fields = {"name": row.name, "line": row.line, "words": words}
+        reason = Message("sensor {name}: no input is named {line!r}; {words}", **fields)
         raise source.error(reason, "sensor", index, "line")
     line = raw.input[names.index(row.line)]
     if row.active is not None:

@@ -64,8 +64,8 @@ def only_zero_after(source: Source, raw: MachineFile) -> tuple[str, ...]:
         kept.add("EMERGENCY_STOP")
     for name in raw.only_zero_after:
         if name not in kept:
-            told = {"name": name, "words": known_words(name, sorted(kept))}
-            reason = Message("only_zero_after: no fault {name!r} keeps the position here; {words}", **told)
+            fields = {"name": name, "words": known_words(name, sorted(kept))}
+            reason = Message("only_zero_after: no fault {name!r} keeps the position here; {words}", **fields)
             raise source.error(reason, "only_zero_after")
     return tuple(raw.only_zero_after)
 

@@ -159,9 +159,9 @@ def _equilibria(rotor: WindingRotor, table: AxisTable) -> list[int]:
 def _patterns(table: AxisTable, column: int) -> list[int]:
     """Returns the patterns that may be on in a column: forward and backward, with and without forcing."""
     found = []
-    for way, cold in product(("forward", "backward"), (False, True)):
+    for way, holding in product(("forward", "backward"), (False, True)):
         pairs = zip(table.phase.wires, table.wire_bits, strict=True)
-        wires = ((wire, bit) for wire, bit in pairs if not (cold and wire.forcing))
+        wires = ((wire, bit) for wire, bit in pairs if not (holding and wire.forcing))
         found.append(sum(1 << bit for wire, bit in wires if getattr(wire, way)[column]))
     return found
 

@@ -31,11 +31,11 @@ class TooSmall(urwid.WidgetWrap[urwid.Widget]):
     """What a terminal of too few columns or rows shows in place of everything. It takes keys, and does nothing."""
 
     def __init__(self, columns: int, rows: int):
-        told = _(
+        template = _(
             "This terminal has {columns} columns and {rows} rows. The screen needs {least_columns} and {least_rows}, "
             "and is made for 80 and 24. The machine goes on as it was; F10 is the emergency stop."
         )
-        text = told.format(columns=columns, rows=rows, least_columns=LEAST[0], least_rows=LEAST[1])
+        text = template.format(columns=columns, rows=rows, least_columns=LEAST[0], least_rows=LEAST[1])
         super().__init__(urwid.AttrMap(urwid.Filler(Text(text), "top"), "body"))
 
     def selectable(self) -> bool:

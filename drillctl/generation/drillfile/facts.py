@@ -67,7 +67,7 @@ class Facts:
         before = self.units
         self.units = self._stronger(before, fact)
         if before and before.voice is Voice.SIDE_FILE and before.value != self.units.value:
-            self.digits = [(told, each) for told, each in self.digits if each.voice is not Voice.SIDE_FILE]
+            self.digits = [(meant, each) for meant, each in self.digits if each.voice is not Voice.SIDE_FILE]
             self.zeros = None if self.zeros and self.zeros.voice is Voice.SIDE_FILE else self.zeros
 
     def replace_units(self, fact: Fact[str]) -> None:
@@ -81,7 +81,7 @@ class Facts:
 
     def digits_for(self, units: str | None) -> Fact[tuple[int, int]] | None:
         """The strongest, then latest, declaration of digits that holds for numbers in `units`; None: in any."""
-        fitting = [fact for told, fact in self.digits if units is None or told in (None, units)]
+        fitting = [fact for meant, fact in self.digits if units is None or meant in (None, units)]
         return min(reversed(fitting), key=lambda fact: fact.voice, default=None)
 
     def carried(self, units: str, new_units: str) -> Floats:

@@ -31,7 +31,7 @@ class Layout:
     """Measures of n distinct holes (mm).
 
     extent_mm: longer side; pitch_mm: median distance to the next hole; drill_mm: widest drill, 0 if unknown;
-    overlap: share of holes that overlap another; crowd: share that overlaps others in more than one direction;
+    overlap: share of holes that overlap another; crowding: share that overlaps others in more than one direction;
     grid: share of coordinates on a drawing grid.
     """
 
@@ -40,7 +40,7 @@ class Layout:
     pitch_mm: float
     drill_mm: float
     overlap: float
-    crowd: float
+    crowding: float
     grid: float
 
     @classmethod
@@ -60,7 +60,7 @@ class Layout:
             pitch_mm=float(np.median(distance.min(axis=1))),
             drill_mm=drill_mm,
             overlap=float(touching.any(axis=1).mean()),
-            crowd=_crowd(steps, distance, reach, touching) if touching.any() else 0.0,
+            crowding=_crowding(steps, distance, reach, touching) if touching.any() else 0.0,
             grid=_on_grid(xy_mm),
         )
 
@@ -73,7 +73,7 @@ class Layout:
     def piled_up(self) -> bool:
         """Whether no board can be so: most of many holes overlap in two directions, on a few drills' width."""
         narrow = self.extent_mm < PILED_DIAMETERS * self.drill_mm
-        return narrow and self.count >= PILED_HOLES and self.crowd >= PILED_SHARE
+        return narrow and self.count >= PILED_HOLES and self.crowding >= PILED_SHARE
 
     @property
     def odd(self) -> bool:
@@ -96,7 +96,7 @@ class Layout:
         return f"longer side {self.extent_mm:.1f} mm{drills}"
 
 
-def _crowd(steps: Floats, distance: Floats, reach: Floats, touching: np.ndarray) -> float:
+def _crowding(steps: Floats, distance: Floats, reach: Floats, touching: np.ndarray) -> float:
     """Share of holes with an overlapping neighbour off the line to their farthest overlapping one."""
     farthest = np.where(touching, distance, -1.0).argmax(axis=1)
     rows = np.arange(len(steps))

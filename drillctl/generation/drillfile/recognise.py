@@ -119,10 +119,11 @@ def _doubted(declared: Recognition, question: Question) -> Recognition:
 
 def _question(facts: Facts, sample: Sample) -> Question:
     units = facts.units.value if facts.units else None
-    told = facts.digits_for(units)
-    contradicted = _zeros_contradicted(facts, sample.digits, told.value if told else DEFAULT_DIGITS.get(units or ""))
-    if told or not units or not sample.digits.count:
-        return Question(facts, sample, told.value if told else None, False, contradicted)
+    declared = facts.digits_for(units)
+    likely = declared.value if declared else DEFAULT_DIGITS.get(units or "")
+    contradicted = _zeros_contradicted(facts, sample.digits, likely)
+    if declared or not units or not sample.digits.count:
+        return Question(facts, sample, declared.value if declared else None, False, contradicted)
     rule = Question(facts, sample, DEFAULT_DIGITS[units], True, contradicted)
     return replace(rule, digits=None, by_rule=False) if _rule_is_broken(rule, units) else rule
 
@@ -174,8 +175,8 @@ def _common_places(units: str, declared: bool) -> list[tuple[int, int]]:
 def _other_digits(facts: Facts, units: str) -> tuple[int, int]:
     """Digits of numbers that a file with changing units writes in the other unit."""
     other = next(each for each in MM_PER_UNIT if each != units)
-    told = facts.digits_for(other)
-    return told.value if told else DEFAULT_DIGITS[other]
+    declared = facts.digits_for(other)
+    return declared.value if declared else DEFAULT_DIGITS[other]
 
 
 def _score(choice: FormatChoice, question: Question) -> float:

@@ -118,8 +118,8 @@ class Digits:
 
     def fits(self, digits: tuple[int, int]) -> float:
         """That the format has as many places as the numbers have digits."""
-        spare = sum(digits) - self.longest
-        return TOO_LONG_WEIGHT * spare if spare < 0 else -UNUSED_PLACE_WEIGHT * spare
+        unused = sum(digits) - self.longest
+        return TOO_LONG_WEIGHT * unused if unused < 0 else -UNUSED_PLACE_WEIGHT * unused
 
 
 def common(choice: FormatChoice) -> float:
@@ -159,7 +159,7 @@ def board(layout: Layout) -> float:
         _typical(layout.extent_mm, BOARD_MM, BOARD_SPREAD)
         + dense * _typical(layout.pitch_mm, PITCH_MM, PITCH_SPREAD)
         + (_typical(layout.extent_mm / layout.drill_mm, BOARD_DRILLS, BOARD_DRILLS_SPREAD) if layout.drill_mm else 0.0)
-        - CROWD_WEIGHT * layout.crowd**2
+        - CROWD_WEIGHT * layout.crowding**2
         + GRID_WEIGHT * layout.grid
     )
 

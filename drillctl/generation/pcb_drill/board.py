@@ -53,8 +53,8 @@ def file_warnings(path: Path, drill_file: "DrillFile") -> list[Message]:
     warnings = [warning.reason.at(path, warning.line) for warning in drill_file.warnings]
     routs = drill_file.routs
     if routs:
-        told = Counted("{count} milled cut is not drilled", "{count} milled cuts are not drilled", routs)
-        warnings.append(told.at(path))
+        warning = Counted("{count} milled cut is not drilled", "{count} milled cuts are not drilled", routs)
+        warnings.append(warning.at(path))
     return warnings
 
 

@@ -68,10 +68,10 @@ class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, pressed: Callable[[keypad.PanelKey], object], plain: bool):
         self._plain = plain
         drawn = (self._display, self._counters, self._program, self._wall, self._facts)
-        self._drawn = display, counters, program, wall, told = [Drawn(lines) for lines in drawn]
+        self._drawn = display, counters, program, wall, facts = [Drawn(lines) for lines in drawn]
         self._keypad = keypad.Keypad(pressed)
         keys = self._keys = urwid.Pile([("given", DISPLAY_ROWS, display), self._keypad, counters])
-        part = urwid.Pile([program, ("given", FACTS_ROWS, told)])
+        part = urwid.Pile([program, ("given", FACTS_ROWS, facts)])
         self._panel, self._part = Window(keys, _("Keys")), Window(part, _("Part program"))
         self._drum = Window(wall, _("Drum wall"))
         self._beside = urwid.Pile([self._part, ("given", WALL_ROWS, self._drum)])
@@ -83,12 +83,12 @@ class PanelWindows(urwid.WidgetWrap[urwid.Widget]):
         """Takes what is to be drawn; redraws only if something is new."""
         self._now = now
         work = now.part, now.sentence, now.done
-        display, counters, program, wall, told = self._drawn
+        display, counters, program, wall, facts = self._drawn
         display.depend(now.figures)
         counters.depend(now.view.axes, now.view.sensors, now.part)
         program.depend(*work)
         wall.depend(*work, now.view.axes)
-        told.depend(*work, now.progress)
+        facts.depend(*work, now.progress)
 
     def lay_out(self, room: Layout, columns: int, rows: int) -> None:
         """Shows the windows that there is room for on a screen of this size; the keys stand closer on few rows."""

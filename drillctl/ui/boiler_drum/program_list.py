@@ -18,8 +18,8 @@ LEAST_FOR_WORDS = 90
 def list_lines(part: PartView | None, sentence: int, done: int, columns: int, rows: int) -> list[Line]:
     """As many sentences as there are rows, those around the one in execution; in words too where there is room."""
     if part is None:
-        told = (_("No workpiece is called."), _("Type its number, 01 to 99,"), _("then P (PROG). L lists them."))
-        return [[text] for text in told[:rows]]
+        advice = (_("No workpiece is called."), _("Type its number, 01 to 99,"), _("then P (PROG). L lists them."))
+        return [[text] for text in advice[:rows]]
     current = max(sentence, min(done + 1, len(part.sentences))) - 1
     shown = around(current, len(part.sentences), rows)
     lines = [_sentence(index + 1, part.sentences[index], sentence, done, part) for index in shown]

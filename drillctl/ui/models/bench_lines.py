@@ -69,11 +69,11 @@ def _path_charts(path: CyclePath, title: str, size: Size, plain: bool) -> list[L
     places = [0.0, *(column.place for column in path.columns)]
     unit = path.torque_mnm or 1.0
     torques = [column.torque * unit for column in path.columns]
-    told = _("torque, mN m") if path.torque_mnm else _("torque, windings")
+    quantity = _("torque, mN m") if path.torque_mnm else _("torque, windings")
     heading = f"{title}: " if title else ""
     return [
         *_chart(heading + _("rotor, in columns"), _held(places), _spanned(0.0, *places, path.wanted), size, plain),
-        *_chart(heading + told, _held(torques), (0.0, max(2 * unit, *torques)), size, plain),
+        *_chart(heading + quantity, _held(torques), (0.0, max(2 * unit, *torques)), size, plain),
     ]
 
 
@@ -135,7 +135,7 @@ def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Siz
     if saved is None or saved == report:
         return _bench(report, _("now"), size, plain, _bounds(report))
     if columns < 2 * LEAST_HALF:
-        return [*_bench(report, _("now"), size, plain, _bounds(report)), [("title", _("saved"))], *_told(saved)]
+        return [*_bench(report, _("now"), size, plain, _bounds(report)), [("title", _("saved"))], *_results(saved)]
     half, bounds = (columns - 2) // 2, _bounds(saved, report)
     before = _bench(saved, _("saved"), (half, rows), plain, bounds)
     return side_by_side(before, _bench(report, _("now"), (half, rows), plain, bounds), half + 2)
@@ -144,15 +144,15 @@ def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Siz
 def _bench(report: BenchReport, title: str, size: Size, plain: bool, bounds: Bounds) -> list[Line]:
     worst = report.worst
     heading: Line = [("title", _("{title}, at {hz} Hz").format(title=title, hz=report.tick_hz))]
-    told = _told(report)
+    results = _results(report)
     kind: list[Line] = [] if worst.dynamic else [[("dark", _("ideal motors: no dynamics are known"))]]
     other: list[Line] = [] if report.in_use else [[("dark", _("no motor here has this table; tried on one that fits"))]]
     caption = _("behind, in steps: {motor}, {steps:+d} steps").format(motor=worst.motor.upper(), steps=worst.steps)
     chart = _chart(caption, worst.behind, bounds, size, plain, "danger" if worst.lost else "good")
-    return [heading, *told, *kind, *other, *chart]
+    return [heading, *results, *kind, *other, *chart]
 
 
-def _told(report: BenchReport) -> list[Line]:
+def _results(report: BenchReport) -> list[Line]:
     return [_run_line(run) for run in report.runs]
 
 

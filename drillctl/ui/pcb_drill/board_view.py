@@ -158,5 +158,5 @@ class BoardPicture(urwid.Widget):
         x_mm, y_mm = board.xy_mm[self._chosen].tolist()
         size = f" {tool.diameter_mm:.3f} mm" if tool.diameter_mm else ""
         text = _("hole {number}, T{tool}{size}, X {x:.3f}, Y {y:.3f}")
-        told = text.format(number=self._chosen + 1, tool=tool.number, size=size, x=x_mm, y=y_mm)
-        return ["  ", ("accent", told)]
+        label = text.format(number=self._chosen + 1, tool=tool.number, size=size, x=x_mm, y=y_mm)
+        return ["  ", ("accent", label)]

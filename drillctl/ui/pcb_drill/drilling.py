@@ -250,5 +250,5 @@ def _ended(of_board: Progress, resumable: bool) -> str:
     """How far a board was drilled when its job ended, and how the rest can be drilled where that is kept."""
     total = of_board.holes_total
     text = ngettext("ended: {done} of {count} hole in {time}", "ended: {done} of {count} holes in {time}", total)
-    told = text.format(done=of_board.holes_done, count=total, time=clock(of_board.machine_seconds))
-    return f"{told}; {_('S offers to drill the rest')}" if resumable else told
+    summary = text.format(done=of_board.holes_done, count=total, time=clock(of_board.machine_seconds))
+    return f"{summary}; {_('S offers to drill the rest')}" if resumable else summary

@@ -54,8 +54,8 @@ def _rotor(axis: AxisView, lost: int, plain: bool) -> list[Line]:
     scale = ["."] * (2 * REACH_STEPS + 1)
     scale[REACH_STEPS], scale[at] = "|", PLAIN_MARK if plain else MARK
     role = "danger" if lost else "body"
-    told = _(", {steps} lost").format(steps=lost) if lost else ""
-    return [[("title", f"{_('Rotor'):{LABEL_COLUMNS}}"), (role, "".join(scale)), f" {off:+.2f}{told}"]]
+    lost_text = _(", {steps} lost").format(steps=lost) if lost else ""
+    return [[("title", f"{_('Rotor'):{LABEL_COLUMNS}}"), (role, "".join(scale)), f" {off:+.2f}{lost_text}"]]
 
 
 def _side_by_side(blocks: list[list[Line]], columns: int) -> list[Line]:

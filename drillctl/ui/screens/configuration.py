@@ -254,13 +254,13 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         wrong = [f"{label_of(other)}: {translated(problem)}" for other, problem in refused if problem]
         wrong = wrong or [translated(found.message) for found in self._draft.check().problems]
         problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
-        told: list[Line] = []
+        lines: list[Line] = []
         if not self._has_panel:
-            told = [[_(words_of(field).meaning)]]
+            lines = [[_(words_of(field).meaning)]]
             carried: list[Line] = [[self._carried]] if self._carried and field.place == TICK_RATE else []
             effects = effect_lines(self._draft)[:MOST_EFFECTS] if self._draft.changed and not problems else []
-            told += [*carried, *effects]
-        return [*told, *(problems or [[("good", _("sound"))]])]
+            lines += [*carried, *effects]
+        return [*lines, *(problems or [[("good", _("sound"))]])]
 
 
 def _row(field: FieldView, edit: Edit) -> urwid.Widget:

@@ -37,5 +37,5 @@ def effect_lines(draft: ConfigurationDraft) -> list[Line]:
     """What saving will do, a line each; or that nothing was changed."""
     if not draft.changed:
         return [[("dark", _("nothing was changed"))]]
-    told: list[Line] = [[("warning", translated(effect))] for effect in draft.effects()]
-    return [*told, [_("In force when the machine is started anew; its position is lost then.")]]
+    lines: list[Line] = [[("warning", translated(effect))] for effect in draft.effects()]
+    return [*lines, [_("In force when the machine is started anew; its position is lost then.")]]

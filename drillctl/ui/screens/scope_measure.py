@@ -20,9 +20,9 @@ def between(source: ScopeSource, marks: Sequence[tuple[str, int]], cursor: int) 
     ticks = last - first
     rate = f", {source.tick_hz / ticks:.4g} Hz" if ticks else ""
     ms = f"{ticks * 1000 / source.tick_hz:.10g}"
-    told = _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=names, ticks=ticks, ms=ms, rate=rate)
+    measured = _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=names, ticks=ticks, ms=ms, rate=rate)
     moved = [f"{axis.upper()} {steps:+d}" for axis, steps in steps_between(source, first, last) if steps]
-    return told + (_(", steps: {moved}").format(moved=" ".join(moved)) if moved else _(", no steps"))
+    return measured + (_(", steps: {moved}").format(moved=" ".join(moved)) if moved else _(", no steps"))
 
 
 def steps_between(source: ScopeSource, first: int, last: int) -> Iterator[tuple[str, int]]:

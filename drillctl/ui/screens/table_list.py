@@ -127,8 +127,8 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
             users = [] if self.kind == "machines" else self._tables.users(self.kind, name)
             motors = [f"{machine}: {', '.join(map(str.upper, axes))}" for machine, axes in users]
             heading = _("Motors with this table") if motors else _("No motor of any machine has this table.")
-            told: list[Line] = [[("title", heading)], *_each(motors), [""]] if self.kind != "machines" else []
-            self._texts[name] = [*told, *_each(self._tables.read(self.kind, name).splitlines())]
+            heading_lines: list[Line] = [[("title", heading)], *_each(motors), [""]] if self.kind != "machines" else []
+            self._texts[name] = [*heading_lines, *_each(self._tables.read(self.kind, name).splitlines())]
         return [line for long in self._texts[name] for line in folded(long, max(columns, 1))]
 
     @property

@@ -65,8 +65,8 @@ class TickLog:
         signals = range(len(self._ticks[-1][1]))
         if len(signals) <= rows:
             return [*signals]
-        told = [index for index in signals if any(signals_then[index].on for _tick, signals_then in self._ticks)]
-        return sorted([*told, *(index for index in signals if index not in told)][:rows])
+        once_on = [index for index in signals if any(signals_then[index].on for _tick, signals_then in self._ticks)]
+        return sorted([*once_on, *(index for index in signals if index not in once_on)][:rows])
 
 
 def _sign(shown: Sequence[tuple[int, tuple[SignalView, ...]]], place: int, index: int, plain: bool) -> str:
