@@ -25,7 +25,7 @@ HERE = Site("simulated", "real", "ideal")
 CUT = UnfinishedJob("/state/four.journal", "/home/four.drl", "pcb-drill", 3, 26, (4,), True, True, None, HERE, HERE)
 
 
-pytestmark = pytest.mark.usefixtures("idle")
+pytestmark = pytest.mark.usefixtures("idle", "folder")  # the list of files is drawn behind each box
 
 
 @pytest.fixture
@@ -399,7 +399,9 @@ def test_a_lab_sheet_is_opened_to_be_read() -> None:
 
 
 def test_an_installation_without_examples_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(examples, "shipped", lambda name, in_checkout: tmp_path)
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    monkeypatch.setattr(examples, "shipped", lambda name, in_checkout: empty)
     program = Program(FakeConsole())
     program.press("e")
     assert "not part of this installation" in program.text()
