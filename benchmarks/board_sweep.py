@@ -71,13 +71,15 @@ def main(machines: int) -> None:
         asked = question(folder, machines)
         print(f"{asked.machines} boards of {HOLES} holes")
         whole = swept(asked, folder / "cores.csv", f"{cores()} processes", WorkerPool(cores()), cores())
+        # distributed's LocalCluster has no annotations.
         with LocalCluster(n_workers=WORKERS, threads_per_worker=1, dashboard_address=None) as cluster:  # type: ignore[no-untyped-call]
             pool = WorkerPool(cluster=cluster.scheduler_address)
             assert swept(asked, folder / "dask.csv", f"dask, {WORKERS} workers", pool, WORKERS) == whole
         few = question(folder, max(machines // 10, 10))
         swept(few, folder / "one.csv", f"1 process, {few.machines} boards", WorkerPool(), 1)
         lost = sum(row.split(b",")[6] == b"1" for row in whole.splitlines()[2:])
-    print(f"{lost} of {asked.machines} boards lose steps; all results the same bytes; load {os.getloadavg()[0]:.1f}")
+    print(f"{lost} of {asked.machines} boards lose steps; cores and dask gave the same bytes")
+    print(f"load {os.getloadavg()[0]:.1f}")
 
 
 if __name__ == "__main__":
