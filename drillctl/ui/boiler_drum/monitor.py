@@ -81,7 +81,7 @@ class Monitor:
         return self.shows == "cell" and not self.typed
 
     def clear(self) -> None:
-        """Shows the prompt."""
+        """Forgets what was typed and shows the prompt."""
         self.shows, self.typed = "prompt", ""
 
     def wanted_address(self) -> int:
@@ -103,7 +103,7 @@ class Monitor:
         return self.address + by
 
     def show_cell(self, address: int, content: int) -> None:
-        """Shows a cell."""
+        """Shows an address of four digits and the content of its cell, which the next two digits replace."""
         self.shows, self.typed, self.address, self.content = "cell", "", address, content
 
     def wanted_number(self) -> int:

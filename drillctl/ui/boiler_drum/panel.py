@@ -100,7 +100,7 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
             self._run()
 
     def pause(self) -> None:
-        """The pause switch."""
+        """Stops the pulses down the ramp; the program goes on with CONT."""
         self._answer(self._console.hold(), _("pause"))
 
     def resume(self) -> None:
@@ -112,11 +112,11 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.stop(), _("stop; the position is kept"))
 
     def emergency_stop(self) -> None:
-        """The emergency stop switch."""
+        """Stops all axes at once, as the machine's file says; the program is ended."""
         self._console.emergency_stop()
 
     def acknowledge(self) -> None:
-        """Acknowledges a fault."""
+        """Acknowledges a fault whose cause was put right, so that keys move the machine again."""
         self._answer(self._console.acknowledge(), _("acknowledged"))
 
     def return_to_zero(self) -> None:
