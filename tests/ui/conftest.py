@@ -1,6 +1,7 @@
 """What the tests of the screens share: English to begin with, and a program that does not wait for its console."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -20,3 +21,11 @@ def english() -> Iterator[None]:
 def idle(monkeypatch: pytest.MonkeyPatch) -> None:
     """A console without a machine needs no time to get on."""
     monkeypatch.setattr(app, "TURNING_S", 0.0)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with one drill file, which the program is started in."""
+    (tmp_path / "four.drl").write_text("M48\nT1C0.8\n")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path

@@ -1,58 +1,20 @@
-"""Files: formats by name, recent and interrupted jobs, panel, how to drill, and placing by measured holes."""
+"""Files: formats by name, recent jobs, panel, how to drill, example boards and lab sheets."""
 
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
-from drillctl.language import words
 from drillctl.ui.pcb_drill import examples
-from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.drilling import Drilling
-from drillctl.ui.pcb_drill.files import Files
-from drillctl.ui.pcb_drill.measuring import far_apart
 from drillctl.ui.pcb_drill.typed import FORMATS
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
-from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
-from tests.support.labels import counted
-from tests.support.messages import screen_templates
-from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
-
-SIZES = [(80, 24), (160, 50)]
-HERE = Site("simulated", "real", "ideal")
-CUT = UnfinishedJob("/state/four.journal", "/home/four.drl", "pcb-drill", 3, 26, (4,), True, True, None, HERE, HERE)
-
+from drillctl.viewmodel.jobs import RecentJob
+from tests.ui.fake_console import VIEW, FakeConsole, Program
+from tests.ui.opened_board import asked, opened, typed
 
 pytestmark = pytest.mark.usefixtures("idle", "folder")  # the list of files is drawn behind each box
-
-
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    (tmp_path / "four.drl").write_text("M48\nT1C0.8\n")
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def opened(console: FakeConsole | None = None, size: tuple[int, int] = (80, 24)) -> Program:
-    """With the board loaded."""
-    program = Program(console or FakeConsole(), size)
-    program.press("f", "down", "enter")
-    return program
-
-
-def asked(program: Program) -> JobOptions:
-    """As the board was asked for last."""
-    wanted = next(request[2] for request in reversed(program.console.asked) if request[0] == "load")
-    assert isinstance(wanted, JobOptions)
-    return wanted
-
-
-def typed(program: Program, *texts: str, wiped: int = 10) -> None:
-    """Into the fields of a form, in place of what stands there."""
-    for text in texts:
-        program.press("end", *["backspace"] * wiped, *["delete"] * wiped, *text, "down")
 
 
 @pytest.mark.parametrize("index", range(len(FORMATS)))
@@ -164,197 +126,6 @@ def test_another_board_is_not_placed_by_what_was_measured_on_the_last(folder: Pa
     program = Program(FakeConsole(recent_jobs=jobs))
     program.press("f", "l", "1", "down", "enter")
     assert asked(program) == JobOptions(mirror="x")
-
-
-@pytest.mark.parametrize("language", words.LANGUAGES)
-@pytest.mark.parametrize("size", SIZES)
-def test_an_interrupted_job_is_offered_with_all_that_it_means(language: str, size: tuple[int, int]) -> None:
-    words.use(language)
-    program = Program(FakeConsole(unfinished_jobs=[CUT]), size)
-    program.press("f", "u")
-    text = " ".join(" ".join(row.split("│")[row.count("│") // 2] for row in program.text().splitlines()).split())
-    for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the tool in hand"):
-        source = next(message for message in screen_templates() if message.startswith(told))
-        assert words._(source).format(numbers="4") in text
-    assert counted("{done} of {count} holes are drilled", 26, done=3) in text
-    program.press("enter")
-    assert not program.console.asked
-
-
-def test_a_hole_that_may_have_been_begun_is_named() -> None:
-    program = Program(FakeConsole(unfinished_jobs=[replace(CUT, again=(), doubtful=4)]))
-    program.press("f", "u")
-    assert "Hole 4 may have been begun; it will be drilled again." in program.text()
-
-
-def test_an_interrupted_job_goes_on_or_is_given_up() -> None:
-    program = Program(FakeConsole(unfinished_jobs=[CUT]))
-    program.press("f", "u", "right", "enter")
-    assert program.console.asked == [("take_up", CUT.journal, False), ("go_on",)]
-    assert " Drilling " in program.text().splitlines()[1]
-    program.press("f", "u", "right", "right", "enter")
-    assert program.console.asked[-1] == ("give_up", CUT.journal)
-    program.press("u")
-    assert "No job was cut off." in program.text()
-
-
-BOARD_SITE = Site("firmata:/dev/ttyACM0", "real", "none")
-
-
-@pytest.mark.parametrize(
-    ("ran", "here", "told"),
-    [
-        (BOARD_SITE, HERE, "machine drills counts as drilled. Go on all the same?"),
-        (replace(HERE, pace="free"), HERE, "ran with port simulated, pace free, plant ideal. It would go on with port"),
-        (HERE, BOARD_SITE, "go on with port firmata:/dev/ttyACM0, pace real. Go on all the same?"),
-        (replace(HERE, plant="dynamic blunt=20", seed=3), HERE, "pace real, plant dynamic blunt=20, seed 3."),
-    ],
-)
-def test_a_job_that_ran_elsewhere_is_asked_about(ran: Site, here: Site, told: str) -> None:
-    """What is in use is none of the journal's sites: No, and Enter alone, leave everything as it is."""
-    program = Program(FakeConsole(unfinished_jobs=[replace(CUT, ran=ran, here=here)]))
-    program.press("f", "u", "right", "enter")
-    assert told in " ".join(program.text().replace("│", " ").split()) and not program.console.asked
-    program.press("enter")
-    assert not program.console.asked
-    program.press("u", "right", "enter", "right", "enter")
-    assert program.console.asked == [("take_up", CUT.journal, True), ("go_on",)]
-
-
-def test_several_interrupted_jobs_are_listed_and_a_refusal_is_told() -> None:
-    other = replace(CUT, journal="/j2", file="/home/two.drl", again=(), torn=False)
-    console = FakeConsole(unfinished_jobs=[CUT, other])
-    program = Program(console)
-    program.press("f", "u")
-    assert "1 four.drl  3 of 26 holes are drilled" in program.text()
-    console.answer = ("two.drl has changed since the job was begun",)
-    program.press("2", "right", "enter")
-    assert console.asked == [("take_up", "/j2", False)] and "has changed since" in program.text()
-
-
-def test_start_offers_what_was_cut_off_of_the_same_board_and_begins_anew_on_request() -> None:
-    program = Program(FakeConsole(loaded=BOARD, unfinished_jobs=[CUT]))
-    program.press("s", "right", "right", "enter")
-    assert program.console.asked == [("give_up", CUT.journal), ("start", False)]
-    program.press("s")
-    assert "Drill 4 holes of four.drl?" in program.text()
-
-
-def test_jobs_cut_off_are_offered_when_the_program_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    program = Program(FakeConsole(unfinished_jobs=[CUT]))
-    alarms = []
-    monkeypatch.setattr(program.app.loop, "run", lambda: None)
-    monkeypatch.setattr(program.app.loop, "set_alarm_in", lambda after_s, call: alarms.append(call))
-    program.app.run()
-    alarms[-1](program.app.loop, None)
-    assert "Interrupted job" in program.text()
-
-
-STANDING = replace(VIEW, axes=tuple(replace(axis, position_steps=480, position_mm=0.0) for axis in VIEW.axes))
-
-
-def aligning(folder: Path, size: tuple[int, int] = (80, 24)) -> Program:
-    program = opened(FakeConsole(now=STANDING), size)
-    program.press("j")
-    return program
-
-
-def test_holes_far_apart_are_proposed() -> None:
-    assert sorted(far_apart(BOARD.file_xy_mm))[0] == 0 and len(far_apart(BOARD.file_xy_mm)) == 3
-    assert [far_apart(np.zeros((count, 2))) for count in (0, 1, 5)] == [[], [0], [0]]
-    line = np.array([[0.0, 0.0], [1.0, 0.0], [9.0, 0.0]])
-    assert len(far_apart(line)) == 2
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_measured_holes_place_the_board(folder: Path, size: tuple[int, int]) -> None:
-    """The base lies at 480 steps (10.16 mm): shown from there, kept from machine zero."""
-    program = aligning(folder, size)
-    assert "X10.000 Y10.000" in program.text() and "2 holes at least" in program.text()
-    program.press("enter", "tab", "t", *"40 20", "enter")
-    assert all(told in program.text() for told in ("X0.000 Y0.000", "X40.000 Y20.000", "accepted: F2"))
-    program.press("f2")
-    holes = asked(program).measured
-    assert [(hole.file_x_mm, hole.machine_x_mm) for hole in holes] == [
-        pytest.approx((10.0, 10.16)), pytest.approx((50.0, 50.16)),
-    ]  # fmt: skip
-    assert "Placed by 2 measured holes" in program.text()
-
-
-def test_holes_that_contradict_each_other_place_nothing(folder: Path) -> None:
-    program = aligning(folder)
-    before = len(program.console.asked)
-    program.press("enter", "tab", "t", *"47 20", "enter", "f2")
-    assert "REJECTED" in program.text() and "can't place the board" in program.text()
-    assert "7.000 mm" in program.text() and len(program.console.asked) == before
-    program.press("esc")
-    assert isinstance(program.app.screens[-1], Files) and len(program.console.asked) == before
-
-
-def test_a_long_reason_against_measured_holes_is_read_to_its_end(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    reason = "the measured places press the board flat onto a line: were they confused with each other?"
-    monkeypatch.setattr(FakeConsole, "align", lambda console, measured, face_down: (None, (reason,)))
-    program = aligning(folder, (80, 24))
-    program.press("enter", "tab", "t", *"47 20", "enter")
-    assert f"problem: {reason}" in " ".join(program.text().split())
-
-
-def test_the_drill_is_sent_where_a_hole_should_be(folder: Path) -> None:
-    program = aligning(folder)
-    program.press("tab", "g")
-    x_mm, y_mm = BOARD.xy_mm[program_spot(program) - 1].tolist()
-    assert program.console.asked[-1] == ("go_to", pytest.approx(x_mm), pytest.approx(y_mm))
-    program.press("right", "-", "down")
-    assert program.console.asked[-2:] == [("jog", "x", 12), ("jog", "y", -3)]
-
-
-def program_spot(program: Program) -> int:
-    screen = program.app.screens[-1]
-    assert isinstance(screen, AlignmentScreen)
-    return screen.measuring.spots[1].number
-
-
-def test_holes_are_added_and_taken_off(folder: Path) -> None:
-    program = aligning(folder)
-    program.press("a", "9", "enter")
-    assert "hole '9' can't be added" in program.text()
-    program.press("delete", "delete", "delete", "delete", "g", "enter", "t", "tab")
-    assert "X10.000 Y10.000" not in program.text()
-    program.press("a", "1", "enter")
-    assert "X10.000 Y10.000" in program.text()
-    program.press("f2")
-    assert asked(program).measured == () and isinstance(program.app.screens[-1], Files)
-
-
-@pytest.mark.parametrize(
-    ("change", "told"), [({"position_known": False}, "position is not known"), ({"moving": True}, "machine is moving")]
-)
-def test_a_machine_that_moves_or_is_lost_finds_no_hole(folder: Path, change: dict[str, Any], told: str) -> None:
-    program = aligning(folder)
-    program.console.now = replace(STANDING, **change)
-    program.press("enter")
-    assert told in program.text() and "X0.000 Y0.000" not in program.text()
-
-
-def test_a_panel_or_no_board_is_not_measured(folder: Path) -> None:
-    program = Program(FakeConsole())
-    program.press("f", "j")
-    assert "no board is loaded" in program.text()
-    program.press("enter", "p")
-    typed(program, "2", "1", "40")
-    program.press("enter", "down", "enter", "j")
-    assert "Measure a single board first" in program.text()
-
-
-@pytest.mark.parametrize("key", [name for key in AlignmentScreen.keys for name in key.names])
-def test_every_key_of_the_alignment_does_something(folder: Path, key: str) -> None:
-    program = aligning(folder)
-    if key in ("ctrl u", "ctrl r"):
-        program.press("enter", *(["ctrl u"] if key == "ctrl r" else []))  # something to undo, or to redo
-    before, requests, top = program.text(), len(program.console.asked), program.app.layers.top
-    program.press(key)
-    changed = program.text() != before or len(program.console.asked) > requests
-    assert changed or program.app.layers.top is not top
 
 
 def test_an_exclamation_mark_is_typed_at_rest_and_stops_otherwise(folder: Path) -> None:
