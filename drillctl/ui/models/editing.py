@@ -46,6 +46,27 @@ class History(Generic[StateT]):
         return True
 
 
+class Undoable(Generic[StateT]):
+    """A screen or a model whose states are kept in ``_history``. A subclass makes the history and adds its states;
+    ``_restore`` takes the state that was gone back to.
+    """
+
+    _history: History[StateT]
+
+    def undo(self) -> None:
+        """Takes the last change back; at the first state nothing happens."""
+        if self._history.undo():
+            self._restore()
+
+    def redo(self) -> None:
+        """Makes the change again that was undone last; where there is none nothing happens."""
+        if self._history.redo():
+            self._restore()
+
+    def _restore(self) -> None:
+        raise NotImplementedError  # by whatever can be undone
+
+
 def completed(before: str, commands: Sequence[CommandHelp], words: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     """The line before the cursor with its last word completed, and what that may become where several begin alike.
 

@@ -16,7 +16,7 @@ from drillctl.files.inputs import real_path
 from drillctl.language import Message
 from drillctl.language.number_text import pair_mm
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.editing import History
+from drillctl.ui.models.editing import History, Undoable
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.board_facts import (
     CHOICES,
@@ -43,7 +43,7 @@ from drillctl.viewmodel.jobs import RecentJob
 BY_FIELD = {choice.field: choice for choice in CHOICES}
 
 
-class Files(urwid.WidgetWrap[urwid.Widget]):
+class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
     """Browser at the left; at the right what the cursor stands on: the first lines of a file, or the board loaded."""
 
     title = N_("Files")
@@ -162,15 +162,9 @@ class Files(urwid.WidgetWrap[urwid.Widget]):
         """Reads the file by this format; recognises the format for an empty text."""
         self._change(self._tell, format=name.strip() or None)
 
-    def undo(self) -> None:
-        """Reads the file with the options before the last change."""
-        if self._history.undo():
-            self._read(self._loaded, self._history.now, self._tell)
-
-    def redo(self) -> None:
-        """Makes the change of the options again that was undone last."""
-        if self._history.redo():
-            self._read(self._loaded, self._history.now, self._tell)
+    def _restore(self) -> None:
+        """Reads the file at hand with the options that were gone back to."""
+        self._read(self._loaded, self._history.now, self._tell)
 
     def offset(self) -> None:
         """Asks for the offset from the base."""

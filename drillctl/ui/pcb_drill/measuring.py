@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.ui.models.editing import History
+from drillctl.ui.models.editing import History, Undoable
 from drillctl.viewmodel.console import BoardView, Problems
 from drillctl.viewmodel.job_options import MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport
@@ -29,7 +29,7 @@ class Spot:
     found_mm: PlaceMm | None = None
 
 
-class Measuring:
+class Measuring(Undoable[tuple[Spot, ...]]):
     """Begins with what was measured before, or with three holes that lie far apart.
 
     align  Console.align; ``alignment`` is what it says of the holes found, ``problems`` why it says nothing
@@ -73,16 +73,6 @@ class Measuring:
         found = replace(self.spots[index], found_mm=place_mm)
         self._change((*self.spots[:index], found, *self.spots[index + 1 :]))
 
-    def undo(self) -> None:
-        """Takes the last change of the list back."""
-        self._history.undo()
-        self._look()
-
-    def redo(self) -> None:
-        """Makes the change again that was undone last."""
-        self._history.redo()
-        self._look()
-
     def expected_mm(self, index: int, base_mm: PlaceMm) -> PlaceMm:
         """Where a hole should be: by what was found so far, else as the board is placed from this working base."""
         spot = self.spots[index]
@@ -101,6 +91,9 @@ class Measuring:
     def _spot(self, index: int) -> Spot:
         x_mm, y_mm = self._board.file_xy_mm[index].tolist()
         return Spot(index + 1, (x_mm, y_mm))
+
+    def _restore(self) -> None:
+        self._look()
 
     def _change(self, spots: tuple[Spot, ...]) -> None:
         self._history.do(spots)

@@ -2,6 +2,8 @@
 
     shell.py         what a screen may ask of the program around it, and what a family of machines must name
     menus.py         the menus Tests, Configuration and Help
+    step_rows.py     what a machine waits for: the rows that every machine has
+    folded_screen.py what screens share that only show lines
     table_list.py    the tables of one kind, to be opened     table_editor.py   what the editors of tables share
     table_actions.py save, reset, compare, copy, delete       phase_editor.py  ramp_editor.py  queue_editor.py
     configuration.py the machine's file as fields             scale_guide.py    the scale of an axis measured

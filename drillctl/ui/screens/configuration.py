@@ -9,7 +9,7 @@ from typing import Any
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.editing import History
+from drillctl.ui.models.editing import History, Undoable
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
 from drillctl.ui.screens.field_panel import TICK_RATE, about_field, effect_lines
 from drillctl.ui.screens.scale_guide import ScaleGuide
@@ -27,7 +27,7 @@ LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
 MOST_EFFECTS = 3  # below the fields, where there is no panel
 
 
-class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
+class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widget]):
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
     title = N_("Configuration")
@@ -98,16 +98,6 @@ class ConfigurationScreen(urwid.WidgetWrap[urwid.Widget]):
         taken = col < left[0] and bool(super().mouse_event(left, event, button, col, row, focus))
         self._look()
         return taken
-
-    def undo(self) -> None:
-        """Takes the last change of a field back."""
-        self._history.undo()
-        self._restore()
-
-    def redo(self) -> None:
-        """Makes the change again that was undone last."""
-        self._history.redo()
-        self._restore()
 
     def go(self, by: int) -> None:
         """Moves the cursor by so many fields; it stops at the ends."""

@@ -2,8 +2,8 @@
 
 from drillctl.language.words import _, translated
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
-from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.table_actions import label_of
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.panel import titled
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.tables import FieldView
@@ -30,7 +30,7 @@ def about_field(draft: ConfigurationDraft, field: FieldView | None, carried: str
     if field.place == TICK_RATE:
         lines.append([carried or _("F12 measures which tick rate this computer carries.")])
     lines += [[""], titled(_("What the changes will do"), columns), *effect_lines(draft)]
-    return [line for long in lines for line in folded(long, columns)]
+    return folded(lines, columns)
 
 
 def effect_lines(draft: ConfigurationDraft) -> list[Line]:

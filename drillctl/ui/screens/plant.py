@@ -1,13 +1,13 @@
 """The Plant screen (Tests): what stands behind the simulated machine, ideal or dynamic motors, its faults, its seed."""
 
-import urwid
+from collections.abc import Sequence
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.screens.port import folded
+from drillctl.ui.screens.folded_screen import FoldedScreen
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.dialogs import Answered, Field
-from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.texts import Line, Size, boxed
+from drillctl.ui.widgets.keys import Key
+from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import Console, MachineView, Problems
 from drillctl.viewmodel.plant import FaultWord, PlantControl, PlantView
 
@@ -15,11 +15,9 @@ LABEL_COLUMNS, USAGE_COLUMNS, RANGE_COLUMNS = 14, 19, 10
 KINDS = {"ideal": N_("ideal"), "dynamic": N_("dynamic")}
 
 
-class PlantScreen(urwid.Widget):
+class PlantScreen(FoldedScreen):
     """Shows the plant of the machine in use, and the faults that a dynamic one can have."""
 
-    _sizing = frozenset([urwid.Sizing.BOX])
-    _selectable = True
     title = N_("Plant and faults")
     keys = (
         Key(("f6",), "F6", "swap", N_("ideal or dynamic motors, in turn; the machine starts anew"), N_("Plant")),
@@ -43,16 +41,9 @@ class PlantScreen(urwid.Widget):
             self._plant = plant
             self._invalidate()
 
-    def keypress(self, size: Size, key: str) -> str | None:
-        """Calls the method of a key in the table; returns any other key for the frame."""
-        return None if called(self, self.keys, key) else key
-
-    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """Draws the plant, then the faults that there are, folded to the width."""
-        assert len(size) == 2
-        columns, rows = size
-        lines = [line for long in plant_lines(self._plant) for line in folded(long, columns)]
-        return boxed(lines, columns, rows)
+    def lines(self) -> Sequence[Line]:
+        """The plant, then the faults that it can have."""
+        return plant_lines(self._plant)
 
     def swap(self) -> None:
         """Changes to the other plant; a refusal is told."""

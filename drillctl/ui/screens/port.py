@@ -3,14 +3,13 @@
 Rule: a test moves nothing; a real machine is driven after a question only.
 """
 
-import textwrap
-
-import urwid
+from collections.abc import Sequence
 
 from drillctl.language.words import N_, _, translated
+from drillctl.ui.screens.folded_screen import FoldedScreen
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.texts import Line, Size, boxed
+from drillctl.ui.widgets.keys import Key
+from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import Console, MachineView, Problems
 from drillctl.viewmodel.signals import PortControl, PortReport, PortView
 
@@ -18,11 +17,9 @@ LABEL_COLUMNS = 14
 WORDS = {True: N_("REACHED"), False: N_("clear")}
 
 
-class PortScreen(urwid.Widget):
+class PortScreen(FoldedScreen):
     """Shows the port of the machine in use, and the report of the last test."""
 
-    _sizing = frozenset([urwid.Sizing.BOX])
-    _selectable = True
     title = N_("Port")
     keys = (
         Key(("t", "f5"), "T", "test", N_("opens the configured port and asks it; nothing moves"), N_("Test")),
@@ -42,16 +39,9 @@ class PortScreen(urwid.Widget):
             self._port, self._report = port, None
             self._invalidate()
 
-    def keypress(self, size: Size, key: str) -> str | None:
-        """Calls the method of a key in the table; returns any other key for the frame."""
-        return None if called(self, self.keys, key) else key
-
-    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """Draws the port, then the report of its test, folded to the width."""
-        assert len(size) == 2
-        columns, rows = size
-        lines = [line for long in port_lines(self._port, self._report) for line in folded(long, columns)]
-        return boxed(lines, columns, rows)
+    def lines(self) -> Sequence[Line]:
+        """The port, then the report of its test."""
+        return port_lines(self._port, self._report)
 
     def test(self) -> None:
         """Tests the configured port; takes some seconds where opening the line resets a board."""
@@ -88,14 +78,6 @@ def port_lines(port: PortView, report: PortReport | None) -> list[Line]:
         [""],
     ]
     return [*lines, *(_report_lines(report) if report else [[_("T tests the configured port: nothing moves.")]])]
-
-
-def folded(line: Line, columns: int) -> list[Line]:
-    """A line of one look in as many as the width asks for; a labelled one as it is."""
-    if len(line) > 1:
-        return [line]
-    look, text = ("body", line[0]) if isinstance(line[0], str) else line[0]
-    return [[(look, row)] for row in textwrap.wrap(text, columns) or [""]]
 
 
 def _report_lines(report: PortReport) -> list[Line]:

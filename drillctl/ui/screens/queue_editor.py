@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.editing import History, completed, usage
-from drillctl.ui.screens.port import folded
+from drillctl.ui.models.editing import History, Undoable, completed, usage
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.screens.tick_log import TickLog, port_line
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Edit, Line, Text
@@ -24,7 +24,7 @@ MOST_FINDINGS = 5
 Draft = tuple[str, int]  # a text, and where the cursor stands in it
 
 
-class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
+class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
     """A queue as text. ``file`` is where it was opened or saved last; empty for a new one."""
 
     title = N_("Queue of commands")
@@ -102,16 +102,6 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         self._keep()
         self._look(fits)
 
-    def undo(self) -> None:
-        """Takes the last change back; the cursor goes to where it was."""
-        self._history.undo()
-        self._restore()
-
-    def redo(self) -> None:
-        """Makes the change again that was undone last."""
-        self._history.redo()
-        self._restore()
-
     def refresh(self, view: MachineView) -> None:
         """Shows where the clock stopped, while it is stopped."""
         stopped: list[Line] = []
@@ -165,7 +155,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
         lines: list[Line] = []
         for command in self._commands:
             lines += [[("lit", f"{command.name} {command.usage}".strip())], [("dark", f"  {command.meaning}")]]
-        return [line for long in lines for line in folded(long, columns)]
+        return folded(lines, columns)
 
     def _first_tick(self) -> None:
         self._answer(self._control.tick(1))
@@ -189,7 +179,7 @@ class QueueEditor(urwid.WidgetWrap[urwid.Widget]):
     def _put(self, file: str, text: str) -> None:
         """Replaces the queue by another text, with a history of its own."""
         self.file, self._saved = file, text
-        self._history: History[Draft] = History((text, 0))
+        self._history = History((text, 0))
         self._restore()
 
     def _give_up(self) -> None:

@@ -9,10 +9,10 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.bench_lines import bench_lines, verdicts
-from drillctl.ui.models.editing import History
-from drillctl.ui.screens.port import folded
+from drillctl.ui.models.editing import History, Undoable
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, titled, with_panel
 from drillctl.ui.widgets.texts import Line, boxed
@@ -35,7 +35,7 @@ TABLE_KEYS = (
 ORIGINS = {"shipped": N_("shipped"), "yours": N_("your own copy"), "other": N_("from a folder named first")}
 
 
-class TableEditor(urwid.Widget):
+class TableEditor(Undoable[str], urwid.Widget):
     """One table on the screen. A kind of table adds ``kind``, ``title``, its keys, and ``drawing``."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
@@ -77,7 +77,7 @@ class TableEditor(urwid.Widget):
         beside = panel_columns(columns, self.columns) if self._bench else 0
         left = columns - beside
         tried = [] if beside else verdicts(self._report, self._reports.get(self._saved))
-        below = [line for long in [*self._verdict(), *tried] for line in folded(long, left)]
+        below = folded([*self._verdict(), *tried], left)
         drawing = self.drawing(left, rows - len(below) - FURTHER_ROWS)
         main = boxed([[("title", self._heading())], [""], *drawing, [""], *below], left, rows)
         return with_panel(main, _("What it does"), self._beside(beside - BORDER_COLUMNS, rows), beside, rows)
@@ -92,14 +92,7 @@ class TableEditor(urwid.Widget):
         self._history.do(text)
         self._look()
 
-    def undo(self) -> None:
-        """Goes back to the state before."""
-        self._history.undo()
-        self._look()
-
-    def redo(self) -> None:
-        """Goes forward to the state that was undone last."""
-        self._history.redo()
+    def _restore(self) -> None:
         self._look()
 
     def save(self) -> None:
@@ -154,7 +147,7 @@ class TableEditor(urwid.Widget):
         chart_rows = min(max((rows - PANEL_TEXT_ROWS) // CHARTS, LEAST_CHART_ROWS), MOST_CHART_ROWS)
         trial = bench_lines(self._report, self._reports.get(self._saved), (columns, chart_rows), self._plain)
         lines = [*self.picture(columns, chart_rows), titled(_("Bench"), columns), *trial]
-        return [line for long in lines for line in folded(long, columns)]
+        return folded(lines, columns)
 
     def _give_up(self) -> None:
         """Discards the edits and closes the screen."""

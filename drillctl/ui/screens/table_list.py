@@ -8,11 +8,11 @@ import urwid
 from drillctl.language.words import N_, _
 from drillctl.ui.screens.configuration import ConfigurationScreen
 from drillctl.ui.screens.phase_editor import PhaseEditor
-from drillctl.ui.screens.port import folded
 from drillctl.ui.screens.ramp_editor import RampEditor
 from drillctl.ui.screens.shell import Shell, unsaved
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import ORIGINS, Size
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Icon, Line
@@ -129,7 +129,7 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
             heading = _("Motors with this table") if motors else _("No motor of any machine has this table.")
             heading_lines: list[Line] = [[("title", heading)], *_each(motors), [""]] if self.kind != "machines" else []
             self._texts[name] = [*heading_lines, *_each(self._tables.read(self.kind, name).splitlines())]
-        return [line for long in self._texts[name] for line in folded(long, max(columns, 1))]
+        return folded(self._texts[name], columns)
 
     @property
     def _name_columns(self) -> int:
