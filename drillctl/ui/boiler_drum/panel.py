@@ -112,7 +112,7 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
         self._answer(self._console.stop(), _("stop; the position is kept"))
 
     def emergency_stop(self) -> None:
-        """Stops all axes at once, as the machine's file says; the program is ended."""
+        """Stops the machine in the way that its file names, and ends the program."""
         self._console.emergency_stop()
 
     def acknowledge(self) -> None:
