@@ -1,21 +1,29 @@
 """The next step: a sentence for every condition, with keys that work where it stands."""
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from importlib import import_module
+from typing import Any
 
 import pytest
 import urwid
 
 from drillctl.language import words
+from drillctl.ui.boiler_drum import menus as drum_menus
 from drillctl.ui.next_step import step_line
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.pcb_drill.next_step import ACTIONS, ROWS
 from drillctl.ui.screens.shell import Step
+from drillctl.ui.screens.step_rows import Row
+from drillctl.ui.widgets.menus import Item
+from drillctl.ui.widgets.texts import width_of
 from drillctl.viewmodel.console import MachineView, ToolWanted
 from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Program
 
 pytestmark = pytest.mark.usefixtures("idle")
 
+drum_steps = import_module("drillctl.ui.boiler_drum.next_step")  # the package has the function of this name
 FIELD = re.compile(r"\{(\w+)\}")
 CASES = {
     "position not known": ({"position_known": False}, True, "position not known: I initialises; S does, then drills"),
@@ -53,6 +61,21 @@ def test_the_next_step_fits_on_a_small_terminal(language: str, state: dict[str, 
     words.use(language)
     for keys in ((), ("f",), ("esc", "f")):
         assert "…" not in shown(replace(VIEW, **state), board, *keys)
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+@pytest.mark.parametrize(
+    ("rows", "actions", "menus"),
+    [(ROWS, ACTIONS, MENUS), (drum_steps.ROWS, drum_steps.ACTIONS, drum_menus.MENUS)], ids=["pcb_drill", "boiler_drum"],
+)  # fmt: skip
+def test_every_row_fits_by_the_letters_of_the_menus_too(
+    rows: Sequence[Row[Any]], actions: Mapping[str, tuple[str, str]], menus: Sequence[Item], language: str
+) -> None:
+    words.use(language)
+    values = {"fault": FAULT.name, "tool": "T12, 10.000 mm"}
+    for row in rows:
+        line = step_line(Step(row.attribute, row.text, actions, values), urwid.SolidFill(), menus)
+        assert width_of(line) <= 80, line
 
 
 def test_on_another_screen_the_letters_of_the_menu_are_named() -> None:

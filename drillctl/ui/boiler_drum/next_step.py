@@ -26,7 +26,7 @@ ROWS: tuple[Row[bool], ...] = (
     Row(lambda view, called: not called, "good",
         N_("two digits and {call_workpiece} call a workpiece; {list_workpieces} lists them")),
     Row(lambda view, called: not view.position_known, "warning",
-        N_("set the tool by single steps; {start} takes the place as zero and runs the workpiece")),
+        N_("set the tool by single steps; {start} takes the place as zero and runs")),
     Row(lambda view, called: True, "good", N_("ready: {start} runs the workpiece")),
 )  # fmt: skip
 

@@ -6,7 +6,7 @@ Rule: functions of the program and of how far it is; ``>`` marks the sentence in
 import textwrap
 
 from drillctl.language.number_text import clock
-from drillctl.language.words import _, translated
+from drillctl.language.words import _, ngettext, translated
 from drillctl.ui.widgets.texts import Line, around
 from drillctl.viewmodel.records import Progress
 from drillctl.viewmodel.workpieces import PartView, SentenceView
@@ -29,13 +29,14 @@ def list_lines(part: PartView | None, sentence: int, done: int, columns: int, ro
 
 
 def heading(part: PartView | None) -> Line:
-    """The workpiece with its number, its store, and how many sentences and holes it has."""
+    """The workpiece with its number, its store, and how many sentences it has."""
     if part is None:
         return [("title", _("Workpiece"))]
-    text = _("Workpiece {number:02} ({store}); sentences: {sentences}, holes: {holes}")
-    return [("title", text.format(
-        number=part.number, store=part.store, sentences=len(part.sentences), holes=len(part.holes)
-    ))]  # fmt: skip
+    count = len(part.sentences)
+    text = ngettext(
+        "Workpiece {number:02} ({store}), {count} sentence", "Workpiece {number:02} ({store}), {count} sentences", count
+    )
+    return [("title", text.format(number=part.number, store=part.store, count=count))]
 
 
 def facts(part: PartView | None, progress: Progress | None, sentence: int, done: int, columns: int) -> list[Line]:
