@@ -79,9 +79,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     streams.prepare()
     words = _with_verb(sys.argv[1:] if argv is None else argv)
     try:
-        arguments = parser().parse_args(words)
         with caught(leave):
-            return streams.delivered(int(arguments.call(arguments)))
+            return streams.delivered(_called(words))
     except KeyboardInterrupt as stop:
         return exit_code(*stop.args)
     except BrokenPipeError:
@@ -89,6 +88,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         return NOBODY_READS
     except Exception as error:
         return _refused(error, as_json="--json" in words)
+
+
+def _called(words: Sequence[str]) -> int:
+    """Calls the verb that the words name; returns its exit code. Raises SystemExit for --help and --version."""
+    try:
+        arguments = parser().parse_args(words)
+    except SystemExit:
+        streams.delivered(0)  # a reader that has gone is found out here, and not while the interpreter ends
+        raise
+    return int(arguments.call(arguments))
 
 
 def _with_verb(argv: Sequence[str]) -> Sequence[str]:

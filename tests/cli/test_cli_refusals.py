@@ -196,7 +196,10 @@ def test_a_broken_table_spoils_its_own_machine_only(drillctl: Drillctl, folder: 
     assert drillctl("run", "hole.kmd").returncode == 0
 
 
-@pytest.mark.parametrize("verb", [["machines"], ["run", "hole.kmd"], ["inspect", "kicad.drl"]], ids=" ".join)
+@pytest.mark.parametrize(
+    "verb",
+    [["machines"], ["run", "hole.kmd"], ["inspect", "kicad.drl"], ["run", "--help"], ["--version"]], ids=" ".join,
+)  # fmt: skip
 def test_a_reader_that_has_gone(verb: list[str], folder: Path) -> None:
     """As with ``| head -0``: quiet, and the exit code of a broken pipe."""
     reading, writing = os.pipe()
