@@ -72,8 +72,9 @@ def sources() -> str:
 
 
 def glossary_rows() -> list[list[str]]:
-    lines = (ROOT / "docs" / "GLOSSARY.md").read_text("utf-8").splitlines()
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
+    terms, _, _not_used = (ROOT / "docs" / "GLOSSARY.md").read_text("utf-8").partition("## Words that are not used")
+    lines = [line for line in terms.splitlines() if line.startswith("| ")]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     return [row for row in rows if row[0] != "term"]
 
 

@@ -5,7 +5,7 @@ Rule: a figure is a row of a table, worked out for the machine as it is and as i
 
 from collections.abc import Callable, Iterator
 
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 from drillctl.machine import AxisTable, Machine
 from drillctl.machine.travel import travel_ticks
 
@@ -26,6 +26,10 @@ def _range(machine: Machine, axis: AxisTable) -> str:
     return f"{axis.low_steps / axis.steps_per_mm:.2f}..{axis.high_steps / axis.steps_per_mm:.2f} mm"
 
 
+def _longest_stroke(machine: Machine) -> str:
+    return Counted("{count} tick", "{count} ticks", machine.longest_drilling_ticks)
+
+
 def _through(machine: Machine, axis: AxisTable) -> str:
     return f"{travel_ticks(axis.ramp, axis.span_steps, 0, axis.columns_per_step) / machine.tick_hz:.2f} s"
 
@@ -40,7 +44,7 @@ OF_AXES: tuple[tuple[Message, OfAxis], ...] = (
 )
 OF_MACHINES: tuple[tuple[Message, Callable[[Machine], str]], ...] = (
     (Message("time between two ticks"), lambda machine: f"{MS_PER_S / machine.tick_hz:.4g} ms"),
-    (Message("longest stroke before a fault"), lambda machine: f"{machine.longest_drilling_ticks} ticks"),
+    (Message("longest stroke before a fault"), _longest_stroke),
 )
 
 

@@ -120,7 +120,7 @@ def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = un
     if account.complete:
         raise JobError(
             Message(
-                "all {total} holes of {file} are drilled; nothing is left", total=job.holes_total, file=file.name
+                "all holes of {file} are drilled ({total}); nothing is left", total=job.holes_total, file=file.name
             ).at(journal)
         )
     return RemainingJob(setup, job, without_holes(job, account.done, setup))

@@ -10,6 +10,8 @@ from enum import IntEnum, IntFlag
 
 import numpy as np
 
+from drillctl.language import Message
+
 MOST_AXES = 10  # eight that work, and room for those of a magazine
 MOST_ARGUMENT = 2**31 - 1
 
@@ -75,60 +77,79 @@ class ArgumentForm(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """One command: name, opcode, form of its arguments, how they are written, what it does, flags, least number
-    allowed.
+    """One command: name, opcode, form of its arguments, how they are written, what it does (a screen translates both),
+    flags, least number allowed.
     """
 
     name: str
     op: Op
     form: ArgumentForm
     usage: str
-    meaning: str
+    meaning: Message
     flags: Flag = Flag.NONE
     least: int = 0
 
 
 _BASE = Flag.ABSOLUTE
 _LINE = Flag.LINKED
-_HEADS, _PLACES = "[axis ...]", "axis=steps ..."
+_HEADS, _PLACES = Message("[axis ...]"), Message("axis=steps ...")
+_TICKS, _NOTHING = Message("ticks"), ""
 _ALL = (
-    Spec("KMD_GOTOdXdY", Op.GOTO_DXDY, ArgumentForm.XY, "dX dY", "move X and Y by so many steps from here"),
-    Spec("KMD_GOTO_X_Y", Op.GOTO_X_Y, ArgumentForm.XY, "X Y", "move X and Y to a place from the working base", _BASE),
-    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, ArgumentForm.AXES, _HEADS, "lower the head to its lower sensor"),
-    Spec("KMD_WIERTLO_GORA", Op.WIERTLO_GORA, ArgumentForm.AXES, _HEADS, "raise the head to its upper sensor"),
+    Spec("KMD_GOTOdXdY", Op.GOTO_DXDY, ArgumentForm.XY, "dX dY", Message("move X and Y by so many steps from here")),
     Spec(
-        "KMD_INICJALIZACJA", Op.INICJALIZACJA, ArgumentForm.NOTHING, "",
-        "head up, then to X=0, Y=0 as the limit sensors set it; the position is known from here on",
+        "KMD_GOTO_X_Y", Op.GOTO_X_Y, ArgumentForm.XY, "X Y",
+        Message("move X and Y to a place, in steps from the working base"), _BASE,
+    ),
+    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, ArgumentForm.AXES, _HEADS, Message("lower the head to its lower sensor")),
+    Spec("KMD_WIERTLO_GORA", Op.WIERTLO_GORA, ArgumentForm.AXES, _HEADS, Message("raise the head to its upper sensor")),
+    Spec(
+        "KMD_INICJALIZACJA", Op.INICJALIZACJA, ArgumentForm.NOTHING, _NOTHING,
+        Message("head up, then to X=0, Y=0 as the limit sensors set it; the position is known from here on"),
     ),
     Spec(
-        "KMD_BAZA", Op.BAZA, ArgumentForm.AXES, _HEADS, "take this place as working base, in X and Y or the axes named"
+        "KMD_BAZA", Op.BAZA, ArgumentForm.AXES, _HEADS,
+        Message("take this place as working base, in X and Y or the axes named"),
     ),
     Spec(
-        "KMD_RUCH", Op.RUCH, ArgumentForm.MOVES, _PLACES, "move the named axes to a place from the working base", _BASE
+        "KMD_RUCH", Op.RUCH, ArgumentForm.MOVES, _PLACES,
+        Message("move the named axes to a place, in steps from the working base"), _BASE,
     ),
-    Spec("KMD_RUCHd", Op.RUCH_D, ArgumentForm.MOVES, _PLACES, "move the named axes by so many steps from here"),
-    Spec("KMD_LINIA", Op.LINIA, ArgumentForm.MOVES, _PLACES, "as KMD_RUCH, along one straight line", _BASE | _LINE),
-    Spec("KMD_LINIAd", Op.LINIA_D, ArgumentForm.MOVES, _PLACES, "as KMD_RUCHd, along one straight line", _LINE),
     Spec(
-        "KMD_PREDKOSC", Op.PREDKOSC, ArgumentForm.NUMBER, "ticks",
-        "moves that follow step no faster than every so many ticks; 0: full speed",
+        "KMD_RUCHd", Op.RUCH_D, ArgumentForm.MOVES, _PLACES, Message("move the named axes by so many steps from here")
     ),
-    Spec("KMD_CZEKAJ", Op.CZEKAJ, ArgumentForm.NUMBER, "ticks", "wait"),
-    Spec("KMD_WYJSCIE", Op.WYJSCIE, ArgumentForm.OUTPUT, "output 0|1", "switch an output of the machine"),
     Spec(
-        "KMD_CZEKAJ_WE", Op.CZEKAJ_WE, ArgumentForm.INPUT, "input 0|1 timeout",
-        "wait until a sensor is reached (1) or clear (0), at most so many ticks",
+        "KMD_LINIA", Op.LINIA, ArgumentForm.MOVES, _PLACES, Message("as KMD_RUCH, along one straight line"),
+        _BASE | _LINE,
     ),
-    Spec("KMD_WRZECIONO", Op.WRZECIONO, ArgumentForm.NUMBER, "rpm", "spindle on at a speed, 0: off"),
-    Spec("KMD_NARZEDZIE", Op.NARZEDZIE, ArgumentForm.NUMBER, "tool", "the tool of this number is wanted"),
+    Spec(
+        "KMD_LINIAd", Op.LINIA_D, ArgumentForm.MOVES, _PLACES, Message("as KMD_RUCHd, along one straight line"), _LINE
+    ),
+    Spec(
+        "KMD_PREDKOSC", Op.PREDKOSC, ArgumentForm.NUMBER, _TICKS,
+        Message("limit the feed: later moves wait at least so many ticks between two steps; 0: no limit"),
+    ),
+    Spec("KMD_CZEKAJ", Op.CZEKAJ, ArgumentForm.NUMBER, _TICKS, Message("wait so many ticks")),
+    Spec("KMD_WYJSCIE", Op.WYJSCIE, ArgumentForm.OUTPUT, Message("output 0|1"), Message("switch an output on or off")),
+    Spec(
+        "KMD_CZEKAJ_WE", Op.CZEKAJ_WE, ArgumentForm.INPUT, Message("input 0|1 timeout"),
+        Message("wait until a sensor is reached (1) or clear (0), at most so many ticks"),
+    ),
+    Spec(
+        "KMD_WRZECIONO", Op.WRZECIONO, ArgumentForm.NUMBER, Message("rpm"),
+        Message("switch the spindle on, at so many turns a minute; 0: off"),
+    ),
+    Spec(
+        "KMD_NARZEDZIE", Op.NARZEDZIE, ArgumentForm.NUMBER, Message("number"),
+        Message("note which tool is in the spindle, by its number"),
+    ),
     Spec(
         "KMD_FAZY_WYL", Op.FAZY_WYL, ArgumentForm.AXES, _HEADS,
-        "release the phases of all or the named axes: the position is lost",
+        Message("switch the phases of all axes, or of those named, off: the position is lost"),
     ),
-    Spec("KMD_KONIEC", Op.KONIEC, ArgumentForm.NOTHING, "", "the end of the queue"),
+    Spec("KMD_KONIEC", Op.KONIEC, ArgumentForm.NOTHING, _NOTHING, Message("the end of the queue")),
     Spec(
-        "KMD_POWROT", Op.POWROT, ArgumentForm.NOTHING, "",
-        "return to zero by the count of steps: the heads first, then all other axes",
+        "KMD_POWROT", Op.POWROT, ArgumentForm.NOTHING, _NOTHING,
+        Message("return to zero by the count of steps: the heads first, then all other axes"),
     ),
 )  # fmt: skip
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_ARGUMENT, MOST_AXES, RECORD, ArgumentForm, Names, Op, Spec
-from drillctl.language import Counted, Message, Refusal, known_words, nearest
+from drillctl.language import Counted, Message, Refusal, joined, known_words, nearest
 
 MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
@@ -144,7 +144,7 @@ def _unknown(name: str) -> Message:
 def _count(spec: Spec, name: _Word, rest: list[_Word], wanted: int) -> None:
     if len(rest) != wanted:
         word = rest[wanted] if len(rest) > wanted else name
-        written = f"{spec.name} {spec.usage}".rstrip()
+        written = joined(" ", [spec.name, spec.usage] if spec.usage else [spec.name])
         count = Counted("{count} argument", "{count} arguments", len(rest))
         raise _LineError(word, Message("{count}; it is written {command}", count=count, command=written))
 

@@ -5,7 +5,7 @@ Rule: a bit has one owner, a sensor or an ``[[input]]``; sensors that are wired 
 
 from collections.abc import Sequence
 
-from drillctl.language import Message, known_words
+from drillctl.language import Counted, Message, known_words
 from drillctl.machine.model import AxisTable, Input, Sensor
 from drillctl.machine.shape import InputRow, MachineFile
 from drillctl.machine.source import Source
@@ -77,10 +77,10 @@ def _check_room(source: Source, raw: MachineFile, index: int, table: AxisTable) 
     room = row.edge - brake >= table.low_steps if row.end == "min" else row.edge + brake <= table.high_steps
     if not room:
         reason = Message(
-            "sensor {name}: edge {edge} leaves no room to brake ({brake} steps) inside the range {low}..{high}",
+            "sensor {name}: edge {edge} leaves no room to brake ({brake}) inside the range {low}..{high}",
             name=row.name,
             edge=row.edge,
-            brake=brake,
+            brake=Counted("{count} step", "{count} steps", brake),
             low=table.low_steps,
             high=table.high_steps,
         )

@@ -12,7 +12,7 @@ import os
 from collections.abc import Sequence
 from contextlib import suppress
 
-from drillctl.language import Message, message_of
+from drillctl.language import Counted, Message, message_of
 from drillctl.ports import SAFE_IMAGE, PortLayout, PortLost, PortRefused, word
 
 DEVICE = "/dev/port"
@@ -111,8 +111,11 @@ def card_bases(address: str, layout: PortLayout) -> list[int]:
     if len(bases) != layout.cards or not all(0 <= base <= HIGHEST_BASE for base in bases):
         raise PortRefused(
             "pcl720",
-            Message(
-                "the machine needs {cards} addresses below 10000, not {address}", cards=layout.cards, address=address
+            Counted(
+                "the machine needs {count} address below 10000, not {address}",
+                "the machine needs {count} addresses below 10000, not {address}",
+                layout.cards,
+                address=address,
             ),
         )
     return bases

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from drillctl.language import Message, known_words
+from drillctl.language import Counted, Message, known_words
 from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
 from drillctl.ports import Driver, PortLayout, PortRefused
@@ -235,9 +235,11 @@ def check_rate(spec: str, layout: PortLayout) -> None:
     """Raises PortRefused for a tick rate that a port can't carry with all axes moving, or an unknown name."""
     most_hz = rate_of(spec, layout)
     if most_hz is not None and layout.tick_hz > most_hz:
-        axes = len(layout.axis_outputs)
-        reason = Message(
-            "{hz} interrupts a second are too many for it with {axes} axes moving", hz=layout.tick_hz, axes=axes
+        reason = Counted(
+            "{hz} interrupts a second are too many for it with {count} axis moving",
+            "{hz} interrupts a second are too many for it with {count} axes moving",
+            len(layout.axis_outputs),
+            hz=layout.tick_hz,
         )
         raise PortRefused(spec, Message("{reason}; --tick-hz {most} is the most", reason=reason, most=most_hz))
 

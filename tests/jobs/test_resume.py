@@ -76,7 +76,7 @@ def test_spots_made_before_the_cut_are_named(folder: Path, capsys: pytest.Captur
 def test_a_finished_journal_leaves_nothing_to_resume(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run() == 0
     assert resume() == 2
-    assert "all 4 holes of job.drl are drilled; nothing is left" in capsys.readouterr().err
+    assert "all holes of job.drl are drilled (4); nothing is left" in capsys.readouterr().err
 
 
 def test_a_file_that_has_changed_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,7 +13,7 @@ import pytest
 
 from drillctl.language import words
 from drillctl.ui.explanations import EXPLAINED
-from tests.support.labels import menu, word
+from tests.support.labels import counted, menu, word
 
 named = pytest.importorskip("tests.support.named", reason="pyte (the dev extra) reads what the program draws")
 Act = named.Act
@@ -31,12 +31,13 @@ def plant() -> Iterator["named.Act"]:
 
 def table() -> Iterator["named.Act"]:
     """Without its last column a motor loses steps; with it again it doesn't."""
+    lost = counted("LOST {lost} of {count} steps", 30, lost=1).split(" ")[0]
     yield Act(menu("phase_editor"), (word("shipped"), "two-phase-forced"))
     yield Act(("Enter",), (word("Phase table") + ": ",))
     yield Act(("Del",), (word(", changed"),))
-    yield Act(("F5",), (word("LOST {lost} of {steps} steps").split(" {")[0],))
+    yield Act(("F5",), (lost,))
     yield Act(("Ctrl-U",), (), gone=(word(", changed"),))
-    yield Act(("F5",), (word("no step lost"),), gone=(word("LOST {lost} of {steps} steps").split(" {")[0],))
+    yield Act(("F5",), (word("no step lost"),), gone=(lost,))
 
 
 def queue() -> Iterator["named.Act"]:

@@ -2,8 +2,11 @@
 
 import pytest
 
+from drillctl.kmd import commands as kmd
+from drillctl.language import words
 from drillctl.ui.models.editing import completed, usage
 from drillctl.ui.screens.queue_editor import QueueEditor
+from drillctl.viewmodel.tables import CommandHelp
 from tests.ui.editor_fakes import Console, Hands, Queues, Shell, attributes_of, press, text_of
 
 COMMANDS = Queues().commands()
@@ -30,6 +33,24 @@ def test_completion(before: str, after: str, fits: tuple[str, ...]) -> None:
 def test_usage_of_a_line() -> None:
     assert usage(" KMD_CZEKAJ 5", COMMANDS) == "KMD_CZEKAJ ticks: wait"
     assert usage("", COMMANDS) == usage("KMD_NONE", COMMANDS) == ""
+
+
+def test_arguments_and_meaning_are_in_the_operator_s_language(console: Console, shell: Shell) -> None:
+    words.use("pl")
+    editor = QueueEditor(console, shell, WholeTable(), Hands(console))
+    press(editor, *"KMD_LINIA x=3")
+    shown = text_of(editor, (160, 50))
+    for there in ("KMD_LINIA oś=kroki ...: jak KMD_RUCH, po jednej linii", "KMD_CZEKAJ takty", "koniec kolejki"):
+        assert there in shown
+    assert "axis" not in shown and "ticks" not in shown
+
+
+class WholeTable(Queues):
+    """The queues of the fake with every command that there is."""
+
+    def commands(self) -> list[CommandHelp]:
+        """All of them."""
+        return [CommandHelp(spec.name, spec.usage, spec.meaning) for spec in kmd.COMMANDS.values()]
 
 
 @pytest.fixture

@@ -37,14 +37,14 @@ def test_states_stand_in_rows_with_what_stopping_takes(editor: RampEditor) -> No
         ["0", "0", "0", "7", "0", "7"],
         ["1", "1", "2", "4", "1", "4"],
     ]
-    assert "3 steps in 15 ticks" in text_of(editor) and "every move lands exactly" in text_of(editor)
+    assert "3 steps, 15 ticks" in text_of(editor) and "every move lands exactly" in text_of(editor)
 
 
 def test_every_digit_goes_into_the_text_and_the_drawing(editor: RampEditor) -> None:
     press(editor, "down", "right", "right", "1")
-    assert editor.text == "-1 -1 -2 4\n0 0 0 1\n1 1 2 4" and "3 steps in 9 ticks" in text_of(editor)
+    assert editor.text == "-1 -1 -2 4\n0 0 0 1\n1 1 2 4" and "3 steps, 9 ticks" in text_of(editor)
     press(editor, "2")
-    assert editor.text == "-1 -1 -2 4\n0 0 0 12\n1 1 2 4" and "3 steps in 20 ticks" in text_of(editor)
+    assert editor.text == "-1 -1 -2 4\n0 0 0 12\n1 1 2 4" and "3 steps, 20 ticks" in text_of(editor)
     press(editor, "backspace", "backspace")
     assert editor.text == "-1 -1 -2 4\n0 0 0 1\n1 1 2 4", "an empty field goes nowhere"
     assert states(editor)[1][3] == "[]"

@@ -174,7 +174,7 @@ def test_two_marks_tell_ticks_milliseconds_and_hertz_between(square: TraceFile) 
 def test_zooming_by_keys_and_wheel_keeps_what_is_pointed_at(square: TraceFile) -> None:
     program = Scoped(square)
     program.press(*["right"] * 20, "-", "-")
-    assert program.cursor() == 20 and "a column: 5 = 10 ms" in program.text()
+    assert program.cursor() == 20 and "a cell: 5 ticks, 10 ms" in program.text()
     program.press("w", ("mouse press", 1, 40, 8))
     there = program.cursor()
     assert there > 1000

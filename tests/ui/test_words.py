@@ -2,6 +2,7 @@
 
 import pkgutil
 import re
+from pathlib import Path
 
 import pytest
 
@@ -17,6 +18,7 @@ from tests.support.messages import (
     templates_in,
 )
 
+GLOSSARY = Path(__file__).parents[2] / "docs" / "GLOSSARY.md"
 FIELD = re.compile(r"\{(\w+)([^}]*)\}")
 
 
@@ -110,3 +112,13 @@ def test_every_entry_is_read_from_the_compiled_form() -> None:
 
 def test_no_entry_is_left_over() -> None:
     assert TRANSLATED - all_templates() == set()
+
+
+def test_no_word_that_the_glossary_rules_out_is_used() -> None:
+    section = GLOSSARY.read_text("utf-8").partition("## Words that are not used")[2]
+    rows = [row.split("|")[1].strip() for row in section.splitlines() if row.startswith("| ")][1:]
+    beginnings = [word for row in rows for word in row.split(", ")]
+    ruled_out = re.compile(rf"\b(?:{'|'.join(beginnings)})", re.IGNORECASE)
+    polish = [*POLISH.values(), *(form for forms in POLISH_FORMS.values() for form in forms)]
+    assert len(beginnings) > 9 and ruled_out.search("nowa tabela")
+    assert [text for text in polish if ruled_out.search(text)] == []

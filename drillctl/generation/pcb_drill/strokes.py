@@ -29,7 +29,7 @@ def drill_stroke(machine: Machine, peck_mm: float | None) -> Records:
     if pecks > MOST_PECKS:
         raise JobError(
             Message(
-                "peck depth: {depth} mm makes {pecks} pecks a hole; at most {most}",
+                "peck depth: {depth} mm needs {pecks} pecks for a hole; at most {most}",
                 depth=peck_mm,
                 pecks=pecks,
                 most=MOST_PECKS,

@@ -12,7 +12,7 @@ import msgspec
 
 from drillctl.generation.job_setup import BAD_VALUES
 from drillctl.jobs.journal.chain import NO_SEAL
-from drillctl.language import Message, Refusal, message_of
+from drillctl.language import Counted, Message, Refusal, joined, message_of
 from drillctl.plant.choice import GREATEST_SEED
 from drillctl.viewmodel.job_options import FilePath
 from drillctl.viewmodel.jobs import Site
@@ -101,6 +101,13 @@ class Account:
         return self.holes_done + 1
 
     @property
+    def share_done(self) -> Message:
+        """How many of the job's holes are done, in words."""
+        return Counted(
+            "{done} of {count} hole is done", "{done} of {count} holes are done", self.head.holes, done=self.holes_done
+        )
+
+    @property
     def complete(self) -> bool:
         """Whether all holes are done."""
         return self.holes_done == self.head.holes
@@ -151,10 +158,9 @@ class Account:
 
     def _state(self) -> Message:
         run = Message("the run goes on") if self.ended is None else Message("the run has ended")
-        counted = {"done": self.holes_done, "total": self.head.holes, "run": run}
         if self.under_way:
-            return Message("{done} of {total} holes are done, hole {next} is begun, {run}", next=self.next, **counted)
-        return Message("{done} of {total} holes are done, {run}", **counted)
+            return Message("{done}, hole {next} is begun, {run}", done=self.share_done, next=self.next, run=run)
+        return joined(", ", [self.share_done, run])
 
 
 PLACES: dict[tuple[str, ...], Callable[..., Account]] = {

@@ -146,10 +146,9 @@ def _check_finished(file: Path) -> None:
     if account.unfinished:
         raise JournalError(
             Message(
-                "holds a job that is not finished: {done} of {total} holes of {file} are drilled; go on with "
-                "`drillctl resume {journal}`, or delete the file to begin anew",
-                done=account.holes_done,
-                total=account.head.holes,
+                "holds a job that is not finished: {file}, {done}; go on with `drillctl resume {journal}`, "
+                "or delete the file to begin anew",
+                done=account.share_done,
                 file=account.head.job,
                 journal=file,
             ).at(file)

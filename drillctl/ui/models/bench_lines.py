@@ -6,7 +6,7 @@ Rule: functions of records and sizes. A loss is said in words and capitals, neve
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, ngettext
 from drillctl.ui.widgets.curves import curve_rows
 from drillctl.ui.widgets.text_graphics import LEVELS, PLAIN_LEVELS
 from drillctl.ui.widgets.texts import Line, width_of
@@ -122,7 +122,8 @@ def lost_words(run: MotorRun) -> str:
     """What a motor lost, in its worst move."""
     if not run.lost:
         return _("no step lost")
-    return _("LOST {lost} of {steps} steps").format(lost=abs(run.lost), steps=abs(run.steps))
+    text = ngettext("LOST {lost} of {count} step", "LOST {lost} of {count} steps", run.steps)
+    return text.format(lost=abs(run.lost), count=abs(run.steps))
 
 
 def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Size, plain: bool) -> list[Line]:
@@ -147,7 +148,8 @@ def _bench(report: BenchReport, title: str, size: Size, plain: bool, bounds: Bou
     results = _results(report)
     kind: list[Line] = [] if worst.dynamic else [[("dark", _("ideal motors: no dynamics are known"))]]
     other: list[Line] = [] if report.in_use else [[("dark", _("no motor here has this table; tried on one that fits"))]]
-    caption = _("behind, in steps: {motor}, {steps:+d} steps").format(motor=worst.motor.upper(), steps=worst.steps)
+    behind = ngettext("lag in steps: {motor}, {count:+d} step", "lag in steps: {motor}, {count:+d} steps", worst.steps)
+    caption = behind.format(motor=worst.motor.upper(), count=worst.steps)
     chart = _chart(caption, worst.behind, bounds, size, plain, "danger" if worst.lost else "good")
     return [heading, *results, *kind, *other, *chart]
 
@@ -157,7 +159,7 @@ def _results(report: BenchReport) -> list[Line]:
 
 
 def _run_line(run: MotorRun) -> Line:
-    moves = _("{moves} moves").format(moves=run.moves)
+    moves = ngettext("{count} move", "{count} moves", run.moves).format(count=run.moves)
     return [("title", f"{run.motor.upper():3}"), ("danger" if run.lost else "good", lost_words(run)), f", {moves}"]
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from itertools import takewhile
 from typing import Generic, TypeVar
 
+from drillctl.language.words import translated
 from drillctl.viewmodel.tables import CommandHelp
 
 MOST_STATES = 500
@@ -93,4 +94,9 @@ def usage(line: str, commands: Sequence[CommandHelp]) -> str:
     """How the command of a line is written and what it does; an empty text for no command."""
     name = line.split(maxsplit=1)[:1]
     found = next((command for command in commands if [command.name] == name), None)
-    return f"{found.name} {found.usage}".strip() + f": {found.meaning}" if found else ""
+    return f"{written(found)}: {translated(found.meaning)}" if found else ""
+
+
+def written(command: CommandHelp) -> str:
+    """How a command is written: its name, then its arguments in the operator's language."""
+    return f"{command.name} {translated(command.usage)}".strip()

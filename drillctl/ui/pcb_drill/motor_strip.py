@@ -6,7 +6,7 @@ pulses are capital X, so that nothing is told by colour alone. Motors for which 
 
 from itertools import zip_longest
 
-from drillctl.language.words import _
+from drillctl.language.words import _, ngettext
 from drillctl.ui.models.speeds import Speeds
 from drillctl.ui.screens.machine_lines import phase_table
 from drillctl.ui.widgets.text_graphics import bar, strip
@@ -54,7 +54,7 @@ def _rotor(axis: AxisView, lost: int, plain: bool) -> list[Line]:
     scale = ["."] * (2 * REACH_STEPS + 1)
     scale[REACH_STEPS], scale[at] = "|", PLAIN_MARK if plain else MARK
     role = "danger" if lost else "body"
-    lost_text = _(", {steps} lost").format(steps=lost) if lost else ""
+    lost_text = ngettext(", {count} lost", ", {count} lost", lost).format(count=lost) if lost else ""
     return [[("title", f"{_('Rotor'):{LABEL_COLUMNS}}"), (role, "".join(scale)), f" {off:+.2f}{lost_text}"]]
 
 

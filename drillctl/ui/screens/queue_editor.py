@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.editing import History, Undoable, completed, usage
+from drillctl.ui.models.editing import History, Undoable, completed, usage, written
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.screens.tick_log import TickLog, port_line
@@ -154,7 +154,7 @@ class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
             return self._log.lines(self._axes, (columns, rows), self._plain)
         lines: list[Line] = []
         for command in self._commands:
-            lines += [[("lit", f"{command.name} {command.usage}".strip())], [("dark", f"  {command.meaning}")]]
+            lines += [[("lit", written(command))], [("dark", f"  {translated(command.meaning)}")]]
         return folded(lines, columns)
 
     def _first_tick(self) -> None:

@@ -6,7 +6,7 @@ of what is on the screen; an unfinished number goes nowhere.
 
 from collections.abc import Sequence
 
-from drillctl.language.words import N_, _
+from drillctl.language.words import N_, _, ngettext
 from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Line, around
@@ -141,9 +141,12 @@ class RampEditor(TableEditor):
         ticks = self._ramp.intervals
         if not ticks:
             return [[("warning", _("no profile: a ramp is drawn when every move lands exactly"))]]
-        caption = _("speed, step by step, of a move of {steps} steps in {ticks} ticks").format(
-            steps=len(ticks), ticks=sum(ticks)
-        )
+        lasting = ngettext("{count} tick", "{count} ticks", sum(ticks)).format(count=sum(ticks))
+        caption = ngettext(
+            "speed of each step in a move of {count} step, {ticks}",
+            "speed of each step in a move of {count} steps, {ticks}",
+            len(ticks),
+        ).format(count=len(ticks), ticks=lasting)
         bars = bar_rows([1 / interval for interval in ticks], columns, PROFILE_ROWS, self._plain)
         profile: list[Line] = [[("lit", row)] for row in bars]
         return [[caption], *profile, [("good", _("every move lands exactly"))]]

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from drillctl.language.number_text import number
-from drillctl.language.words import _
+from drillctl.language.words import _, ngettext
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.viewmodel.console import AxisView, Console
@@ -134,10 +134,11 @@ class ScaleGuide:
         if problems:
             self._tell(*problems)
             return
-        text_with_fields = _("{steps} steps, {mm:g} mm: {new} columns/inch instead of {old} ({change:+.2f} %). "
+        text_with_fields = _("{moved}, {mm:g} mm: {new} columns/inch instead of {old} ({change:+.2f} %). "
                   "A reading wrong by 0.1 mm makes {doubt:.2f} %. Save it?")  # fmt: skip
+        moved = ngettext("{count} step", "{count} steps", found.steps).format(count=found.steps)
         question = text_with_fields.format(
-            steps=found.steps, mm=found.travel_mm, new=found.columns_per_inch, old=found.old,
+            moved=moved, mm=found.travel_mm, new=found.columns_per_inch, old=found.old,
             change=found.change_percent, doubt=found.doubt_percent,
         )  # fmt: skip
         self._shell.ask(question, lambda: self._actions.save(self._name, text, self._name, self._then))

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 from glob import escape
 
-from drillctl.language.words import _
+from drillctl.language.words import _, ngettext
 from drillctl.viewmodel.scope import ScopeSource
 
 COMMANDS = "kmd"  # the group of the signal that names the command in execution
@@ -20,7 +20,8 @@ def between(source: ScopeSource, marks: Sequence[tuple[str, int]], cursor: int) 
     ticks = last - first
     rate = f", {source.tick_hz / ticks:.4g} Hz" if ticks else ""
     ms = f"{ticks * 1000 / source.tick_hz:.10g}"
-    measured = _("{marks}: {ticks} ticks, {ms} ms{rate}").format(marks=names, ticks=ticks, ms=ms, rate=rate)
+    counted = ngettext("{count} tick", "{count} ticks", ticks).format(count=ticks)
+    measured = _("{marks}: {ticks}, {ms} ms{rate}").format(marks=names, ticks=counted, ms=ms, rate=rate)
     moved = [f"{axis.upper()} {steps:+d}" for axis, steps in steps_between(source, first, last) if steps]
     return measured + (_(", steps: {moved}").format(moved=" ".join(moved)) if moved else _(", no steps"))
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drillctl.language import Message
-from drillctl.language.words import N_, _, translated
+from drillctl.language.words import N_, _, ngettext, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.machine_lines import phase_line, phase_table
 from drillctl.ui.screens.scope_curve import curve_lines
@@ -100,8 +100,9 @@ def _heading(source: ScopeSource, look: ScopeLook) -> list[Line]:
 def _zoom(view: Viewport, tick_hz: int) -> str:
     ticks, columns = view.zoom
     if columns > 1:
-        return _("{columns} columns a tick").format(columns=columns)
-    return _("a column: {ticks} = {ms} ms").format(ticks=ticks, ms=f"{ticks * 1000 / tick_hz:.10g}")
+        return ngettext("{count} cell a tick", "{count} cells a tick", columns).format(count=columns)
+    counted = ngettext("{count} tick", "{count} ticks", ticks).format(count=ticks)
+    return _("a cell: {ticks}, {ms} ms").format(ticks=counted, ms=f"{ticks * 1000 / tick_hz:.10g}")
 
 
 def _ruler(look: ScopeLook, layout: ScopeLayout, edges: Ints) -> Line:

@@ -134,7 +134,7 @@ class Signals(urwid.Widget):
     def _foot(self, lines: int, room: int) -> list[Line]:
         """What the cursor is on, what was answered, and how much there is above and below."""
         above, below = self._top, max(0, lines - self._top - room)
-        more = _("{above} lines above, {below} below").format(above=above, below=below) if above or below else ""
+        more = _("lines above: {above}, below: {below}").format(above=above, below=below) if above or below else ""
         return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._answer_line()]]
 
     def _answer_line(self) -> tuple[str, str]:
