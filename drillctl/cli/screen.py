@@ -146,7 +146,7 @@ class EditorScreens:
         from drillctl.console.plant import MachinePlant
         from drillctl.ui.screens.plant import PlantScreen
 
-        return PlantScreen(console, shell, MachinePlant(self._console))
+        return PlantScreen(console, shell, MachinePlant(self._console), self._plain)
 
     def _signals(self, console: "Console", shell: "Shell") -> "urwid.Widget":
         from drillctl.console.signals import MachineSignals

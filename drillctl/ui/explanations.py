@@ -7,6 +7,7 @@ the keys, in SIGNS. By a screen's title.
 from collections.abc import Mapping
 
 from drillctl.language.words import N_
+from drillctl.ui.models.fault_effects import PLANTS_IN_WORDS
 
 EXPLAINED: Mapping[str, tuple[str, ...]] = {
     "Drilling": (
@@ -115,17 +116,7 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("A test opens the port and asks it; nothing moves."),
         N_("A real machine is driven only after a question."),
     ),
-    "Plant and faults": (
-        N_("What stands behind the simulated machine. Ideal motors turn at once"),
-        N_("to where their windings pull; dynamic ones have inertia, friction:"),
-        N_("they lag, swing, and lose steps when they are driven too fast."),
-        N_("F6 changes to the other plant. Enter asks for the faults of the"),
-        N_("dynamic one, several with a space between, and for its seed:"),
-        N_("the same faults and seed give the same run again."),
-        N_("A fault has one number N; the list says its range and its meaning."),
-        N_("The machine starts anew: initialise it, and open the board again."),
-        N_("Lost steps stand after Lost on the machine's first screen."),
-    ),
+    "Plant and faults": PLANTS_IN_WORDS,
     "Lab sheet": (N_("A task of the laboratory, to be read; arrows and PgDn scroll it."),),
 }
 

@@ -7,8 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.language import Message
+from drillctl.console.plant import WORDS
+from drillctl.language import Message, words
 from drillctl.machine import Library
+from drillctl.plant.faults import FAULT_KINDS
+from drillctl.ui.models.fault_effects import EFFECTS
 from drillctl.ui.screens.plant import PlantScreen
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.plant import FaultWord, PlantView
@@ -54,6 +57,30 @@ def test_the_plant_in_use_and_every_fault_with_its_range() -> None:
     plants.view = replace(PLANT, real_port="firmata")
     drawn.refresh(VIEW)
     assert "firmata, a real machine" in text_of(drawn)
+
+
+def test_what_every_fault_does_is_told_and_drawn() -> None:
+    assert set(EFFECTS) == set(FAULT_KINDS)
+    for name, effect in EFFECTS.items():
+        first, *others = [marks for _label, marks in effect.drawn]
+        assert others and first not in others and {len(marks) for marks in others} == {len(first)}, name
+
+
+def test_the_fault_under_the_cursor_is_explained_at_every_size_and_all_are_where_there_is_room() -> None:
+    plants = Plants(replace(PLANT, words=WORDS))
+    drawn = PlantScreen(FakeConsole(), Shell(), plants, plain=True)
+    for language in ("en", "pl"):
+        words.use(language)
+        for at, (word, effect) in enumerate(zip(WORDS, EFFECTS.values(), strict=True)):
+            for size in ((78, 20), (98, 27), (158, 45)):
+                shown = text_of(drawn, size)
+                assert f">{word.usage}" in shown
+                for part in (effect.cause, effect.seen):
+                    assert words._(part)[-15:] in shown, (size, word.usage)
+            press(drawn, "down")
+            assert drawn._at == min(at + 1, len(WORDS) - 1)
+        assert all(words._(effect.cause)[-15:] in text_of(drawn, (158, 46)) for effect in EFFECTS.values())
+        press(drawn, *["up"] * 9)
 
 
 def test_a_refusal_of_the_other_plant_is_told() -> None:

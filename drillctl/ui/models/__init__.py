@@ -4,6 +4,8 @@
     phase_grid.py      a phase table as cells, and the bits that switch its wires
     machine_fields.py  the fields of a machine's file: their words, and what is typed over them
     signal_grid.py     signals as cells, as many a line as there is room for
+    fault_effects.py   what each fault of the dynamic plant does, in words and drawn
+    bench_lines.py     the trial of a table on bench motors, as lines and charts
     events.py          what happened at the machine, from one view to the next
     board_map.py       where a board lies on the screen: scale, zoom and pan
     board_work.py      which holes of a board are drilled, in work, failed
