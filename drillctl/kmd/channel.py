@@ -8,6 +8,7 @@ process uses the plain Queue, Requests and Gate instead.
 
 import mmap
 import os
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -126,6 +127,7 @@ class SharedQueue:
         self._ring = channel.fields["ring"][0]
         self._written = channel.fields["written"]
         self._taken = channel.fields["taken"]
+        self._beat_ns = channel.fields["desk_beat_ns"]
 
     def __len__(self) -> int:
         return int(self._written[0]) - int(self._taken[0])
@@ -136,7 +138,12 @@ class SharedQueue:
         return CAPACITY - len(self)
 
     def put(self, records: NDArray[np.void]) -> int:
-        """Puts as many of the records as there is room for, and returns how many. They count once they are whole."""
+        """Puts as many of the records as there is room for, and returns how many. They count once they are whole.
+
+        Beats the desk's heartbeat first: a desk that was silent at rest, since it planned a board, is not lost in the
+        tick that takes the first command.
+        """
+        self._beat_ns[0] = time.monotonic_ns()
         count = min(len(records), self.room)
         written = int(self._written[0])
         self._ring[(written + np.arange(count)) % CAPACITY] = records[:count]

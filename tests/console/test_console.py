@@ -15,6 +15,8 @@ from drillctl.ticker.paced_link import PacedLink
 from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import settle, until
 
+pytestmark = pytest.mark.paced
+
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
@@ -123,9 +125,12 @@ def test_a_busy_desk_at_rest_loses_nothing_and_a_moving_machine_takes_no_board(c
     time.sleep(1.5)
     console.turn()
     assert console.view().fault is None and console.view().position_known
-    console.jog("x", 9000)
+    time.sleep(1.5)
+    assert console.jog("x", 9000) == ()
+    until(console, lambda: console.view().moving)
     assert console.load(str(EXAMPLES / "blinker.drl"), JobOptions())[0].startswith("the machine is at work")
     settle(console)
+    assert console.view().fault is None
 
 
 def test_a_ticker_that_was_killed_is_told_of_and_started_anew(console: MachineConsole) -> None:
