@@ -8,6 +8,8 @@ from drillctl.generation.job import Job
 from tests.campaign.board_resets import Reset, play, short_job
 from tests.campaign.resetting_board import play_round
 
+pytestmark = pytest.mark.paced
+
 EVERY = 17  # wakes of some 420
 QUIET_WAKES, SILENT_WAKES = 25, 500  # within which a loss is told: a question's beat and its answer; its patience
 

@@ -14,6 +14,8 @@ from tests.campaign.blows import BLOWS, Blow
 from tests.campaign.board import Board
 from tests.campaign.rounds import ROOT, Round, _judge_holes, play
 
+pytestmark = pytest.mark.paced
+
 needs_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
 NAMES = [make(Random(0), 8000).name for make in BLOWS]
 DAILY = [

@@ -14,7 +14,10 @@ from drillctl.kmd.channel import Channel
 from drillctl.portio.mapped import read_map
 from tests.support.terminal import Terminal
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+pytestmark = [
+    pytest.mark.paced,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux"),
+]
 
 BOARD = "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nG90\nT1\nX1.0Y1.0\nT2\nX2.0Y1.5\nM30\n"
 RUN = ("run", "board.drl", "--tick-hz", "4000", "--journal", "j", "--pace", "real", "--port", "mapped:card")

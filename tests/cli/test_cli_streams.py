@@ -13,6 +13,8 @@ from drillctl.jobs.journal import read_journal
 from tests.cli.conftest import COMMAND
 from tests.support.terminal import Terminal
 
+pytestmark = pytest.mark.paced
+
 needs_full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 needs_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
 PACED = ("--pace", "real", "--tick-hz", "4000", "--journal", "j")

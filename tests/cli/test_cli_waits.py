@@ -11,6 +11,8 @@ from drillctl.ui.terminal import wait
 from tests.support import journalled
 from tests.support.journalled import BOARD
 
+pytestmark = pytest.mark.paced
+
 READ, ORDERED, FORECAST, RUN_AGAIN = (
     "reading job.drl", "putting the holes in order", "working out how long the job takes", "running it again",
 )  # fmt: skip

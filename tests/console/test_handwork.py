@@ -15,7 +15,10 @@ from drillctl.ticker.launch import RunSettings
 from drillctl.viewmodel.signals import SignalView
 from tests.support.operator import until
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+pytestmark = [
+    pytest.mark.paced,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux"),
+]
 BY_SIMULATED_CLOCK = RunSettings(pace="real", sliced=True)
 QUEUE = "KMD_RUCHd x=30\n"
 REAL_CARD = "firmata:/dev/no-such-line"

@@ -14,6 +14,8 @@ from drillctl.ticker.launch import RunSettings
 from drillctl.viewmodel.console import Problems
 from tests.support.operator import settle
 
+pytestmark = pytest.mark.paced
+
 BY_SIMULATED_CLOCK = RunSettings(pace="real", sliced=True)
 WAY = 5000
 REPEATED_S = 0.03

@@ -12,6 +12,8 @@ from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import settle, until
 
+pytestmark = pytest.mark.paced
+
 Begin = Callable[[MachineConsole], Problems]
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 BEGUN: dict[str, Begin] = {

@@ -14,6 +14,8 @@ from drillctl.ticker.launch import RunSettings
 from drillctl.viewmodel.job_options import JobOptions
 from tests.support.operator import settle, until
 
+pytestmark = pytest.mark.paced
+
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 PACES = ["free", pytest.param("real", marks=pytest.mark.skipif(sys.platform != "linux", reason="real pace"))]
 

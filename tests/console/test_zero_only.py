@@ -26,7 +26,7 @@ def test_only_the_return_to_zero_is_granted(back: Callable[[MachineConsole], obj
     library = Library.standard()
     console = MachineConsole(library, library.machine("boiler-drum"), RunSettings("simulated", "free"))
     try:
-        assert console.run_queue("KMD_INICJALIZACJA\nKMD_RUCHd x=600 y=90\n") == ()
+        assert console.run_queue("KMD_INICJALIZACJA\nKMD_RUCHd x=60 y=9\n") == ()
         settle(console)
         console.emergency_stop()
         until(console, lambda: console.view().condition == "latched")

@@ -78,20 +78,29 @@ def check(machine: Machine, text: str, asked: dict[int, int], ticks: int) -> Fas
     return fast
 
 
-@pytest.mark.parametrize("name", MACHINES)
-@seed(720)
-@settings(max_examples=10, deadline=None)
-@given(data=st.data())
-def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.DataObject) -> None:
-    machine = small(name)
+def check_some_program(machine: Machine, data: st.DataObject) -> None:
     known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
     text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=12)))
     asked = data.draw(st.one_of(st.just({}), disturbances))
-    ticks = data.draw(st.integers(6000, 14000))
-    check(machine, text, asked, ticks)
+    check(machine, text, asked, data.draw(st.integers(6000, 14000)))
 
 
-HOLES = np.random.default_rng(720).integers(0, 300, (3, 2)).tolist()
+@pytest.mark.parametrize("name", MACHINES)
+@seed(720)
+@settings(max_examples=6, deadline=None)
+@given(data=st.data())
+def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.DataObject) -> None:
+    check_some_program(small(name), data)
+
+
+@pytest.mark.long
+@pytest.mark.timeout(1200)
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_hundred_programs_more(name: str) -> None:
+    settings(max_examples=100, deadline=None)(given(data=st.data())(check_some_program))(small(name))
+
+
+HOLES = np.random.default_rng(720).integers(0, 300, (2, 2)).tolist()
 BOARD = "KMD_INICJALIZACJA\n" + "\n".join(f"KMD_GOTO_X_Y {x} {y}\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA" for x, y in HOLES)
 
 
@@ -215,7 +224,7 @@ def test_two_engines_in_two_processes_give_the_same_bytes(tmp_path: Path) -> Non
 
 @pytest.mark.parametrize("name", ["pcb-drill", "eight-axis", "cnc-shield"])
 @seed(725)
-@settings(max_examples=3, deadline=None)
+@settings(max_examples=2, deadline=None)
 @given(data=st.data())
 def test_wherever_the_machine_is_found_both_see_the_same_holes(name: str, data: st.DataObject) -> None:
     """Also with the bit in the board: it has not come down to it, so that is no hole."""

@@ -15,6 +15,8 @@ from drillctl.files import scratch
 from drillctl.files.outputs import reserved
 from drillctl.kmd.channel import Channel
 
+pytestmark = pytest.mark.paced
+
 HOLDER = """
 import sys, time
 from pathlib import Path

@@ -24,7 +24,7 @@ from tests.firmware.loop import OUTPUT_PINS, WiredPlant
 from tests.firmware.updates import Update, check_seen, updates_of
 from tests.support.decoder import Watch, decoders
 
-pytestmark = pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())
+pytestmark = [pytest.mark.paced, pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())]
 
 REST_STEPS = 3  # of a rotor: columns 1 to 3 of the phase table are one place
 CREEP_TICKS = 4  # a step of the way off a sensor

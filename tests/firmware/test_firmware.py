@@ -16,7 +16,7 @@ from drillctl.ports import PortLayout, PortLost, PortRefused, bits_of
 from tests.firmware import board as boards
 from tests.firmware.board import SimulatedBoard, wait_until
 
-pytestmark = pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())
+pytestmark = [pytest.mark.paced, pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())]
 
 TICKS = 1_000
 FEW_BYTES = 128  # waiting in the kernel

@@ -15,7 +15,7 @@ from tests.firmware.board import SimulatedBoard, wait_until
 from tests.firmware.job import HOLES_MM, STEPS_PER_MM, drillctl, write_job
 from tests.firmware.loop import WiredPlant
 
-pytestmark = pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())
+pytestmark = [pytest.mark.paced, pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())]
 
 AGAIN_S = 1.0
 RUN_S = 60.0

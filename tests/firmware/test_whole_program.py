@@ -12,7 +12,7 @@ from tests.firmware import board as boards
 from tests.firmware.board import SimulatedBoard
 from tests.firmware.updates import check_seen, updates_of
 
-pytestmark = pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())
+pytestmark = [pytest.mark.paced, pytest.mark.skipif(bool(boards.missing()), reason=boards.missing())]
 
 QUEUE = "KMD_GOTOdXdY 300 200\nKMD_RUCHd z=100\nKMD_GOTOdXdY -300 -200\n"
 MOTOR_PINS = range(16, 40)

@@ -15,6 +15,8 @@ from contextlib import suppress
 
 import pytest
 
+pytestmark = pytest.mark.paced
+
 PATIENCE_S = 10.0
 PROGRAM = """
 import signal, sys, time

@@ -26,7 +26,10 @@ LONG_S = 600
 PERIOD_NS = 2_000_000
 Done = subprocess.CompletedProcess[str]
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="latency is measured on Linux only")
+pytestmark = [
+    pytest.mark.paced,
+    pytest.mark.skipif(sys.platform != "linux", reason="latency is measured on Linux only"),
+]
 
 
 @pytest.fixture

@@ -15,6 +15,8 @@ import pytest
 from drillctl.cli import main
 from tests.support.lab_sheets import LAB, SHEETS, entered, solution, solve
 
+pytestmark = pytest.mark.paced
+
 PARTS = ("**Aim.**", "**Read.**", "**Start files.**", "\n## Write down\n", "\n## Questions\n", "\n## Hand in\n")
 TABLES = [(sheet, file) for sheet in SHEETS for file in solution(sheet) if file.suffix == ".toml"]
 PYTEST = (sys.executable, "-m", "pytest", "-q", "-p", "drillctl.pytest_plugin", "-p", "no:cacheprovider")

@@ -10,6 +10,8 @@ from drillctl.ticker import realtime as capacity
 from drillctl.ticker.launch import RunSettings, start
 from drillctl.ticker.realtime import most_ticks_hz
 
+pytestmark = pytest.mark.paced
+
 MACHINE = Library.standard().machine("pcb-drill")
 
 

@@ -21,6 +21,8 @@ from drillctl.ticker.paced_link import PacedLink
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import TraceError, write_text
 
+pytestmark = pytest.mark.paced
+
 LIBRARY = Library((shipped_tables(),))
 MACHINE = LIBRARY.machine("pcb-drill").at_rate(1000)
 MOST_TURNS = 3000

@@ -25,7 +25,7 @@ from drillctl.ticker.ticker import Ticker
 
 LIBRARY = Library.standard()
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-BOARDS = [("pcb-drill", 8, 8), ("pcb-drill-ramp-lab", 8, 8), ("eight-axis", 2, 3)]  # holes at most, boards; 8000 Hz
+BOARDS = [("pcb-drill", 8, 8), ("pcb-drill-ramp-lab", 8, 8), ("eight-axis", 2, 1)]  # holes at most, boards; 8000 Hz
 
 
 def board_job(holes_mm: list[tuple[float, float]], tools: list[int], settings: WorkSettings, machine_name: str) -> Job:

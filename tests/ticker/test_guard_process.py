@@ -14,7 +14,10 @@ from drillctl.kmd.channel import Channel
 from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.guard_process import run_guard
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the guard needs Linux")
+pytestmark = [
+    pytest.mark.paced,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the guard needs Linux"),
+]
 SILENCE_NS = 300_000_000
 WITHIN_S = 5.0
 SAFE, GONE = 0, 1  # bytes of the port's memory

@@ -27,6 +27,8 @@ from drillctl.ticker.sampler import vcd_layout
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import TraceError, read_text, write_text, write_vcd
 
+pytestmark = pytest.mark.paced
+
 LIBRARY = Library((shipped_tables(),))
 MACHINE = LIBRARY.machine("pcb-drill").at_rate(100)  # a gap of less than 70 ms is no news to a motor then
 MOST_TURNS = 3000

@@ -19,7 +19,10 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.portio.mapped import read_map
 from drillctl.replay.compare import replay
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+pytestmark = [
+    pytest.mark.paced,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux"),
+]
 
 LIBRARY = Library((shipped_tables(),))
 BOARD = "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nG90\nT1\nX1.0Y1.0\nT2\nX2.0Y1.5\nM30\n"

@@ -19,7 +19,10 @@ from drillctl.ticker.paced_link import PacedLink
 from drillctl.ticker.ticker_process import DESK_IDLE_NS, DESK_SAFE_NS
 from drillctl.trace import Trace, write_text
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+pytestmark = [
+    pytest.mark.paced,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux"),
+]
 
 LIBRARY = Library((shipped_tables(),))
 MACHINE = LIBRARY.machine("pcb-drill").at_rate(100)  # a gap of less than 70 ms is no news to a motor then

@@ -21,7 +21,7 @@ PR_GET_TIMERSLACK = 30
 LATER_BYTES = 8 << 20
 Facts = dict[str, Any]
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="real-time scheduling is Linux's")
+pytestmark = [pytest.mark.paced, pytest.mark.skipif(sys.platform != "linux", reason="real-time scheduling is Linux's")]
 as_root = pytest.mark.skipif(os.geteuid() != 0, reason="only root can drop its rights")
 
 

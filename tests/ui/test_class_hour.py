@@ -17,6 +17,8 @@ from drillctl.ui.explanations import EXPLAINED
 from drillctl.viewmodel.fault_texts import FAULT_WORDS
 from tests.support.labels import counted, menu, word
 
+pytestmark = pytest.mark.paced
+
 named = pytest.importorskip("tests.support.named", reason="pyte (the dev extra) reads what the program draws")
 Act = named.Act
 

@@ -15,6 +15,8 @@ from drillctl.language import words
 from drillctl.ui.explanations import EXPLAINED
 from tests.support.labels import counted, menu, word
 
+pytestmark = pytest.mark.paced
+
 named = pytest.importorskip("tests.support.named", reason="pyte (the dev extra) reads what the program draws")
 Act = named.Act
 

@@ -14,6 +14,8 @@ from drillctl.generation.boiler_drum.store_file import parse_store
 from drillctl.language import words
 from tests.support.labels import word
 
+pytestmark = pytest.mark.paced
+
 terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev extra) reads what the program draws")
 Act = terminals.Act
 

@@ -10,6 +10,8 @@ from drillctl.cli import main
 pytest.importorskip("pyte", reason="pyte (the dev extra) reads what the program draws")
 from tests.support.terminal import Terminal
 
+pytestmark = pytest.mark.paced
+
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
 
 

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.paced
+
 terminals = pytest.importorskip("tests.support.terminal", reason="pyte (the dev extra) reads what the program draws")
 
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"

@@ -7,6 +7,8 @@ import pytest
 from tests.ui.test_everything_fits import opened
 from tests.ui.whole import SCREENS, at_home
 
+pytestmark = pytest.mark.paced
+
 
 @pytest.mark.parametrize("name", [name for name in SCREENS if name != "scope"])  # which shows every tick, at rest too
 def test_a_machine_at_rest_draws_nothing(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
