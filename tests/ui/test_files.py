@@ -1,5 +1,6 @@
 """Files: formats by name, recent jobs, panel, how to drill, example boards and lab sheets."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,7 @@ import pytest
 
 from drillctl.ui.pcb_drill import examples
 from drillctl.ui.pcb_drill.drilling import Drilling
+from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.typed import FORMATS
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
 from drillctl.viewmodel.jobs import RecentJob
@@ -176,3 +178,15 @@ def test_an_installation_without_examples_says_so(monkeypatch: pytest.MonkeyPatc
     program = Program(FakeConsole())
     program.press("e")
     assert "not part of this installation" in program.text()
+
+
+def test_a_large_window_has_options_by_their_keys_and_a_small_one_above_the_facts(folder: Path) -> None:
+    large = opened(size=(160, 50)).text().splitlines()
+    list_side = [row[:62] for row in large]
+    for key in Files.keys:
+        if key.method in ("cycle", "offset", "panel", "align", "how_to_drill", "choose_format"):
+            assert any(re.match(rf"\W*{key.printed}  \w", row) for row in list_side), key.printed
+    picture = [row for row in large if re.search("[\u2801-\u28ff]", row)]
+    assert len(picture) >= 24 and any("█" in row and "T1" in row for row in large)
+    small = opened(size=(80, 24)).text()
+    assert "Behind M30: refuse holes" in small and "4 holes, 40.00 x 20.00 mm" in small

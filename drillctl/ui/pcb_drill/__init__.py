@@ -10,6 +10,8 @@
     files.py       find a drill file, see what it says, place it           browser.py      its list of files
     typed.py       number formats, and what is typed into its dialogs      board_facts.py  a board in words
     alignment.py   placing a board by holes measured on it                 measuring.py    what the holes say
+    files_layout.py where its parts stand, by the size of the terminal
+    job_forms.py   the boxes that ask for options
     examples.py    the example boards and the lab sheets
     menus.py       the menus Files and Drilling                            next_step.py    what the machine waits for
 

@@ -1,5 +1,6 @@
 """A board and its options in words. Functions of JobOptions and BoardView; shown by the Files screen."""
 
+from collections.abc import Callable, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple
@@ -9,11 +10,14 @@ import numpy as np
 from drillctl.language.number_text import clock
 from drillctl.language.words import N_, _, ngettext, translated
 from drillctl.ui.pcb_drill.typed import BY_OPTION
+from drillctl.ui.widgets.keys import Key
+from drillctl.ui.widgets.text_graphics import bar
 from drillctl.viewmodel.console import BoardView
 from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.records import ToolEstimate
 
-LEFT_COLUMNS = 24
+LEFT_COLUMNS, LABEL_COLUMNS = 24, 18
+SHARE_COLUMNS = 24  # of the bar that is a tool's share of the time
 
 
 class PlacingChoice(NamedTuple):
@@ -44,9 +48,41 @@ CHOICES = (
 def option_lines(options: JobOptions) -> list[str]:
     """The options that always have a value, two a line; then those that were set beside them."""
     pairs = [f"{_('Format')}: {format_word(options.format)}"]
-    pairs += [f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES] + [_offset(options)]
+    *choices, behind_end = (f"{_(choice.label)}: {_chosen(choice, options)}" for choice in CHOICES)
+    pairs += [*choices, _offset(options), behind_end]  # the longest has a line of its own
     lines = [f"{left:{LEFT_COLUMNS}} {right}".rstrip() for left, right in zip_longest(*[iter(pairs)] * 2, fillvalue="")]
     return [*lines, *_further(options)]
+
+
+def placing_lines(options: JobOptions, keys: Sequence[Key]) -> list[str]:
+    """Every option in a line of its own, behind the key that changes it; then what was set of the others."""
+    by_field = {choice.field: choice for choice in CHOICES}
+    lines = []
+    for key in keys:
+        if key.method == "cycle" and isinstance(key.argument, str):
+            label, value = _(by_field[key.argument].label), _chosen(by_field[key.argument], options)
+        elif key.method in OTHER_OPTIONS:
+            label, value = (_(OTHER_OPTIONS[key.method][0]), OTHER_OPTIONS[key.method][1](options))
+        else:
+            continue
+        lines.append(f"{_(key.printed):3}{label:{LABEL_COLUMNS}}{value}")
+    return [*lines, "", *_further(options)]
+
+
+def _set_or_none(is_set: object) -> str:
+    return _("as told below") if is_set else _("none")
+
+
+OTHER_OPTIONS: Mapping[str, tuple[str, Callable[[JobOptions], str]]] = {  # by the method that changes it
+    "choose_format": (N_("Format"), lambda options: format_word(options.format)),
+    "offset": (N_("Offset"), lambda options: "{:g} {:g} mm".format(*options.offset_mm)),
+    "align": (N_("Measured holes"), lambda options: _set_or_none(options.measured)),
+    "panel": (N_("Panel"), lambda options: _set_or_none(options.panel)),
+    "how_to_drill": (
+        N_("How to drill"),
+        lambda options: _set_or_none(options.peck_mm or options.spot_mm or options.skip_tools or options.drills),
+    ),
+}
 
 
 def _offset(options: JobOptions) -> str:
@@ -102,8 +138,10 @@ def _further(options: JobOptions) -> list[str]:
     return lines
 
 
-def board_lines(board: BoardView) -> list[str]:
-    """A board in words: size, format and why, tools with their time, the whole time, warnings."""
+def board_lines(board: BoardView, large: bool = False, plain: bool = False) -> list[str]:
+    """A board in words: size, format and why, tools with their time, the whole time, warnings. ``large``: with a bar
+    for each tool's share of the time, and the way between the holes.
+    """
     width_mm, height_mm = _size_mm(board)
     size = ngettext(
         "{name}: {count} hole, {width:.2f} x {height:.2f} mm", "{name}: {count} holes, {width:.2f} x {height:.2f} mm",
@@ -112,7 +150,22 @@ def board_lines(board: BoardView) -> list[str]:
     sure = f"{board.dialect}, {translated(board.format)} ({board.confidence:.0%}): {translated(board.reason)}"
     runner_up = [_("else: {format}").format(format=translated(board.runner_up))] if board.runner_up else []
     warnings = [_("warning: {text}").format(text=translated(text)) for text in board.warnings]
-    return [size, sure, *runner_up, *_tool_lines(board), _whole_time(board), *warnings]
+    tools, whole = _tool_lines(board), _whole_time(board)
+    if large:
+        tools = [f"{line:<44}{share}" for line, share in zip(tools, _shares(board, plain), strict=True)]
+        whole = f"{whole}   {_('way between the holes: {mm:.0f} mm').format(mm=_way_mm(board))}"
+    return [size, sure, *runner_up, *tools, whole, *warnings]
+
+
+def _shares(board: BoardView, plain: bool) -> list[str]:
+    """A bar for each tool: its share of the time."""
+    whole = max(sum(tool.ticks for tool in board.estimate.tools), 1)
+    return [bar(tool.ticks / whole, SHARE_COLUMNS, plain) for tool in board.estimate.tools]
+
+
+def _way_mm(board: BoardView) -> float:
+    """How far the drill goes from the first hole to the last, in the order of drilling."""
+    return float(np.hypot(*np.diff(board.xy_mm, axis=0).T).sum()) if len(board.xy_mm) > 1 else 0.0
 
 
 def loaded_line(board: BoardView) -> str:

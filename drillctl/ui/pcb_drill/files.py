@@ -4,7 +4,6 @@ Rule: every change of placing, order or format reads the file anew; a refused on
 shown of a board comes from its BoardView alone.
 """
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -14,30 +13,21 @@ from msgspec.structs import replace
 
 from drillctl.files.inputs import real_path
 from drillctl.language import Message
-from drillctl.language.number_text import pair_mm
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History, Undoable
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
-from drillctl.ui.pcb_drill.board_facts import (
-    CHOICES,
-    board_lines,
-    format_name,
-    is_warning,
-    loaded_line,
-    option_lines,
-    recent_line,
-)
-from drillctl.ui.pcb_drill.board_view import BoardPicture
-from drillctl.ui.pcb_drill.browser import Browser, preview
+from drillctl.ui.pcb_drill.board_facts import CHOICES, loaded_line, recent_line
+from drillctl.ui.pcb_drill.browser import Browser
 from drillctl.ui.pcb_drill.examples import offer_examples
-from drillctl.ui.pcb_drill.typed import FORMATS, accepted, length_mm, panel_of, tool_numbers
+from drillctl.ui.pcb_drill.files_layout import FilesLayout
+from drillctl.ui.pcb_drill.job_forms import ask_how_to_drill, ask_offset, ask_panel, choose_format, type_format
 from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.widgets.dialogs import Answered, Field
+from drillctl.ui.widgets.dialogs import Answered
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
-from drillctl.ui.widgets.texts import Icon, Size, Text
+from drillctl.ui.widgets.texts import Size
 from drillctl.viewmodel.console import Console, Problems, Watch
-from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
+from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import RecentJob
 
 BY_FIELD = {choice.field: choice for choice in CHOICES}
@@ -71,15 +61,9 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
         self._console, self._shell = console, shell
         self._options, self._loaded = JobOptions(), Path()
         self._history = History(self._options)  # of the options of the file at hand
-        self._picture = BoardPicture(plain)
-        self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
-        facts = urwid.ListBox(self._rows)
         self._browser = Browser(folder or Path.cwd(), self.load, self._look_at)
-        self._where = Text("", wrap="ellipsis")
-        self._right = urwid.Pile([("weight", 2, self._picture), ("weight", 3, facts)])
-        left: urwid.Widget = urwid.Frame(self._browser, header=urwid.AttrMap(self._where, "title"))
-        self._sides = urwid.Columns([("weight", 2, left), ("weight", 3, self._right)], dividechars=1)
-        super().__init__(self._sides)
+        self._layout = FilesLayout(self._browser, self.keys, plain)
+        super().__init__(self._layout)
         self._look_at(self._browser.current)
 
     def keypress(self, size: Size, key: str) -> str | None:
@@ -89,12 +73,11 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
 
     def choose(self) -> None:
         """Moves the focus to the list: Enter was pressed beside it."""
-        self._sides.focus_position = 0
+        self._layout.to_the_list()
 
     def other_side(self) -> None:
         """Moves the focus from the list to the facts, or back."""
-        self._sides.focus_position = 1 - self._sides.focus_position
-        self._right.focus_position = 1
+        self._layout.other_side()
 
     def filter(self) -> None:
         """Asks for parts of the names of the files to be listed, or patterns such as ``*.drl``."""
@@ -143,20 +126,11 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
 
     def choose_format(self) -> None:
         """Offers the formats by name, and to type one."""
-        lines = [*(format_name(entry.option) for entry in FORMATS), _("&Typed...").replace("&", "")]
-
-        def chosen(index: int) -> None:
-            if index < len(FORMATS):
-                self.set_format(FORMATS[index].option)
-            else:
-                self.type_format()
-
-        self._shell.choose(_("Format"), lines, chosen)
+        choose_format(self._shell, self._options, self.set_format)
 
     def type_format(self) -> None:
         """Asks for a format as it is written on the command line."""
-        prompt = _("Units, digits and zeros left out, as in inch,2:4,leading:")
-        self._shell.ask_text(_("Format"), prompt, self._options.format or "", self.set_format)
+        type_format(self._shell, self._options, self.set_format)
 
     def set_format(self, name: str) -> None:
         """Reads the file by this format; recognises the format for an empty text."""
@@ -168,36 +142,15 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
 
     def offset(self) -> None:
         """Asks for the offset from the base."""
-        now = "{:g} {:g}".format(*self._options.offset_mm)
-        self._shell.ask_text(_("Offset"), _("X and Y in mm from the base:"), now, self._set_offset)
+        ask_offset(self._shell, self._options, lambda pair: self._change(self._tell, offset_mm=pair))
 
     def panel(self) -> None:
-        """Asks for columns and rows of a panel of the same board; one of each is no panel."""
-        now = self._options.panel or PanelOf(1, 1, 0.0, 0.0)
-        fields = (
-            Field(_("Columns (along X):"), str(now.columns)),
-            Field(_("Rows (along Y):"), str(now.rows)),
-            Field(_("From board to board in X, mm:"), f"{now.pitch_x_mm:g}"),
-            Field(_("From board to board in Y, mm:"), f"{now.pitch_y_mm:g}"),
-        )
-        self._shell.ask_fields(_("Panel"), fields, accepted(panel_of, self._repeat))
+        """Asks for columns and rows of a panel of the same board."""
+        ask_panel(self._shell, self._options, self._change_all)
 
     def how_to_drill(self) -> None:
         """Asks for peck depth, spot depth, tools to leave out and the file of the drills at hand."""
-        now = self._options
-        fields = (
-            Field(_("Pecks of so many mm (empty: at once):"), _typed_mm(now.peck_mm)),
-            Field(_("Spot first, mm deep (empty: none):"), _typed_mm(now.spot_mm)),
-            Field(_("Tools to leave out, by number:"), " ".join(map(str, now.skip_tools))),
-            Field(_("File of the drills at hand:"), now.drills or ""),
-        )
-
-        def read(texts: Sequence[str]) -> dict[str, Any]:
-            drills = str(real_path(os.path.expanduser(texts[3].strip()))) if texts[3].strip() else None
-            depths = {"peck_mm": length_mm(texts[0]), "spot_mm": length_mm(texts[1])}
-            return {**depths, "skip_tools": tool_numbers(texts[2]), "drills": drills}
-
-        self._shell.ask_fields(_("How to drill"), fields, accepted(read, self._drill_so))
+        ask_how_to_drill(self._shell, self._options, self._change_all)
 
     def align(self) -> None:
         """Opens the screen that places the loaded board by holes measured on it."""
@@ -209,10 +162,7 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
         else:
             self._shell.open(AlignmentScreen(self._console, self._shell, board, self._options, self._place_by))
 
-    def _repeat(self, panel: PanelOf | None, answered: Answered) -> None:
-        self._change(answered, panel=panel)
-
-    def _drill_so(self, changes: dict[str, Any], answered: Answered) -> None:
+    def _change_all(self, changes: dict[str, Any], answered: Answered) -> None:
         self._change(answered, **changes)
 
     def _place_by(self, measured: tuple[MeasuredHole, ...], answered: Answered) -> None:
@@ -230,14 +180,6 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
                 self._browser.stand_on(file)
 
         self._read(file, job.options, opened)
-
-    def _set_offset(self, text: str) -> None:
-        pair = pair_mm(text)
-        if pair is None:
-            wanted = _("two numbers are wanted, such as 12.7 25.4, not {text!r}").format(text=text)
-            self._shell.message(_("Offset"), [wanted])
-        else:
-            self._change(self._tell, offset_mm=pair)
 
     def _change(self, answered: Answered, **changed: Any) -> None:
         """Reads the loaded file with other options; ``answered`` is called with what is wrong with them."""
@@ -271,18 +213,5 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
         return problems
 
     def _look_at(self, path: Path) -> None:
-        self._where.set_text(str(self._browser.folder))
         board = self._console.board() if path == self._loaded else None
-        self._picture.show(board)
-        lines = board_lines(board) if board else preview(path)
-        self._rows[:] = [_row(line) for line in [*option_lines(self._options), "", *lines]]
-        self._rows.set_focus(0)
-
-
-def _typed_mm(value_mm: float | None) -> str:
-    return "" if value_mm is None else f"{value_mm:g}"
-
-
-def _row(line: str) -> urwid.AttrMap[Icon]:
-    """A line of the facts that can be scrolled to; a warning in its colour."""
-    return urwid.AttrMap(Icon(line, 0), "warning" if is_warning(line) else "body", "focus")
+        self._layout.show(self._browser.folder, path, board, self._options)
