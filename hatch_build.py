@@ -1,8 +1,8 @@
-"""Builds what is compiled: the catalogues of the other languages, and the dynamic plant's law.
+"""Builds what is compiled: the catalogues of the other languages, the dynamic plant's law, the loop that writes VCD.
 
 catalogues  ``.po`` to ``.mo``, by polib; each has the digest of its source, which drillctl/language/words.py compares
-the law     where Cython and a C compiler are there. This can't fail: what is missing is said in one line (pip shows it
-            with -v), and the package is complete without; the law then runs as Python
+loops       where Cython and a C compiler are there. This can't fail: what is missing is said in one line (pip shows it
+            with -v), and the package is complete without, only slower
 """
 
 import os
@@ -18,8 +18,7 @@ except ModuleNotFoundError:  # run by hand
     BuildHookInterface = object
 
 LOCALE = "drillctl/locale"
-FOLDER = "drillctl/plant/dynamic"
-SOURCES = ("law.py", "law.pxd")
+LOOPS = ("drillctl/plant/dynamic/law", "drillctl/trace/vcd_lines")  # each .py, and the .pxd with its C types
 # No contraction of a product and a sum into one rounding, and no fast-math: the plain form rounds each.
 FLAGS = ["-O2", "-ffp-contract=off"]
 DIRECTIVES = {
@@ -32,7 +31,7 @@ class CompilingHook(BuildHookInterface):  # type: ignore[misc]
     """Called by hatchling for a wheel and for an editable install."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compiles catalogues and law beside their sources and adds them to what is installed; with
+        """Compiles catalogues and loops beside their sources and adds them to what is installed; with
         DRILLCTL_KERNEL=plain the catalogues alone.
         """
         if self.target_name != "wheel":
@@ -41,16 +40,16 @@ class CompilingHook(BuildHookInterface):  # type: ignore[misc]
             build_data["force_include"][str(catalogue)] = str(catalogue.relative_to(self.root))
         if os.environ.get("DRILLCTL_KERNEL") == "plain":
             return
-        folder = Path(self.root, FOLDER)
-        for old in folder.glob("_law.*"):
-            old.unlink()
-        try:
-            built = build(folder)
-        except (Exception, SystemExit) as error:  # whatever a compiler's tools may raise: the package works without
-            print(f"drillctl: the dynamic plant runs uncompiled: {error}", file=sys.stderr)
-            return
-        build_data["pure_python"], build_data["infer_tag"] = False, True
-        build_data["force_include"][str(built)] = f"{FOLDER}/{built.name}"
+        for loop in (Path(self.root, each) for each in LOOPS):
+            for old in loop.parent.glob(f"_{loop.name}.*"):
+                old.unlink()
+            try:
+                built = build(loop)
+            except (Exception, SystemExit) as error:  # whatever a compiler's tools may raise: the package works without
+                print(f"drillctl: {loop.name} runs uncompiled: {error}", file=sys.stderr)
+                continue
+            build_data["pure_python"], build_data["infer_tag"] = False, True
+            build_data["force_include"][str(built)] = str(built.relative_to(self.root))
 
 
 def compiled_catalogues(root: Path) -> list[Path]:
@@ -77,33 +76,34 @@ def compiled_catalogues(root: Path) -> list[Path]:
     return made
 
 
-def build(folder: Path) -> Path:
-    """Compiles the law in ``folder`` into a module _law there; returns its file."""
+def build(loop: Path) -> Path:
+    """Compiles the module ``loop`` (a path without suffix) into _NAME beside it; returns its file."""
     from Cython.Build import cythonize
     from setuptools import Distribution, Extension
     from setuptools.command.build_ext import build_ext
 
+    name = f"_{loop.name}"
     with tempfile.TemporaryDirectory() as scratch:
-        module = Path(scratch, "_law.py")
-        module.write_text(f'{(folder / "law.py").read_text()}\nDIGEST = "{_digest(folder)}"\n')
-        shutil.copy(folder / "law.pxd", Path(scratch, "_law.pxd"))
-        extension = Extension("_law", [str(module)], extra_compile_args=FLAGS)
+        module = Path(scratch, f"{name}.py")
+        module.write_text(f'{loop.with_suffix(".py").read_text()}\nDIGEST = "{_digest(loop)}"\n')
+        shutil.copy(loop.with_suffix(".pxd"), Path(scratch, f"{name}.pxd"))
+        extension = Extension(name, [str(module)], extra_compile_args=FLAGS)
         modules = cythonize([extension], compiler_directives=DIRECTIVES, build_dir=scratch, quiet=True)
         command = build_ext(Distribution({"ext_modules": modules}))
         command.build_lib = command.build_temp = scratch
         command.ensure_finalized()
         command.run()
-        made = Path(command.get_ext_fullpath("_law"))
-        return Path(shutil.copy(made, folder / made.name))
+        made = Path(command.get_ext_fullpath(name))
+        return Path(shutil.copy(made, loop.parent / made.name))
 
 
-def _digest(folder: Path) -> str:
-    """As drillctl.plant.dynamic.kernel has it, which compares the two."""
+def _digest(loop: Path) -> str:
+    """As drillctl.files.compiled has it, which compares the two."""
     from hashlib import sha256
 
-    return sha256(b"".join((folder / name).read_bytes() for name in SOURCES)).hexdigest()
+    return sha256(b"".join(loop.with_suffix(suffix).read_bytes() for suffix in (".py", ".pxd"))).hexdigest()
 
 
-if __name__ == "__main__":  # in a clone, after a catalogue or the law was changed: python hatch_build.py
+if __name__ == "__main__":  # in a clone, after a catalogue or a loop was changed: python hatch_build.py
     print(*compiled_catalogues(Path(__file__).parent), sep="\n")
-    print(build(Path(__file__).parent / FOLDER))
+    print(*(build(Path(__file__).parent / loop) for loop in LOOPS), sep="\n")

@@ -12,7 +12,8 @@ host is ever written.
     tapes      pool of port images, and the output of an axis as slices of it
     segments   a trace in the segment form; segment_file: as a file
     stretches  a run piece by piece, for those who don't keep it
-    vcd        Trace -> VCD for GTKWave, PulseView and others; vcd_pages: its changes as text
+    vcd        Trace -> VCD for GTKWave, PulseView and others; vcd_layout: its variables, vcd_variables: what they show,
+               vcd_compiled: the changes as text by a compiled loop, vcd_lines; vcd_pages: by numpy, without it
     shape      a signal as a dense array, one value a tick
     ring       a recorder in memory that two processes share
     lanes      the changes of a run that goes on, one lane for each signal or bit: what the scope draws
@@ -29,7 +30,8 @@ from drillctl.trace.shape import dense
 from drillctl.trace.text import is_trace, write_text
 from drillctl.trace.text_lines import TraceError
 from drillctl.trace.values import named_signal_kind, pack_command
-from drillctl.trace.vcd import VcdLayout, VcdVar, write_vcd
+from drillctl.trace.vcd import write_vcd
+from drillctl.trace.vcd_layout import VcdLayout, VcdVar
 
 __all__ = [
     "Difference",

@@ -15,7 +15,8 @@ from drillctl.trace.values import Values
 CHANGES_AT_ONCE = 1 << 18
 
 
-Changes = Mapping[int, tuple[Values, Values]]  # by signal, of those that have any: rising ticks, and values
+# By signal, of those that have any: ticks that don't fall, and values. Of several of one tick the last counts.
+Changes = Mapping[int, tuple[Values, Values]]
 
 
 class Stretch(NamedTuple):
@@ -47,7 +48,7 @@ def by_signal(stretch: Stretch) -> Changes:
     present, starts = np.unique(stretch.signal[order], return_index=True)
     found = {}
     for index, rows in zip(present.tolist(), np.split(order, starts[1:]), strict=True):
-        found[index] = _last_of_tick(stretch.ticks[rows], stretch.values[rows])
+        found[index] = stretch.ticks[rows], stretch.values[rows]
     return found
 
 
@@ -73,10 +74,11 @@ class SignalRecorder(Recorder):
     def taken(self) -> Changes:
         """Returns what was kept since the last call, and removes it."""
         kept, self._kept = self._kept, {}
-        return {index: _last_of_tick(*map(np.concatenate, zip(*parts, strict=True))) for index, parts in kept.items()}
+        joined = {index: [np.concatenate(each) for each in zip(*parts, strict=True)] for index, parts in kept.items()}
+        return {index: (ticks, values) for index, (ticks, values) in joined.items()}
 
 
-def _last_of_tick(ticks: Values, values: Values) -> tuple[Values, Values]:
+def last_of_tick(ticks: Values, values: Values) -> tuple[Values, Values]:
     """Returns rows (n,) of one signal without those that a later one of the same tick replaces."""
-    last = np.append(ticks[1:] != ticks[:-1], True)
+    last = np.append(ticks[1:] != ticks[:-1], True)[: len(ticks)]
     return ticks[last], values[last]

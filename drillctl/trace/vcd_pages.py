@@ -7,12 +7,14 @@ put together of its last digits and those before them, as formatting each by its
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import Any, TextIO
+from typing import TextIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.trace.stretches import Changes, last_of_tick
 from drillctl.trace.values import Values
+from drillctl.trace.vcd_variables import NOTHING, Variable
 
 PAGE_TICKS = 1 << 16
 LINES_REMEMBERED = 1 << 16  # of each variable
@@ -20,20 +22,21 @@ EMPTY = -1
 TAIL = 10_000  # a time's last digits: its rest by this
 TAILS = tuple(f"{rest:04}\n" for rest in range(TAIL))
 
-Column = tuple[Values, NDArray[Any]]  # rising ticks, and what a variable becomes in each
+Column = tuple[Values, Values]  # rising ticks, and what a variable shows from each on
 Times = Callable[[Values], Values]  # from rising ticks (n,) to the times of the file
 
 
 class PageWriter:
-    """Writes changes to an open file. ``lines``: for each variable, what makes the line of one of its values."""
+    """Writes the changes of variables to an open file."""
 
-    def __init__(self, file: TextIO, times: Times, lines: Sequence[Callable[[Any], str]]) -> None:
-        self._file, self._times = file, times
-        self._lines = [lru_cache(LINES_REMEMBERED)(line) for line in lines]
+    def __init__(self, file: TextIO, times: Times, variables: Sequence[Variable]) -> None:
+        self._file, self._times, self._variables = file, times, variables
+        self._lines = [lru_cache(LINES_REMEMBERED)(variable.line) for variable in variables]
         self.time = 0  # of the last time stamp
 
-    def write(self, columns: Sequence[Column]) -> None:
+    def write(self, changes: Changes) -> None:
         """Writes the changes of all variables; their ticks are later than all those written before."""
+        columns = [_news(variable, changes) for variable in self._variables]
         while any(len(ticks) for ticks, _ in columns):
             first = min(int(ticks[0]) for ticks, _ in columns if len(ticks))
             cuts = [int(np.searchsorted(ticks, first + PAGE_TICKS)) for ticks, _ in columns]
@@ -73,9 +76,18 @@ class PageWriter:
         return texts
 
 
-def _distinct(values: NDArray[Any]) -> tuple[list[Any], NDArray[np.intp]]:
+def _news(variable: Variable, changes: Changes) -> Column:
+    """Returns where a variable changes in a stretch, and what it shows then."""
+    ticks, values = last_of_tick(*changes.get(variable.number, (NOTHING, NOTHING)))
+    shown = variable.of(values)
+    news = np.append(variable.shown, shown)[:-1] != shown
+    variable.shown = int(shown[-1]) if len(shown) else variable.shown
+    return ticks[news], shown[news]
+
+
+def _distinct(values: Values) -> tuple[list[int], NDArray[np.intp]]:
     """Returns the different values, and the index among them of each value (n,)."""
-    if len(values) and values.dtype != object:
+    if len(values):
         low = int(values.min())
         span = int(values.max()) - low + 1
         if span <= PAGE_TICKS:  # counting them takes no sorting

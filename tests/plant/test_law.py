@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from drillctl.files import compiled
 from drillctl.lab.moves import move
 from drillctl.machine import Library, shipped_tables
-from drillctl.plant.dynamic import kernel, law
-from drillctl.plant.dynamic.kernel import KERNEL, PLAIN, Kernel, digest
+from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic.kernel import KERNEL, PLAIN, Kernel
 from drillctl.plant.dynamic.plant import DynamicPlant
 
 LIBRARY = Library((shipped_tables(),))
@@ -74,9 +75,9 @@ def test_a_stretch_is_its_ticks_and_ends_where_an_input_changes(
 
 @NEEDS_COMPILED
 def test_a_kernel_of_another_text_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert kernel.compiled_law() is not None
-    monkeypatch.setattr(kernel, "digest", lambda read: "another")
-    assert kernel.compiled_law() is None
+    assert compiled.compiled_form(law) is not None
+    monkeypatch.setattr(compiled, "digest", lambda name, read: "another")
+    assert compiled.compiled_form(law) is None
 
 
 def build_hook() -> ModuleType:
@@ -90,13 +91,13 @@ def build_hook() -> ModuleType:
 
 def test_the_build_and_the_program_tell_texts_apart_alike() -> None:
     folder = Path(law.__file__).parent
-    assert build_hook()._digest(folder) == digest(lambda name: (folder / name).read_bytes())
+    assert build_hook()._digest(folder / "law") == compiled.digest("law", lambda name: (folder / name).read_bytes())
 
 
 def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def no_compiler(folder: Path) -> Path:
+    def no_compiler(loop: Path) -> Path:
         raise SystemExit("command 'cc' failed")
 
     module = build_hook()
@@ -104,4 +105,4 @@ def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
     hook, build_data = SimpleNamespace(target_name="wheel", root=str(tmp_path)), {"force_include": {}}
     module.CompilingHook.initialize(hook, "editable", build_data)
     assert build_data == {"force_include": {}}
-    assert "runs uncompiled: command 'cc' failed" in capsys.readouterr().err
+    assert "law runs uncompiled: command 'cc' failed" in capsys.readouterr().err

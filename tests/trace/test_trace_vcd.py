@@ -14,7 +14,19 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from vcd import VCDWriter
 
-from drillctl.trace import Recorder, Signal, Trace, VcdVar, dense, stretches, vcd_pages, write_vcd
+from drillctl.trace import (
+    Recorder,
+    Signal,
+    Trace,
+    VcdVar,
+    dense,
+    stretches,
+    vcd_compiled,
+    vcd_lines,
+    vcd_pages,
+    write_vcd,
+)
+from drillctl.trace.vcd import write_vcd_run
 
 LAYOUT = (
     VcdVar("x", "1a", "wire", "out.0", bit=0),
@@ -56,24 +68,37 @@ WIDE = (
     VcdVar("x", "1a", "wire", "out.0", bit=0), VcdVar("y", "1a", "wire", "out.0", bit=1),
     VcdVar("x", "position", "integer", "x.position"), VcdVar("sensors", "x_min", "wire", "out.0", bit=1, invert=True),
 )  # fmt: skip
-of_wide = st.lists(st.tuples(st.sampled_from([0, 1]), st.integers(1, 5000), st.integers(-3, 70_000)), max_size=40)
+of_wide = st.lists(st.tuples(st.sampled_from([0, 1]), st.integers(1, 1100), st.integers(-3, 70_000)), max_size=40)
 
 
+@pytest.fixture(params=["numpy", "as it stands", "compiled"])
+def form(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each way to write the changes. The loop is cut into pieces by its room, as it is at a long file's megabytes."""
+    compiled = vcd_compiled.compiled_form(vcd_lines)
+    if request.param == "compiled" and compiled is None:
+        pytest.skip("the loop is not compiled here (hatch_build.py)")
+    loop = {"numpy": None, "as it stands": vcd_lines, "compiled": compiled}[request.param]
+    monkeypatch.setattr(vcd_compiled, "compiled_form", lambda module: loop)
+    monkeypatch.setattr(vcd_compiled, "OUT_BYTES", 1)
+
+
+@pytest.mark.usefixtures("form")
 @pytest.mark.parametrize("page_ticks", [1, 7, 1 << 16])
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(of_wide)
 def test_a_page_at_a_time_is_the_same_file_as_a_change_at_a_time(
     page_ticks: int, monkeypatch: pytest.MonkeyPatch, rows: list[tuple[int, int, int]]
 ) -> None:
     """Whatever the pages and stretches are cut to, and also where times begin to have more digits."""
     monkeypatch.setattr(vcd_pages, "PAGE_TICKS", page_ticks)
+    monkeypatch.setattr(vcd_compiled, "PAGE_TICKS", page_ticks)
     monkeypatch.setattr(vcd_pages, "TAIL", 100)
     monkeypatch.setattr(vcd_pages, "TAILS", tuple(f"{rest:02}\n" for rest in range(100)))
     monkeypatch.setattr(stretches, "CHANGES_AT_ONCE", 3)
     signals = [Signal("out.0", "word", False), Signal("x.position", "count", False, True)]
     header = (("machine", "m"), ("tick_hz", "1000"), ("digest", "d"))
     columns = zip(*((tick, index, value & 3 if index == 0 else value) for index, tick, value in rows), strict=True)
-    trace = Trace.of_changes(header, signals, *(columns if rows else ((), (), ())), end=5001)
+    trace = Trace.of_changes(header, signals, *(columns if rows else ((), (), ())), end=1101)
     assert vcd_of(trace, WIDE) == written_change_by_change(trace, WIDE)
 
 
@@ -98,6 +123,7 @@ def at_rate(tick_hz: int, end: int = 7) -> Trace:
     return recorder.finish(end, header)
 
 
+@pytest.mark.usefixtures("form")
 def test_values_as_an_independent_reader_finds_them(trace: Trace) -> None:
     vcd = read_back(vcd_of(trace))
     assert changes(vcd, "x.1a") == [(0, 0), (12, 1)]
@@ -110,6 +136,7 @@ def test_values_as_an_independent_reader_finds_them(trace: Trace) -> None:
     assert vcd.endtime == 30
 
 
+@pytest.mark.usefixtures("form")
 def test_strings_head_and_end(trace: Trace) -> None:
     """vcdvcd passes strings over, so these stand as written; blanks are escaped as GTKWave wants it."""
     lines = vcd_of(trace).splitlines()
@@ -125,6 +152,26 @@ def test_strings_head_and_end(trace: Trace) -> None:
         "szakres\\x20przekroczony",
     ]
     assert lines[-1] == "#30"
+
+
+@pytest.mark.usefixtures("form")
+def test_a_value_without_a_label_is_found_on_the_way() -> None:
+    names = Signal("fault", "name", False, names=("-", "ONE", "TWO"))
+    frame = Trace.of_changes((("machine", "m"), ("tick_hz", "500"), ("digest", "d")), [names], [], [], [], end=9)
+    layout = [VcdVar("events", "fault", "string", "fault", labels=("-", "one"))]
+    run = [{0: (np.array([0, 3, 5]), np.array([0, 1, 2]))}]
+    with pytest.raises(ValueError, match=r"events\.fault: signal fault has a value without a label"):
+        write_vcd_run(frame, [names], run, io.StringIO(), layout)
+
+
+@pytest.mark.usefixtures("form")
+def test_of_several_values_of_one_tick_the_last_is_written() -> None:
+    out = Signal("out.0", "word", False)
+    frame = Trace.of_changes((("machine", "m"), ("tick_hz", "1000"), ("digest", "d")), [out], [], [], [], end=9)
+    file = io.StringIO()
+    run = [{0: (np.array([0, 3, 3, 4, 4]), np.array([0, 1, 0, 0, 1]))}]
+    write_vcd_run(frame, [out], run, file, [VcdVar("x", "1a", "wire", "out.0", bit=0)])
+    assert file.getvalue().endswith("$end\n#4\n1!\n#9\n")
 
 
 def test_every_variable_is_dumped_at_time_zero(trace: Trace) -> None:

@@ -4,24 +4,18 @@ Rule: both give the same bits, so nothing but time depends on the choice. DRILLC
 chooses the plain one.
 """
 
-import os
 from array import array
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from hashlib import sha256
-from importlib import import_module
-from importlib.util import find_spec
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.files.compiled import compiled_form
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.coefficients import SINE, SLOPE
-
-COMPILED = "drillctl.plant.dynamic._law"
-SOURCES = ("law.py", "law.pxd")
 
 Floats = Sequence[float]
 Images = NDArray[np.uint64]
@@ -59,27 +53,11 @@ def floats(values: Sequence[float]) -> "array[float]":
     return array("d", values)
 
 
-def digest(read: Callable[[str], bytes]) -> str:
-    """Returns what tells one text of the law from another; ``read`` returns the bytes of a file beside this one."""
-    return sha256(b"".join(map(read, SOURCES))).hexdigest()
-
-
-def compiled_law() -> ModuleType | None:
-    """Returns the compiled law; None where there is none, or it was built from another text than is here."""
-    if find_spec(COMPILED) is None or law.__spec__ is None:
-        return None
-    found, loader = import_module(COMPILED), law.__spec__.loader
-    folder = os.path.dirname(law.__file__)
-    # Every loader of source files has get_data, pytest's too; its declared type, the least of a loader, has not.
-    here = digest(lambda name: loader.get_data(os.path.join(folder, name)))  # type: ignore[union-attr]
-    return found if here == found.DIGEST else None
-
-
 PLAIN = Kernel.of(law, compiled=False)
 
 
 def _chosen() -> Kernel:
-    found = None if os.environ.get("DRILLCTL_KERNEL") == "plain" else compiled_law()
+    found = compiled_form(law)
     return PLAIN if found is None else Kernel.of(found, compiled=True)
 
 
