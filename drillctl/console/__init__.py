@@ -12,7 +12,8 @@
     recent_jobs.py      the boards opened last, in a file
     workpieces.py       the stores of the machine in use, and the part program that was called from them
 
-    tables.py, table_users.py, effects.py   for the editors: tables, who uses them, what a change will do
+    tables.py, table_rows.py, table_users.py, effects.py   for the editors: tables, their rows, who uses them, what a
+                        change will do
     queues.py           for the queue editor
     signals.py          signals, outputs, single ticks
     plant.py            plant, faults and seed of the simulated machine

@@ -4,43 +4,23 @@ Rule: a text is checked by the same readers that load it; a file changes whole o
 """
 
 import difflib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from drillctl.console.effects import effects
+from drillctl.console.table_rows import TableRows, source_of
 from drillctl.console.table_users import used_tables, users
 from drillctl.console.views import field_view
 from drillctl.files.outputs import write_text
 from drillctl.language import Message, message_of
-from drillctl.machine import Library, Machine, TableError, intervals, shipped_tables
-from drillctl.machine.edit import (
-    UNSAVED,
-    set_pattern,
-    set_reverse,
-    set_state_row,
-    set_value,
-    with_rows,
-    with_states,
-    without_states,
-)
-from drillctl.machine.phase import NAME, parse_phase, phase_rows
+from drillctl.machine import Library, Machine, TableError, shipped_tables
+from drillctl.machine.edit import set_value
+from drillctl.machine.phase import NAME, parse_phase
 from drillctl.machine.positions import Place
-from drillctl.machine.ramp_file import is_computed, parse_ramp, proposals, ramp_rows
-from drillctl.machine.ramp_formula import MOST_STATES
 from drillctl.machine.settings import Setting, settings, wire_settings
 from drillctl.machine.source import Source
-from drillctl.machine.travel import stopping
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.tables import (
-    Checked,
-    FieldView,
-    PhaseRow,
-    RampDrawing,
-    StateRow,
-    TableEntry,
-    TableKind,
-    TextFinding,
-)
+from drillctl.viewmodel.tables import Checked, FieldView, TableEntry, TableKind, TextFinding
 
 # What makes a text a table of its kind: a key that only this kind has.
 KEY_OF: dict[TableKind, tuple[str, ...]] = {
@@ -53,7 +33,7 @@ LONGEST_NAME = 40
 TABLES_OF_A_MOTOR = ("phase", "ramp")  # keys of an axis that name a table
 
 
-class TableFiles:
+class TableFiles(TableRows):
     """A TableEditing over ``library``; edits go to ``user_folder``, which is one of the library's folders. ``machine``
     returns the machine in use, None for none.
     """
@@ -150,72 +130,24 @@ class TableFiles:
         except TableError as error:
             return error.messages
 
-    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
-        """The rows of a phase table, sound or not; none where they can't be read."""
-        try:
-            return tuple(PhaseRow(*row) for row in phase_rows(_source(text)))
-        except TableError:
-            return ()
-
-    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
-        """The text with these rows changed; comments and layout stay."""
-        for row in rows:
-            text = set_pattern(text, row.name, row.pattern)
-        return set_reverse(text, {row.name: row.reverse for row in rows if row.reverse is not None})
-
-    def ramp(self, text: str) -> RampDrawing:
-        """The rows of a ramp, sound or not; of one that lands exactly also its drawing."""
-        source = _source(text)
-        try:
-            rows = ramp_rows(source)
-        except TableError:
-            return RampDrawing(())
-        try:
-            ramp = parse_ramp(source)
-        except TableError:
-            return RampDrawing(tuple(StateRow(*row) for row in rows))
-        states = tuple(StateRow(*row, *stopping(ramp, row[0])) for row in rows)
-        return RampDrawing(states, tuple(intervals(ramp, ramp.straight_from())))
-
-    def with_state(self, text: str, state: int, field: str, value: int) -> str:
-        """The text with a field of a state changed; comments and layout stay."""
-        return set_state_row(_in_rows(text), state, field, value)
-
-    def with_top(self, text: str, higher: bool) -> str:
-        """The text with a state more on top, or a state less. For a new state numbers are tried until every move lands
-        exactly; where none does, the first are taken, and the editor shows what is wrong.
-        """
-        try:
-            rows = ramp_rows(_source(text))
-        except TableError:
-            return text
-        text = _in_rows(text)
-        top = rows[-1][0]
-        if not higher:
-            return without_states(text, top) if top > 1 else text
-        if top >= MOST_STATES:
-            return text
-        tried = [with_states(text, *row) for row in proposals(rows[-1])]
-        return next((changed for changed in tried if not self.check("ramp", changed).problems), tried[0])
-
     def fields(self, text: str) -> tuple[FieldView, ...]:
         """The settings of a machine's file, in the order of the paper's screen; none where they can't be read."""
         try:
-            return tuple(map(self._field_view, settings(_source(text))))
+            return tuple(map(self._field_view, settings(source_of(text))))
         except TableError:
             return ()
 
     def wires(self, text: str) -> tuple[FieldView, ...]:
         """The bits of a machine's wires, in the order of its file; none where they can't be read."""
         try:
-            return tuple(map(self._field_view, wire_settings(_source(text))))
+            return tuple(map(self._field_view, wire_settings(source_of(text))))
         except TableError:
             return ()
 
     def with_field(self, text: str, place: Place, typed: str) -> tuple[str, Problems]:
         """The text with a field set as typed, or as it was and why not. Comments, layout and hexadecimal stay."""
         try:
-            source = _source(text)
+            source = source_of(text)
             fields = (*settings(source), *wire_settings(source))
             setting = next(setting for setting in fields if setting.place == place)
             if setting.locked:
@@ -268,19 +200,6 @@ class TableFiles:
 
     def _shipped(self, kind: TableKind, name: str) -> Path:
         return shipped_tables() / kind / f"{name}.toml"
-
-
-def _source(text: str) -> Source:
-    return Source(Path(UNSAVED), text)
-
-
-def _in_rows(text: str) -> str:
-    """The text with the rows of a computed ramp written out, so that single ones can be changed."""
-    source = _source(text)
-    try:
-        return with_rows(text, ramp_rows(source)) if is_computed(source) else text
-    except TableError:
-        return text  # figures that make no ramp: nothing to write out
 
 
 def _unlinked(own: Path) -> Problems:

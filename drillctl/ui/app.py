@@ -7,8 +7,6 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
-from pathlib import Path
 
 import urwid
 
@@ -16,19 +14,15 @@ from drillctl.language.words import _, translated
 from drillctl.ui.alerts import Alerts
 from drillctl.ui.background import Background
 from drillctl.ui.dropping import Dropping
-from drillctl.ui.explanations import EXPLAINED, SIGNS
 from drillctl.ui.first_keys import RESIZE, FirstKeys, Pressed
 from drillctl.ui.frame import MainFrame, screen_keys
-from drillctl.ui.layers import Boxes, Layers
+from drillctl.ui.help_actions import HelpActions
+from drillctl.ui.layers import Layers
 from drillctl.ui.machines import screens_of
 from drillctl.ui.next_step import step_line
-from drillctl.ui.palette import actions
-from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
-from drillctl.ui.widgets.dialogs import nothing
-from drillctl.ui.widgets.finder import Finder
-from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called, help_lines, wheel_key
+from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called, wheel_key
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
@@ -41,7 +35,7 @@ TURNING_S = 0.035  # of a beat that a machine gets which runs free and is at wor
 Maker = Callable[[Console, Shell], urwid.Widget]
 
 
-class App(Boxes):
+class App(HelpActions):
     """The shell of the screens. ``makers`` gives the screens that every machine has, by the names that the menus use;
     ``keep_theme`` is called with a theme that was chosen.
 
@@ -168,47 +162,6 @@ class App(Boxes):
     def menu(self) -> None:
         """Opens the first menu of the bar."""
         self._menus.drop(0)
-
-    def help(self) -> None:
-        """Explains the screen on top, then lists its keys, each of which can be clicked, and the rest of its signs."""
-        screen = self.screens[-1]
-        keys = [*screen_keys(screen), *FRAME_KEYS]
-        acts = [partial(self.press, key.names[0]) if key.names else nothing for key in keys]
-        title = getattr(screen, "title", "")
-        first, last = (map(_, table.get(title, ())) for table in (EXPLAINED, SIGNS))
-        links = [*zip(help_lines(keys), acts, strict=True)]
-        self.explain(_(title) or _("Keys"), [*first], links, [*last])
-
-    def find_action(self) -> None:
-        """Opens a box that finds any action by its words."""
-        found = actions(self.frame.bar.menus, self.screens[-1], [*self.screens, *self._made.values()])
-
-        def chosen(index: int) -> None:
-            _found, does, screen = found[index]
-            if isinstance(does, Item):
-                self._choose(does)
-                return
-            if screen is not None:
-                self.open(screen)
-            self._perform(screen or self, does)
-
-        lines = [action.found for action in found]
-        self.layers.push_finder(Finder(_("Find an action"), lines, chosen, self.layers.pop))
-
-    def copy_screen(self) -> None:
-        """Keeps the screen as a picture, in a new file of the current folder, and says its name."""
-        canvas = self.layers.render(self.loop.screen.get_cols_rows(), focus=True)
-        file, problems = keep_copy(canvas, self._theme, Path.cwd())
-        self.frame.say(" ".join(map(translated, problems)) or _("the screen is kept as {file}").format(file=file.name))
-
-    def notices(self) -> None:
-        """Shows all notices of the machine; the line on the machine has room for the last one only."""
-        notices = self._console.view().notices
-        self.message(_("Notices"), [translated(notice) for notice in notices] or [_("There is nothing to be said.")])
-
-    def about(self) -> None:
-        """Says what the program is."""
-        self.message(_("About"), [_("drillctl drives and simulates stepper-motor drilling machines.")])
 
     def leave(self) -> None:
         """Ends the program; asks first if the machine is at work or something is not saved."""

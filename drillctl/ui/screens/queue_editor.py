@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.editing import History, Undoable, completed, usage, written
+from drillctl.ui.models.editing import History, Undoable, completed, usage
+from drillctl.ui.screens.queue_lines import finding_lines, reference_lines, stopped_lines
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.screens.tick_log import TickLog, port_line
-from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
 from drillctl.ui.widgets.texts import Edit, Line, Text
@@ -20,7 +20,6 @@ from drillctl.viewmodel.console import AxisView, Console, MachineView, Problems
 from drillctl.viewmodel.signals import ManualControl
 from drillctl.viewmodel.tables import QueueEditing, TextFinding
 
-MOST_FINDINGS = 5
 Draft = tuple[str, int]  # a text, and where the cursor stands in it
 
 
@@ -108,7 +107,7 @@ class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
         if view.paused:
             self._log.add(view.tick, self._control.signals())
             self._axes = view.axes
-            stopped = [*_stopped_lines(view), port_line(self._control.signals())]
+            stopped = [*stopped_lines(view), port_line(self._control.signals())]
         if stopped != self._stopped:
             self._stopped = stopped
             self._look()
@@ -152,10 +151,7 @@ class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
         """The lines of the panel: single ticks while the clock is stopped, else the reference of the commands."""
         if self._stopped:
             return self._log.lines(self._axes, (columns, rows), self._plain)
-        lines: list[Line] = []
-        for command in self._commands:
-            lines += [[("lit", written(command))], [("dark", f"  {translated(command.meaning)}")]]
-        return folded(lines, columns)
+        return reference_lines(self._commands, columns)
 
     def _first_tick(self) -> None:
         self._answer(self._control.tick(1))
@@ -251,22 +247,4 @@ class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
     def _verdict(self, found: tuple[TextFinding, ...]) -> list[Line]:
         """The findings: problems; where there are none, moves that will end in a fault, as warnings."""
         too_far = () if found else self._queues.too_far(self.text)
-        return _findings(found, "danger") or _findings(too_far, "warning") or [[("good", _("sound"))]]
-
-
-def _stopped_lines(view: MachineView) -> list[Line]:
-    """Where the clock stopped: tick and command, and a part for each axis."""
-    place = _("stopped after tick {tick}: {command}").format(tick=view.tick, command=view.command or "-")
-    return [[("warning", place)], ["  ".join(map(_axis, view.axes))]]
-
-
-def _axis(axis: AxisView) -> str:
-    text = _("{axis} column {column} ({state}) at {steps}")
-    return text.format(axis=axis.name.upper(), column=axis.column, state=f"{axis.state:+d}", steps=axis.position_steps)
-
-
-def _findings(found: tuple[TextFinding, ...], attribute: str) -> list[Line]:
-    lines: list[Line] = [[(attribute, translated(finding.message))] for finding in found[:MOST_FINDINGS]]
-    more = len(found) - MOST_FINDINGS
-    rest: list[Line] = [[_("and {count} more").format(count=more)]] if more > 0 else []
-    return [*lines, *rest]
+        return finding_lines(found, "danger") or finding_lines(too_far, "warning") or [[("good", _("sound"))]]
