@@ -120,6 +120,8 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
         N_("A cell: name, bit of the port, level of the wire, what that means:"),
         N_("a sensor is REACHED or clear, an output or motor's wire ON or off."),
         N_("> is the cursor; the line below tells card and bit of its signal."),
+        N_("Below, if there is room: each card's bits, x high, . low, blank: no"),
+        N_("wire; then the same as a number, as the port has it."),
         N_("Space switches the output under the cursor, while nothing moves."),
         N_("A motor's wire costs the position, and is asked about first."),
         N_("A forcing wire goes off by itself after a second: it would burn."),

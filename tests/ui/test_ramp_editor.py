@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from drillctl.ui.screens.ramp_editor import RampEditor, bar_rows
-from tests.ui.editor_fakes import Console, Shell, Tables, attributes_of, press, text_of
+from tests.ui.editor_fakes import Bench, Console, Shell, Tables, attributes_of, press, text_of
 
 TABLE = "-1 -1 -2 4\n0 0 0 7\n1 1 2 4"
 
@@ -38,6 +38,14 @@ def test_states_stand_in_rows_with_what_stopping_takes(editor: RampEditor) -> No
         ["1", "1", "2", "4", "1", "4"],
     ]
     assert "3 steps, 15 ticks" in text_of(editor) and "every move lands exactly" in text_of(editor)
+
+
+def test_the_profile_stands_in_the_panel_where_there_is_one(shell: Shell, tables: Tables) -> None:
+    editor = RampEditor(Console(), shell, tables, "one", bench=Bench())
+    for size, left in (((160, 50), False), ((80, 24), True)):
+        rows = text_of(editor, size).split("\n")
+        caption = next(row for row in rows if "3 steps, 15 ticks" in row)
+        assert (caption.index("3 steps") < 75) is left and ("way in steps" in "".join(rows)) is not left
 
 
 def test_every_digit_goes_into_the_text_and_the_drawing(editor: RampEditor) -> None:

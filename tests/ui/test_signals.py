@@ -43,6 +43,18 @@ def test_state_level_and_bit_are_told_in_words() -> None:
     assert "x_min: bit 0 of card 0, reached when low" in text_of(drawn)
 
 
+def test_where_there_is_room_the_words_of_the_port_stand_below() -> None:
+    drawn, _hands = screen()
+    rows = text_of(drawn, (80, 24)).splitlines()
+    at = {bit: 16 + (31 - bit) + (31 - bit) // 8 for bit in range(32)}  # behind the label, a blank after each byte
+    ruler, *words = rows[rows.index("") + 1 :][:5]
+    assert [ruler[at[bit]] for bit in (31, 7, 0)] == ["3", "7", "0"]
+    outputs_0, inputs_0, _outputs_1, inputs_1 = words
+    assert [outputs_0[at[bit]] for bit in (0, 1, 2, 18)] == ["x", " ", ".", "."] and outputs_0.endswith(" 0x00000001")
+    assert inputs_0[at[0]] == "." and inputs_1[at[37 - 32]] == "."
+    assert "0x0" not in text_of(drawn, (80, 12))
+
+
 def test_a_sensor_that_changes_is_seen() -> None:
     drawn, hands = screen()
     hands.shown[1] = replace(SOME[1], level=1)

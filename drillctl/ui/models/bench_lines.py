@@ -92,6 +92,11 @@ def _chart(
     return [[("dark", f"{'':{LABEL_COLUMNS}}{title}")], *lines]
 
 
+def chart(title: str, values: Sequence[float], size: Size, plain: bool) -> list[Line]:
+    """A curve between its own extremes, with a title above it. ``size``: columns with those of its bounds, and rows."""
+    return _chart(title, values, _spanned(*values), size, plain)
+
+
 def _spanned(*values: float) -> Bounds:
     return min(values), max(values)
 

@@ -20,6 +20,8 @@ STATES: dict[SignalKind, tuple[str, str]] = {
     "coil": (N_("ON"), N_("off")),
 }
 LEVELS = (N_("low"), N_("high"))
+CARD_BITS, BYTE, IMAGE_LABEL = 32, 8, 16
+RULER = "31    24 23    16 15     8 7      0"  # above the bits of a card, in bytes
 
 
 def per_line(columns: int) -> int:
@@ -70,6 +72,25 @@ def about(signal: SignalView) -> str:
     if signal.kind == "coil":
         return f"{place}, " + (_("forcing wire") if signal.forcing else _("motor's wire"))
     return place
+
+
+def image_lines(signals: Sequence[SignalView]) -> list[Line]:
+    """The words of each card, bit 31 first, and as numbers: ``x`` high, ``.`` low, blank where no wire is."""
+    lines: list[Line] = [[("title", f"{_('Port'):{IMAGE_LABEL}}"), ("dark", RULER)]]
+    for card in sorted({signal.card_and_bit[0] for signal in signals}):
+        for word, inputs in ((N_("Outputs"), False), (N_("Inputs"), True)):
+            wires = [signal for signal in signals if (signal.kind == "input") == inputs]
+            places = [(*signal.card_and_bit, signal.level) for signal in wires]
+            levels = {bit: level for of_card, bit, level in places if of_card == card}
+            bits = "".join(" .x"[levels.get(bit, -1) + 1] for bit in reversed(range(CARD_BITS)))
+            value = sum(level << bit for bit, level in levels.items())
+            label = f"{_(word)} {card}"
+            lines.append([("title", f"{label:{IMAGE_LABEL}}"), ("lit", _in_bytes(bits)), f"  0x{value:08x}"])
+    return lines
+
+
+def _in_bytes(bits: str) -> str:
+    return " ".join(bits[start : start + BYTE] for start in range(0, len(bits), BYTE))
 
 
 def _heading(first: SignalView) -> tuple[str, str]:

@@ -7,6 +7,7 @@ of what is on the screen; an unfinished number goes nowhere.
 from collections.abc import Sequence
 
 from drillctl.language.words import N_, _, ngettext
+from drillctl.ui.models.bench_lines import chart
 from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Line, around
@@ -17,7 +18,7 @@ HEADINGS = (N_("state"), N_("accelerate"), N_("brake"), N_("interval"), N_("stop
 CELL_COLUMNS = 12
 SIGNS = tuple("-0123456789")
 MOST_DIGITS = 7
-PROFILE_ROWS = 5
+PROFILE_ROWS, WIDEST_BAR = 5, 4  # rows, and columns of a step
 LEAST_STATES = 3
 
 
@@ -89,7 +90,7 @@ class RampEditor(TableEditor):
         if not self._ramp.states:
             return [[("danger", _("no ramp: its rows can't be read"))]]
         heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS)
-        profile = self._profile(columns)
+        profile = [] if self._beside_table else self._profile(columns, PROFILE_ROWS)
         window = around(self._line, len(self._ramp.states), max(rows - len(profile) - 2, LEAST_STATES))
         states = [self._row(line, self._ramp.states[line]) for line in window]
         return [[("dark", heading)], *states, [""], *profile]
@@ -137,7 +138,16 @@ class RampEditor(TableEditor):
             return f"{value:>{CELL_COLUMNS}}"
         return "focus", f"{'[' + self._shown() + ']':>{CELL_COLUMNS}}"
 
-    def _profile(self, columns: int) -> list[Line]:
+    def picture(self, columns: int, rows: int) -> list[Line]:
+        """The profile over the steps, then the way over the time, each with its extremes."""
+        ticks = self._ramp.intervals
+        if not ticks:
+            return self._profile(columns, rows)
+        way = [step for step, waited in enumerate(ticks) for _tick in range(waited)]
+        drawn = chart(_("way in steps, over the ticks"), way, (columns, rows), self._plain)
+        return [*self._profile(columns, rows), [""], *drawn]
+
+    def _profile(self, columns: int, rows: int) -> list[Line]:
         ticks = self._ramp.intervals
         if not ticks:
             return [[("warning", _("no profile: a ramp is drawn when every move lands exactly"))]]
@@ -147,7 +157,9 @@ class RampEditor(TableEditor):
             "speed of each step in a move of {count} steps, {ticks}",
             len(ticks),
         ).format(count=len(ticks), ticks=lasting)
-        bars = bar_rows([1 / interval for interval in ticks], columns, PROFILE_ROWS, self._plain)
+        wide = max(min(columns // len(ticks), WIDEST_BAR), 1)
+        speeds = [1 / interval for interval in ticks for _column in range(wide)]
+        bars = bar_rows(speeds, columns, rows, self._plain)
         profile: list[Line] = [[("lit", row)] for row in bars]
         return [[caption], *profile, [("good", _("every move lands exactly"))]]
 

@@ -7,7 +7,7 @@ real machine moves, so both are asked about first.
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, moved
+from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, image_lines, moved
 from drillctl.ui.screens.shell import Shell, asked_if_real
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Line, Size, boxed
@@ -63,6 +63,8 @@ class Signals(urwid.Widget):
         lines = grid_lines(self._signals, self._cursor, self._columns)
         self._scroll(room, len(lines))
         shown = lines[self._top : self._top + room]
+        image = [[], *image_lines(self._signals)]
+        shown += image if len(shown) + len(image) <= room else []
         return boxed([*shown, *([[]] * (room - len(shown))), *self._foot(len(lines), room)], self._columns, rows)
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:

@@ -44,6 +44,7 @@ class TableEditor(Undoable[str], urwid.Widget):
     title: str
     keys: tuple[Key, ...] = TABLE_KEYS
     columns = 62  # kept for the table where a panel stands beside it
+    _beside_table = False  # whether a panel stands there now
 
     def __init__(
         self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False,
@@ -78,6 +79,7 @@ class TableEditor(Undoable[str], urwid.Widget):
         left = columns - beside
         tried = [] if beside else verdicts(self._report, self._reports.get(self._saved))
         below = folded([*self._verdict(), *tried], left)
+        self._beside_table = bool(beside)
         drawing = self.drawing(left, rows - len(below) - FURTHER_ROWS)
         main = boxed([[("title", self._heading())], [""], *drawing, [""], *below], left, rows)
         return with_panel(main, _("What it does"), self._beside(beside - BORDER_COLUMNS, rows), beside, rows)

@@ -8,6 +8,7 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 
 from drillctl.language.words import N_, _
+from drillctl.ui.models.signal_grid import CARD_BITS
 from drillctl.ui.screens.machine_lines import phase_line
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import AxisView
@@ -17,7 +18,6 @@ MOST_TICKS = 256  # that are kept
 NAME_COLUMNS = 13
 HIGH, LOW, SKIPPED = "▔", "▁", "┊"
 PLAIN_HIGH, PLAIN_LOW, PLAIN_SKIPPED = "-", "_", ":"
-CARD_BITS = 32
 SENSORS, BITS = N_("sensors"), N_("port")
 
 
