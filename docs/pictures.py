@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from docs import picture_scripts as scripts
+from docs.moving_picture import animated
 from docs.picture_page import page
 from docs.picture_scripts import BOARD, TRACE, Script
 from docs.screen_svg import drawn
@@ -35,6 +36,7 @@ ALL_SIZES = ("80x24", "100x32", "160x50", "220x60")
 ALL_THEMES = ("blue", "dark", "light")
 ASKING = ("--pace", "free", "--tools", "ask")
 DYNAMIC = (*ASKING, "--plant", "dynamic")
+FRAMES, BETWEEN_S = 14, 0.12  # of an animated picture
 DRUM = ("--pace", "free", "--machine", "boiler-drum")
 
 
@@ -44,6 +46,7 @@ class Session(NamedTuple):
     first         the message that the first screen shows
     true_colours  whether the terminal has more than sixteen colours
     moves         whether its pictures are of a machine that moves
+    frames        how many are taken, one after the other, for a picture that is animated
     """
 
     script: Script
@@ -53,6 +56,7 @@ class Session(NamedTuple):
     first: str = "No board is loaded."
     true_colours: bool = False
     moves: bool = False
+    frames: int = 1
 
 
 SESSIONS = (
@@ -61,7 +65,7 @@ SESSIONS = (
     Session(scripts.looking),
     Session(scripts.larger, (120, 40), options=ASKING),
     Session(scripts.polish, language="pl", options=ASKING),
-    Session(scripts.moving, (160, 50), options=DYNAMIC, true_colours=True, moves=True),
+    Session(scripts.moving, (160, 50), options=DYNAMIC, true_colours=True, moves=True, frames=FRAMES),
 )
 EVERY_SCREEN = (
     Session(scripts.beginning),
@@ -90,10 +94,18 @@ def taken(session: Session) -> Iterator[tuple[str, str]]:
                 else:
                     if not session.moves:
                         terminal.settle()
-                    yield asked, drawn(terminal.screen, [_masked(row) for row in terminal.screen.display])
+                    yield asked, animated([*_frames(terminal, session.frames)])
         finally:
             terminal.close()
             words.use("en")
+
+
+def _frames(terminal: Terminal, count: int) -> Iterator[str]:
+    """Pictures of the screen, a moment after each other."""
+    for number in range(count):
+        yield drawn(terminal.screen, [_masked(row) for row in terminal.screen.display])
+        if number + 1 < count:
+            terminal.frames(BETWEEN_S)
 
 
 def _masked(text: str) -> str:

@@ -11,6 +11,7 @@ from types import ModuleType
 import pytest
 
 from drillctl.cli import main
+from drillctl.ui.pcb_drill.menus import MENUS
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
@@ -47,6 +48,16 @@ def test_readme_commands_run(
     monkeypatch.chdir(tmp_path)
     for command in commands:
         assert main(command[1:]) == 0, f"{command}: {capsys.readouterr().err}"
+
+
+def test_every_menu_path_of_the_readme_is_in_the_menus() -> None:
+    labels = {item.label.replace("&", "").removesuffix("..."): item for item in MENUS}
+    table = README.partition("## On the screen")[2].partition("\n## ")[0]
+    paths = re.findall(r"([A-Z][a-z]+) > ([A-Z][\w ]+?(?:, drill up)?)(?=[,;|)]| \||$)", table)
+    assert len(paths) > 20
+    for first, entry in paths:
+        entries = [item.label.replace("&", "").removesuffix("...") for item in labels[first].items]
+        assert entry.strip() in entries, f"README: {first} > {entry}"
 
 
 def test_readme_shows_what_the_example_prints() -> None:

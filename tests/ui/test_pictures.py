@@ -11,6 +11,7 @@ import pytest
 pyte = pytest.importorskip("pyte", reason="pyte (the dev extra) reads what the program draws")
 
 from docs import picture_scripts, pictures, screen_svg  # noqa: E402 - they need pyte
+from docs.moving_picture import animated  # noqa: E402 - it stands beside them
 from docs.pictures import SESSIONS, Session  # noqa: E402 - they too
 from drillctl.ui.widgets.themes import THEMES  # noqa: E402
 from tests.ui.whole import SCREENS  # noqa: E402
@@ -70,3 +71,18 @@ def test_each_screen_that_every_machine_has_is_among_those_of_all() -> None:
 def test_options_that_take_no_picture_are_refused(wrong: list[str]) -> None:
     with pytest.raises(SystemExit):
         pictures.main(wrong)
+
+
+def test_pictures_in_turn_are_one_that_is_animated() -> None:
+    screen = pyte.Screen(12, 2)
+    taken = []
+    for shown in ("still\r\n1", "\r\x1b[K2", "\r\x1b[K1"):
+        pyte.Stream(screen).feed(shown)
+        taken.append(screen_svg.drawn(screen, screen.display))
+    one = animated(taken)
+    assert animated(taken[:1]) == taken[0] and one.count("still") == 1
+    groups = {element.findtext(f"{screen_svg.SVG}text"): element for element in ElementTree.fromstring(one)}
+    assert [groups[text].attrib.get("visibility") for text in ("still", "1", "2")] == [None, "visible", "hidden"]
+    motion = [groups[text].find(f"{screen_svg.SVG}animate").attrib for text in "12"]  # type: ignore[union-attr]
+    assert [each["values"] for each in motion] == ["visible;hidden;visible", "hidden;visible;hidden"]
+    assert {(each["keyTimes"], each["dur"]) for each in motion} == {("0;0.3333;0.6667", "0.75s")}
