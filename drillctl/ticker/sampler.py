@@ -140,7 +140,7 @@ def _turns(axis: Axis, column: NDArray[np.int64], position: NDArray[np.int64]) -
     if not len(made):
         return np.zeros(len(column), np.int64)
     put_out = np.diff(column, prepend=axis.column) != 0 if axis.length > 1 else steps != 0
-    following = np.minimum(np.searchsorted(made, np.arange(len(column))), len(made) - 1)
+    following = np.minimum(np.cumsum(steps != 0) - (steps != 0), len(made) - 1)
     return put_out * np.sign(steps[made[following]]) * axis.direction_sign
 
 
