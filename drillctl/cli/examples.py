@@ -48,7 +48,7 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     ),
     "latency": (
         "drillctl latency --seconds 2",
-        "drillctl latency --hz 1000 --seconds 2 --json",
+        "drillctl latency --machine eight-axis --moving --seconds 2",
     ),
     "screen": (
         "drillctl screen",

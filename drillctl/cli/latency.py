@@ -7,7 +7,7 @@ import argparse
 
 from drillctl.cli import options, streams
 from drillctl.jobs.interrupts import caught, exit_code
-from drillctl.language import json_text
+from drillctl.language import Message, json_text
 
 LONGEST_S = 3600
 FASTEST_HZ = 20_000
@@ -16,11 +16,13 @@ FASTEST_HZ = 20_000
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("latency", help="measure how punctual ticks are here", description=__doc__)
+    verb.add_argument("--machine", default=options.DEFAULT_MACHINE, metavar="NAME|FILE", help="default: %(default)s")
+    options.add_tables(verb)
     verb.add_argument("--hz", type=options.up_to(FASTEST_HZ), metavar="N", help="tick rate; default: the machine's own")
     verb.add_argument(
         "--seconds", type=options.up_to(LONGEST_S), default=10, metavar="S", help="duration; default: %(default)s"
     )
-    verb.add_argument("--moving", action="store_true", help="move the machine all the time; without it, it is idle")
+    verb.add_argument("--moving", action="store_true", help="move all axes all the time; else the machine is idle")
     verb.add_argument("--json", action="store_true", help="print one JSON object")
     verb.set_defaults(call=call)
 
@@ -31,7 +33,11 @@ def call(arguments: argparse.Namespace) -> int:
     from drillctl.lab.latency import LatencyError, a_moment, measure
     from drillctl.ui.terminal.reports import latency_lines
 
-    machine = options.library(argparse.Namespace(tables=None)).machine(options.DEFAULT_MACHINE)
+    machine = options.library(arguments).machine(arguments.machine)
+    if arguments.hz is None and machine.tick_hz > FASTEST_HZ:
+        reason = Message("{name} ticks at {hz} Hz, and at most {most} can be measured; choose a rate with --hz",
+                         name=machine.name, hz=machine.tick_hz, most=FASTEST_HZ)  # fmt: skip
+        raise LatencyError(reason)
     machine = machine.at_rate(arguments.hz or machine.tick_hz)
     moves = there_and_back(machine) if arguments.moving else None
     signals: list[int] = []

@@ -41,12 +41,14 @@ def load_queue(path: Path, machine: Machine, setup: JobSetup, settings: WorkSett
 
 
 def there_and_back(machine: Machine) -> NDArray[np.void]:
-    """Returns a program, dtype kmd.RECORD, that homes the machine and then moves all axes but the drilling ones there
-    and back again. It has no end: from its second command on it can be repeated.
+    """Returns a program, dtype kmd.RECORD, that homes the machine and then moves all axes there and back again: those
+    that drill half of the way back, as a sensor answers where they were homed. It has no end: from its second command
+    on it can be repeated.
     """
-    moved = [axis for index, axis in enumerate(machine.axes) if index not in machine.drill_axes]
-    far = " ".join(f"{axis.name}={min(MOVED_STEPS, axis.span_steps // 2)}" for axis in moved)
-    near = " ".join(f"{axis.name}=0" for axis in moved)
+    ways = [min(MOVED_STEPS, axis.span_steps // 2) for axis in machine.axes]
+    far = " ".join(f"{axis.name}={way}" for axis, way in zip(machine.axes, ways, strict=True))
+    back = [way // 2 if index in machine.drill_axes else 0 for index, way in enumerate(ways)]
+    near = " ".join(f"{axis.name}={way}" for axis, way in zip(machine.axes, back, strict=True))
     return parse_program(f"KMD_INICJALIZACJA\nKMD_RUCH {far}\nKMD_RUCH {near}\n", names_of(machine))[:-1]
 
 

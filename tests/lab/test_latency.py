@@ -20,6 +20,7 @@ from drillctl.machine import Library, Machine
 from drillctl.ticker.ticker import Ticker
 from drillctl.ui.terminal.reports import latency_lines
 from drillctl.viewmodel.reports import LatencyReport
+from tests.support.bench import shipped
 
 COMMAND = (sys.executable, "-m", "drillctl", "latency")
 LONG_S = 600
@@ -160,13 +161,15 @@ def test_text() -> None:
 
 def test_a_moving_machine_is_measured_too() -> None:
     """And the report says so, in both forms."""
-    told = json.loads(run("--hz", "200", "--seconds", "1", "--moving", "--json").stdout)
-    assert told["moving"] and told["ticker"]["wakes"] > 0
+    told = json.loads(run("--hz", "200", "--seconds", "1", "--moving", "--machine", "eight-axis", "--json").stdout)
+    assert told["moving"] and told["ticker"]["wakes"] > 0 and told["machine"] == "eight-axis"
     assert ", moving: " in run("--hz", "200", "--seconds", "1", "--moving").stdout
 
 
-def test_the_moves_of_the_measurement_go_on(machine: Machine) -> None:
-    """Homed, and then there and back without a fault, for as long as it takes."""
+@pytest.mark.parametrize("name", ["pcb-drill", "cnc-shield"])
+def test_the_moves_of_the_measurement_go_on(name: str) -> None:
+    """Homed, and then all axes there and back without a fault, for as long as it takes."""
+    machine = shipped(name)
     moves, ticker = there_and_back(machine), Ticker.simulated(machine)
     ticker.queue.put(moves)
     ticker.run(20_000, lambda: ticker.controller.done == len(moves))
@@ -175,6 +178,12 @@ def test_the_moves_of_the_measurement_go_on(machine: Machine) -> None:
         ticker.run(1)
         ticker.run(5_000, lambda: not len(ticker.queue) and not ticker.controller.busy)
     assert not ticker.controller.fault and ticker.controller.axes[0].made >= 3 * 2 * MOVED_STEPS
+    assert ticker.controller.axes[2].made >= 3 * MOVED_STEPS // 2
+
+
+def test_a_machine_too_quick_to_be_measured_is_refused() -> None:
+    done = run("--machine", "boiler-drum")
+    assert (done.returncode, done.stdout) == (2, "") and "choose a rate with --hz" in done.stderr
 
 
 @pytest.mark.parametrize(
