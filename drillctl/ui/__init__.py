@@ -8,6 +8,7 @@
     next_step.py  what the machine waits for, with the keys of the screen on top
     preferences.py  the theme that was chosen, kept in the user's configuration
     background.py  work that may take seconds, done beside the screen
+    painter.py  the terminal: of each row only the part that has changed is written
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
     machines.py  which screens and menus a machine has: a row for each family of machines
 

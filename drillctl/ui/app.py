@@ -20,6 +20,7 @@ from drillctl.ui.help_actions import HelpActions
 from drillctl.ui.layers import Layers
 from drillctl.ui.machines import screens_of
 from drillctl.ui.next_step import step_line
+from drillctl.ui.painter import Painter
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called, wheel_key
@@ -243,10 +244,10 @@ def _leave() -> None:
     raise urwid.ExitMainLoop
 
 
-def _terminal() -> urwid.display.raw.Screen:
+def _terminal() -> Painter:
     """The terminal, with as many colours as it says it has. Drawn on another stream than that of the verbs, which
     escapes what moves the cursor.
     """
-    terminal = urwid.display.raw.Screen(output=sys.__stdout__ or sys.stdout)
+    terminal = Painter(output=sys.__stdout__ or sys.stdout)
     terminal.set_terminal_properties(depth_of(os.environ))
     return terminal

@@ -25,7 +25,7 @@ LEAST_PICTURE = 3  # rows, where there is no board to be drawn
 MOST_OF_FACTS = 0.6  # of the rows, beside a picture
 LIST_WEIGHT, BOARD_WEIGHT = 2, 3
 PLACING, SAID = N_("Placing and drilling"), N_("What the file says")
-HINT = N_("Enter loads the file that the cursor is on, and draws its board.")
+HINT = (N_("No board is loaded."), N_("Enter loads the file at the cursor."))
 
 
 class Rule(urwid.Widget):
@@ -56,7 +56,7 @@ class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
         self._board: BoardView | None = None
         self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
         self._where, self._placing = Text("", wrap="ellipsis"), Text("", wrap="ellipsis")
-        self._picture = BoardPicture(plain, (HINT,))
+        self._picture = BoardPicture(plain, HINT)
         self._facts: urwid.Frame[Any, Any, Any] = urwid.Frame(urwid.ListBox(self._rows))
         self._right = urwid.Pile([self._picture, ("given", 1, self._facts)], focus_item=1)
         self._list: urwid.Frame[Any, Any, Any] = urwid.Frame(browser, header=urwid.AttrMap(self._where, "title"))

@@ -28,33 +28,45 @@ class SideWindow(urwid.Widget):
         self._pages = pages
         self._shown: tuple[MachineView, Progress | None, BoardView | None] | None = None
         self._page = 0
+        self._size: tuple[int, int] = (0, 0)
+        self._lines: list[Line] = []
 
     def use(self, pages: "Pages") -> None:
         """Shows other pages from now on."""
         self._pages = pages
+        self.draw_anew()
 
     def turn_page(self) -> None:
         """Shows the next page; after the last comes the first."""
         self._page += 1
-        self._invalidate()
+        self.draw_anew()
 
     def show(self, view: MachineView, progress: Progress | None, board: BoardView | None) -> None:
-        """Takes a new view of machine, job and board; redraws only if something is new."""
+        """Takes a new view of machine, job and board."""
         if (view, progress, board) != self._shown:
             self._shown = (view, progress, board)
-            self._invalidate()
+            self.draw_anew()
 
     def draw_anew(self) -> None:
-        """Draws again: what the pages take from elsewhere than from a view has changed."""
-        self._invalidate()
+        """Draws again if a line has changed. To be called where the pages take something from elsewhere than a view."""
+        lines = self._page_lines()
+        if lines != self._lines:
+            self._lines = lines
+            self._invalidate()
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws a page, clipped to the box."""
         assert len(size) == 2
-        columns, rows = size
-        pages = self._pages(*self._shown, columns, rows) if self._shown else [[]]
+        if size != self._size:
+            self._size = size
+            self._lines = self._page_lines()
+        return boxed(self._lines, *size)
+
+    def _page_lines(self) -> list[Line]:
+        """The page in view, as it is now; nothing before the size is known."""
+        pages = self._pages(*self._shown, *self._size) if self._shown and all(self._size) else [[]]
         self._page %= len(pages)
-        return boxed(pages[self._page], columns, rows)
+        return pages[self._page]
 
 
 def side_pages(

@@ -130,10 +130,17 @@ def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
 
 
 class _Rows(urwid.TextCanvas):
-    """Rows that are already cut into runs of one look: urwid's own canvas cuts them anew whenever it is drawn."""
+    """Rows that are already cut into runs of one look: urwid's own canvas cuts them anew whenever it is drawn.
+
+    The rows with attributes mapped are kept too. They are the same objects in the next frame, so the painter sees by
+    their identity that nothing has changed.
+    """
 
     def __init__(self, drawn: Sequence["_Row"], columns: int):
-        self._runs = [row.runs for row in drawn]
+        self._runs: list[Sequence[Run]] = [row.runs for row in drawn]
+        self._names = [*dict.fromkeys(name for runs in self._runs for name, _charset, _text in runs)]
+        self._looks: list[Hashable] = []
+        self._mapped = self._runs
         attributes = [[*row.names] for row in drawn]  # of its own for each canvas
         charsets = [[*row.sets] for row in drawn]
         super().__init__([row.text for row in drawn], attributes, charsets, maxcol=columns, check_width=False)
@@ -145,8 +152,15 @@ class _Rows(urwid.TextCanvas):
         if trim_left or cols not in (0, self.cols()):
             yield from super().content(trim_left, trim_top, cols, rows, attr)
             return
-        for runs in self._runs[trim_top : trim_top + rows if rows else None]:
-            yield [(attr.get(name, name), charset, text) for name, charset, text in runs] if attr else [*runs]
+        for runs in (self._mapped_by(attr) if attr else self._runs)[trim_top : trim_top + rows if rows else None]:
+            yield [*runs]
+
+    def _mapped_by(self, attr: Looks) -> list[Sequence[Run]]:
+        looks = [attr.get(name, name) for name in self._names]
+        if looks != self._looks:
+            self._looks, by_name = looks, dict(zip(self._names, looks, strict=True))
+            self._mapped = [[(by_name[name], charset, text) for name, charset, text in runs] for runs in self._runs]
+        return self._mapped
 
 
 def around(cursor: int, count: int, room: int) -> range:
@@ -193,16 +207,23 @@ def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> _Row:
     charsets: Charsets = []
     for part in line:
         attribute, words = (None, part) if isinstance(part, str) else part
-        words = visible(words)
-        end, width = _fitting(words, room)
-        encoded, sets = urwid.apply_target_encoding(words[:end])
+        encoded, sets, width, whole = _encoded(words, min(room, _columns(words)), encoding)
         text, room = text + encoded, room - width
         attributes.append((attribute, len(encoded)))
         charsets += sets
-        if end < len(words):
+        if not whole:
             break
     text, names, sets = text + b" " * room, [*attributes, (None, room)], [*charsets, (None, room)]
     return _Row(text, names, sets, tuple(_runs(text, names, sets)))
+
+
+@lru_cache(DRAWN)
+def _encoded(words: str, room: int, encoding: str) -> tuple[bytes, Charsets, int, bool]:
+    """A part of a line, clipped to its room: bytes, character sets, columns, and whether nothing was clipped off."""
+    words = visible(words)
+    end, width = _fitting(words, room)
+    encoded, sets = urwid.apply_target_encoding(words[:end])
+    return encoded, sets, width, end == len(words)
 
 
 def _runs(text: bytes, names: Names, sets: Charsets) -> Iterator[Run]:
@@ -224,5 +245,10 @@ def _fitting(words: str, room: int) -> tuple[int, int]:
 
 def width_of(line: Line) -> int:
     """How many columns a line takes."""
-    texts = (visible(part if isinstance(part, str) else part[1]) for part in line)
-    return sum(len(text) if text.isascii() else urwid.calc_width(text, 0, len(text)) for text in texts)
+    return sum(_columns(part if isinstance(part, str) else part[1]) for part in line)
+
+
+@lru_cache(DRAWN)
+def _columns(text: str) -> int:
+    shown_text = visible(text)
+    return len(shown_text) if shown_text.isascii() else urwid.calc_width(shown_text, 0, len(shown_text))
