@@ -3,9 +3,6 @@ of one that was altered: test_altered_journal.py.
 """
 
 import json
-import resource
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -15,7 +12,7 @@ from hypothesis import strategies as st
 from drillctl.cli import main
 from drillctl.jobs.journal import Head, Journal, JournalError, read_journal
 from drillctl.jobs.session import default_journal
-from tests.support.journalled import BOARD, SITE, keep_lines, resume, run
+from tests.support.journalled import BOARD, SITE, keep_lines, on_a_full_disk, resume, run
 
 HEAD = Head("job.drl", "a", "b", "pcb-drill", "c", 9, {})
 
@@ -33,7 +30,7 @@ def test_a_new_run_does_not_replace_an_unfinished_one(folder: Path, capsys: pyte
     capsys.readouterr()
     assert run() == 2
     told = capsys.readouterr()
-    assert json.loads(told.out)["error"]["code"] == "journal" and "1 of 4 holes of" in told.err
+    assert json.loads(told.out)["error"]["code"] == "journal" and "1 of 4 holes are done" in told.err
     assert "go on with `drillctl resume j`, or delete the file to begin anew" in told.err
     assert (folder / "j").read_bytes() == before
 
@@ -87,11 +84,7 @@ def test_a_place_that_can_hold_no_journal_is_refused(
 
 
 def test_a_disk_without_room_for_the_first_line_refuses_the_run(folder: Path) -> None:
-    call = [sys.executable, "-m", "drillctl", "run", "job.drl", "--journal", "j"]
-    done = subprocess.run(
-        call, capture_output=True, text=True, timeout=60, check=False,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)),
-    )  # fmt: skip
+    done = on_a_full_disk(100, "run", "job.drl", "--journal", "j")
     assert done.returncode == 2 and "drillctl: j: can't be written" in done.stderr
     assert run() == 0
 

@@ -4,9 +4,6 @@ and the hole that was under way is named; what is no longer the same job is refu
 
 import json
 import os
-import resource
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -15,7 +12,7 @@ from drillctl.cli import main
 from drillctl.jobs.journal import read_journal
 from drillctl.jobs.session import journals
 from drillctl.machine import shipped_tables
-from tests.support.journalled import BOARD, holes, keep_lines, resume, run
+from tests.support.journalled import BOARD, holes, keep_lines, on_a_full_disk, resume, run
 
 KINDS = {
     "plain": [],
@@ -70,7 +67,7 @@ def test_spots_made_before_the_cut_are_named(folder: Path, capsys: pytest.Captur
     keep_lines(folder, 3)
     capsys.readouterr()
     assert resume() == 0
-    assert "may have their spot already; they are spotted again, in the same place" in capsys.readouterr().err
+    assert "may bear their spot already; they are marked again, in the same place" in capsys.readouterr().err
 
 
 def test_a_finished_journal_leaves_nothing_to_resume(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -149,11 +146,7 @@ def test_a_full_disk_stops_the_job_and_leaves_a_whole_journal(room_bytes: int, f
     lines = (folder / "j").read_bytes().splitlines(keepends=True)
     (folder / "j").unlink()
     limit = sum(map(len, lines[:4])) + room_bytes
-    call = [sys.executable, "-m", "drillctl", "run", "job.drl", "--journal", "j", "--json"]
-    done = subprocess.run(
-        call, capture_output=True, text=True, timeout=60, check=False,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
-    )  # fmt: skip
+    done = on_a_full_disk(limit, "run", "job.drl", "--journal", "j", "--json")
     assert done.returncode == 1 and "j: can't be written" in done.stderr
     outcome = json.loads(done.stdout)
     assert outcome["interrupted"] and outcome["position_known"] and outcome["fault"] is None

@@ -2,6 +2,7 @@
 
 import resource
 import signal
+import sys
 from contextlib import suppress
 from pathlib import Path
 
@@ -176,6 +177,7 @@ def test_all_its_room_on_the_disk_is_taken_at_the_start(tmp_path: Path) -> None:
 def test_a_disk_without_room_is_named(tmp_path: Path) -> None:
     def make() -> None:
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        sys.dont_write_bytecode = True  # it would be cut off too, and kept
         resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))
         try:
             Channel(tmp_path / "c", create=True)

@@ -2,6 +2,9 @@
 
 import csv
 import json
+import resource
+import subprocess
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -34,6 +37,16 @@ def run(*options: str) -> int:
 def resume(*options: str) -> int:
     """What the journal says is left; returns the exit code."""
     return main(["resume", "j", "--holes", "h.csv", "--json", *options])
+
+
+def on_a_full_disk(limit_bytes: int, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    """The program in a process of its own, in which no file grows beyond the limit. It keeps no bytecode: a module's
+    would be cut off there too, without an error, and then fail whoever imports it next.
+    """
+    return subprocess.run(
+        [sys.executable, "-B", "-m", "drillctl", *arguments], capture_output=True, text=True, timeout=60, check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit_bytes, limit_bytes)),
+    )  # fmt: skip
 
 
 def holes(folder: Path) -> list[list[str]]:
