@@ -63,7 +63,7 @@ def editors() -> Iterator[Act | str]:
 
 def looking() -> Iterator[Act | str]:
     """A run that was recorded; the inputs and outputs."""
-    yield Act(menu("scope", "open_file"), (word("File:"),))
+    yield Act(menu("scope", "open"), (word("File:"),))
     yield Act((*["Backspace"] * 20, TRACE.name, "Enter"), ("square",), gone=(word("File:"),))
     yield Act(("Home", "-", "-", "-"), (word("Further"),))
     yield "scope"
@@ -124,7 +124,7 @@ def devices() -> Iterator[Act | str]:
     """The plant and the port, and a list of tables."""
     yield Act(menu("plant"), ("blunt",))
     yield "plant"
-    yield Act(menu("port"), (word("T tests the configured port: nothing moves.")[:30],))
+    yield Act(menu("port"), (word("F5 tests the configured port: nothing moves.")[:30],))
     yield "port"
     yield Act(menu("phase_editor"), (word("shipped"), "two-phase-forced"))
     yield "phase-tables"

@@ -63,7 +63,7 @@ class App(HelpActions):
         self._menus = Dropping(self.frame.bar, self.layers, self._choose)
         self._alerts = Alerts(console, self.layers, lambda: self._family.initialise)
         self._background = Background(self.layers, self.frame.say)
-        self._first_keys = FirstKeys(console, self.layers, self, self.frame.say)
+        self._first_keys = FirstKeys(console, self.layers, self)
         self.loop = urwid.MainLoop(
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
         )
@@ -86,7 +86,7 @@ class App(HelpActions):
         self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
         step = self._family.next_step(self._console, view)
-        self.frame.show_step(step_line(step, self.screens[-1], self._family.menus))
+        self.frame.show_step(step_line(step, self.screens[-1], self._family.menus, self.layers.typing))
         if isinstance(self.screens[-1], Live):
             self.screens[-1].refresh(view)
         self._alerts.show(view)
@@ -159,6 +159,13 @@ class App(HelpActions):
     def emergency_stop(self) -> None:
         """Stops the machine immediately; the outputs go off."""
         self._console.emergency_stop()
+
+    def stop(self) -> None:
+        """Ends the job; the position is kept. A refusal, or that nothing is under way, is told."""
+        view = self._console.view()
+        under_way = view.moving or view.at_work or view.command or view.queued
+        said = _("stop; the position is kept") if under_way else _("nothing is under way that could be stopped")
+        self.frame.say(" ".join(map(translated, self._console.stop())) or said)
 
     def menu(self) -> None:
         """Opens the first menu of the bar."""

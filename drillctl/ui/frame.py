@@ -11,7 +11,7 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.widgets.borders import lines
-from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, Key, key_parts
+from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, STOP, Key, key_parts
 from drillctl.ui.widgets.menus import Item, hot_letter, label_markup, plain_label
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Line, Size, Text, boxed, indices_packed, packed, width_of
@@ -136,8 +136,11 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         """Shows another screen and its keys. ``lowest``: no screen is below it, so Esc leads nowhere."""
         self.screen = screen
         self.body = self._window = Window(screen, _(getattr(screen, "title", "")))
-        frame_keys = [key for key in FRAME_KEYS if key is not EMERGENCY and not (lowest and key.method == "back")]
-        self._keys.show([EMERGENCY, *screen_keys(screen), *frame_keys])
+        at_machine = getattr(screen, "has_windows", False)  # elsewhere the next step names the key while a job runs
+        first = [EMERGENCY, *([STOP] if at_machine else [])]
+        others = [key for key in FRAME_KEYS if key not in (EMERGENCY, STOP)]
+        frame_keys = [key for key in others if not (lowest and key.method == "back")]
+        self._keys.show([*first, *screen_keys(screen), *frame_keys])
 
     def show_step(self, step: Line) -> None:
         """Shows what the machine waits for, and the keys that do it."""

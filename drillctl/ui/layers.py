@@ -70,7 +70,7 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         widget: urwid.Widget | None = self
         while widget is not None and not isinstance(widget, urwid.Edit):
             widget = _within(widget)
-        return widget is not None
+        return widget is not None or isinstance(self.top, Finder)
 
     def push_dialog(self, dialog: dialogs.Dialog) -> None:
         """Lays a dialog over everything, in the middle of the terminal."""

@@ -8,14 +8,18 @@ import urwid
 from drillctl.language.words import _
 from drillctl.ui.frame import screen_keys
 from drillctl.ui.screens.shell import Step
+from drillctl.ui.widgets.keys import STOP
 from drillctl.ui.widgets.menus import Item, hot_letter
 from drillctl.ui.widgets.texts import Line
 
 FIELD = re.compile(r"\{(\w+)\}")
 
 
-def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item]) -> Line:
-    """A Step as marked text. An action that the screen has no key for is named by its letters in the menus."""
+def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: bool = False) -> Line:
+    """A Step as marked text. An action that the screen has no key for is named by its letters in the menus.
+
+    ``typing``: a text field has the cursor, so that a letter is none of the keys.
+    """
     line: Line = [(step.attribute, f" {_('Next')} "), " "]
     for index, part in enumerate(FIELD.split(_(step.text))):
         if index % 2 == 0:
@@ -23,12 +27,14 @@ def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item]) -> Line:
         elif part in step.values:
             line.append(("title", step.values[part]))
         else:
-            line.append(("accent", _key(*step.actions[part], screen, menus)))
+            line.append(("accent", _key(*step.actions[part], screen, menus, typing)))
     return line
 
 
-def _key(name: str, method: str, screen: urwid.Widget, menus: Sequence[Item]) -> str:
+def _key(name: str, method: str, screen: urwid.Widget, menus: Sequence[Item], typing: bool) -> str:
     wanted = method or name
+    if wanted == STOP.method:
+        return "Ctrl-X" if typing else STOP.printed
     own = next((key for key in screen_keys(screen) if key.method == wanted), None)
     return _(own.printed) if own else " ".join(_path(menus, name, method))
 

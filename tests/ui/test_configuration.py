@@ -187,7 +187,7 @@ def test_enter_opens_at_first_a_table_in_use(console: Console, shell: Shell, mon
 
 def test_a_table_is_copied_from_the_list(console: Console) -> None:
     shell = Shell(types="one")
-    press(TableList(console, shell, Tables(phase="1a 5 x."), "phase"), "c")
+    press(TableList(console, shell, Tables(phase="1a 5 x."), "phase"), "f7")
     assert shell.told == [("Not copied", ["there is one already"])]
     assert EDITORS["phase"] is PhaseEditor
 
@@ -195,9 +195,9 @@ def test_a_table_is_copied_from_the_list(console: Console) -> None:
 def test_two_tables_are_compared_by_name(console: Console) -> None:
     shell = Shell(types="nothing")
     listed = TableList(console, shell, Tables(machines=FILE), "machines")
-    press(listed, "d")
+    press(listed, "f3")
     shell.types = "one"
-    press(listed, "d")
+    press(listed, "f3")
     assert shell.told == [
         ("Not compared", ["there is no table named 'nothing'"]), ("Differences", ["none: they are alike"])
     ]  # fmt: skip
@@ -213,7 +213,7 @@ def test_only_a_table_of_ones_own_is_deleted_and_only_after_a_yes(console: Conso
     press(listed, "delete", "delete")
     assert not tables.own and shell.told == [("Nothing changed", ["it stays"])]
     tables.own["phase"] = "1a 5 .x"
-    press(listed, "r")
+    press(listed, "f8")
     assert not tables.own
 
 
@@ -222,7 +222,7 @@ def test_a_table_that_was_never_shipped_is_not_asked_about_before_its_reset_is_r
 ) -> None:
     tables = Tables(phase="1a 5 x.")
     monkeypatch.setattr(tables, "tables", lambda kind: [TableEntry("mine", "yours", ships=False)])
-    press(TableList(console, shell, tables, "phase"), "r")
+    press(TableList(console, shell, tables, "phase"), "f8")
     assert shell.asked == [] and shell.told == [("Nothing changed", ["there is no copy of your own"])]
 
 

@@ -3,13 +3,16 @@
 import importlib
 import pkgutil
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from drillctl.ui import boiler_drum, pcb_drill, screens
-from drillctl.ui.widgets.keys import FRAME_KEYS, Key
+from drillctl.ui.boiler_drum.programming import HEX_KEYS
+from drillctl.ui.widgets.keys import FRAME_KEYS, STOP, Key
 
-# Keys that have one meaning, whichever method of a screen carries it out.
+# What each key means, for the keys that call several methods. Any other key calls one method, on every screen that has
+# it. In words, for the user: docs/KEYS.md.
 UP_OR_DOWN = {"jog_on", "jog_back", "row", "upwards", "downwards", "go"}
 SIDEWAYS = {"jog_back", "jog_on", "sideways", "step"}
 MORE_OR_LESS = {"zoom", "step_size", "next_cell"}
@@ -17,46 +20,27 @@ MEANINGS = {
     **dict.fromkeys(("up", "down", "page up", "page down"), UP_OR_DOWN),
     **dict.fromkeys(("left", "right"), SIDEWAYS),
     **dict.fromkeys(("+", "=", "-"), MORE_OR_LESS),
-    "enter": {"choose", "toggle", "edit", "ask", "found", "go", "upwards"},  # what the cursor stands on is done
-    "delete": {"remove", "delete", "fewer"},
-    "insert": {"insert", "more"},
+    "enter": {"choose", "toggle", "edit", "ask", "found", "go", "upwards", "isolate"},  # on what the cursor is on
+    " ": {"hold_or_resume", "pause", "follow", "toggle"},  # switches over: held or going on, on or off
+    "tab": {"go", "next_motor", "next_kind", "other_side", "sideways", "turn_page", "complete"},  # on to the next
+    "delete": {"remove", "delete", "fewer", "hide"},  # what the cursor is on is taken away
+    "insert": {"insert", "more", "add", "show_all"},  # something comes to what is there
     "f2": {"save", "use"},  # what was edited holds from now on
+    "f3": {"diff", "compare"},  # what differs
     "f5": {"run_all", "test", "try_out", "choose"},  # what is shown is run
-    "g": {"go_to", "go_there"},
+    "f6": {"cycle", "change_bit", "choose_format", "swap", "show_machine"},  # another choice
+    "g": {"go_to", "go_there", "go_to_hole"},  # goes to a hole or a tick
+    "l": {"recent", "list_workpieces"},  # the list of what can be loaded
+    "m": {"cycle", "mirror"},  # mirrored; in Files it is one of the options
+    "w": {"whole", "whole_board"},  # the whole of what is shown
+    "y": {"curve", "tool_numbers"},  # as a picture, or in numbers
     "/": {"filter", "search"},  # what has a text in it
 }
-# Keys that still have several meanings, by the methods that they call. A key may leave this table, and none may come.
-# The panel of the boiler drum has the letters of that machine's own keyboard: its digits A to F, MEM, PROG.
-SEVERAL = {
-    " ": {"follow", "hold_or_resume", "pause", "toggle"},
-    "a": {"acknowledge", "add", "mark", "more", "typed_digit"},
-    "b": {"change_bit", "mark", "set_base", "typed_digit"},
-    "c": {"copy", "find_on", "tool_changed", "typed_digit"},
-    "d": {"compare", "dry_run", "typed_digit"},
-    "e": {"examples", "find_on", "typed_digit"},
-    "f": {"files", "find_on", "typed_digit"},
-    "f3": {"diff", "open"},
-    "f6": {"cycle", "run_to_cursor", "swap"},
-    "f7": {"copy", "run_line"},
-    "f8": {"reset", "tick"},
-    "g": {"go_there", "go_to", "resume"},
-    "h": {"go_to_hole", "hide"},
-    "k": {"acknowledge", "cycle", "isolate"},
-    "l": {"find_on", "list_workpieces", "recent"},
-    "m": {"cycle", "jog_unit", "memory", "mirror", "show_machine"},
-    "n": {"choose_format", "find_on"},
-    "o": {"cycle", "open_file"},
-    "p": {"call_workpiece", "panel"},
-    "r": {"cycle", "find_on", "go_real", "reset"},
-    "s": {"find_on", "go_simulated", "start"},
-    "t": {"cycle", "test", "type_place"},
-    "tab": {"complete", "go", "next_motor", "other_side", "sideways", "turn_page"},
-    "v": {"offset", "show_all", "tool_numbers"},
-    "w": {"how_to_drill", "whole", "whole_board"},
-    "z": {"return_to_zero", "zoom_board"},
-}
+# The keyboard of the boiler drum's machine has its digits A to F, and these: MEM, PROG, CONT, ZERO, RESET.
+PAPER_KEYS = {*HEX_KEYS, "m", "p", "g", "z", "r"}
 # These call one method, on every screen that has them.
-ALONE = {"i": "initialise", "x": "stop", "u": "unfinished", "ctrl u": "undo", "ctrl r": "redo"}
+ALONE = {"i": "initialise", "s": "start", "a": "acknowledge", "u": "unfinished", "ctrl u": "undo", "ctrl r": "redo"}
+KEYS_PAGE = Path(__file__).resolve().parents[2] / "docs" / "KEYS.md"
 
 
 def tables() -> Iterator[tuple[str, tuple[Key, ...]]]:
@@ -83,18 +67,30 @@ def test_no_screen_has_a_key_twice(screen: str) -> None:
 
 
 def methods_by_key() -> dict[str, set[str]]:
-    """What each key calls, on all screens together."""
+    """What each key calls, on all screens together; without the keyboard of the boiler drum's machine."""
     found: dict[str, set[str]] = {}
-    for keys in TABLES.values():
+    for screen, keys in TABLES.items():
         for key in keys:
             for name in key.names:
-                found.setdefault(name, set()).add(key.method)
+                if not (screen == "Panel" and name in PAPER_KEYS):
+                    found.setdefault(name, set()).add(key.method)
     return found
 
 
 def test_a_key_has_one_meaning_on_all_screens() -> None:
-    several = {name: methods for name, methods in methods_by_key().items() if not is_one(name, methods)}
-    assert several == SEVERAL
+    assert not {name: methods for name, methods in methods_by_key().items() if not is_one(name, methods)}
+
+
+def test_the_panel_has_its_exceptions_for_the_keys_of_the_machine_alone() -> None:
+    methods = {key.method for key in TABLES["Panel"] if PAPER_KEYS.intersection(key.names)}
+    assert methods == {"typed_digit", "memory", "call_workpiece", "resume", "return_to_zero", "reset"}
+
+
+def test_the_page_of_the_keys_names_each_key_once() -> None:
+    printed = {key.printed for table in (*TABLES.values(), FRAME_KEYS) for key in table if key.names}
+    rows = [line for line in KEYS_PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| `")]
+    named = [sign.strip("`") for row in rows for sign in row.split(" | ")[0].removeprefix("| ").split(" · ")]
+    assert printed == {*named} and len(named) == len({*named})
 
 
 def is_one(name: str, methods: set[str]) -> bool:
@@ -108,6 +104,7 @@ def test_a_second_meaning_is_seen() -> None:
 def test_these_keys_call_one_method_everywhere() -> None:
     found = methods_by_key()
     assert {name: found.get(name) for name in ALONE} == {name: {method} for name, method in ALONE.items()}
+    assert STOP.method == "stop" and STOP in FRAME_KEYS
 
 
 def test_all_screens_are_looked_at() -> None:
@@ -115,7 +112,7 @@ def test_all_screens_are_looked_at() -> None:
 
 
 def test_the_letters_that_command_the_machine_mean_nothing_else_where_boards_are_chosen() -> None:
-    commands = {"start", "dry_run", "acknowledge", "set_base", "tool_changed", "initialise", "stop", "files"}
+    commands = {"start", "dry_run", "acknowledge", "set_base", "tool_changed", "initialise", "files"}
     letters = {name for key in TABLES["Drilling"] if key.method in commands for name in key.names}
     assert len(letters) == len(commands)
     assert not letters & {name for key in TABLES["Files"] for name in key.names}

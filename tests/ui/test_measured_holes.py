@@ -81,11 +81,11 @@ def program_spot(program: Program) -> int:
 
 def test_holes_are_added_and_taken_off(folder: Path) -> None:
     program = aligning(folder)
-    program.press("a", "9", "enter")
+    program.press("insert", "9", "enter")
     assert "hole '9' can't be added" in program.text()
     program.press("delete", "delete", "delete", "delete", "g", "enter", "t", "tab")
     assert "X10.000 Y10.000" not in program.text()
-    program.press("a", "1", "enter")
+    program.press("insert", "1", "enter")
     assert "X10.000 Y10.000" in program.text()
     program.press("f2")
     assert asked(program).measured == () and isinstance(program.app.screens[-1], Files)

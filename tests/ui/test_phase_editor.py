@@ -281,7 +281,7 @@ def test_every_row_has_the_bit_of_the_motor_that_is_shown(table_1: PhaseEditor) 
 
 def test_a_free_bit_is_taken_and_saved_to_the_machine(table_1: PhaseEditor, bench: TableFiles, shell: Shell) -> None:
     shell.types = "7"
-    press(table_1, "down", "b")
+    press(table_1, "down", "f6")
     assert bits_of(bench, "x.1b") == ["7"] and "Output bit (0..127):" in shell.asked
     assert not table_1.changed  # the phase table is as it was
 
@@ -291,7 +291,7 @@ def test_a_bit_of_another_wire_is_exchanged_after_a_question(
     table_1: PhaseEditor, bench: TableFiles, shell: Shell, says_yes: bool
 ) -> None:
     shell.types, shell.says_yes = "9", says_yes
-    press(table_1, "b")
+    press(table_1, "f6")
     assert "Bit 9 switches y.1b. Exchange the two?" in shell.asked
     assert bits_of(bench, "x.1a", "y.1b") == (["9", "0"] if says_yes else ["0", "9"])
 
@@ -299,13 +299,13 @@ def test_a_bit_of_another_wire_is_exchanged_after_a_question(
 @pytest.mark.parametrize("typed", ["128", "-1", "one", ""])
 def test_a_bit_that_cannot_be_is_told(table_1: PhaseEditor, bench: TableFiles, shell: Shell, typed: str) -> None:
     shell.types = typed
-    press(table_1, "b")
+    press(table_1, "f6")
     assert shell.told[0][0] == "Not changed" and bits_of(bench, "x.1a") == ["0"]
 
 
 def test_a_table_that_no_motor_uses_has_no_bits(bench: TableFiles, shell: Shell) -> None:
     editor = PhaseEditor(AtPcbDrill(), shell, bench, "five-phase-ten-beat")
-    press(editor, "b", "tab")
+    press(editor, "f6", "tab")
     assert shell.told == [("Not changed", ["No motor of the machine at hand uses this table."])]
     assert "motor" not in text_of(editor)
 

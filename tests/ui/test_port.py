@@ -55,7 +55,7 @@ def test_what_is_in_use_and_what_is_configured() -> None:
 @pytest.mark.parametrize("size", [(80, 24), (160, 50), (40, 20)])
 def test_a_report_is_seen_whole_in_every_size(size: tuple[int, int]) -> None:
     drawn = screen(Ports())
-    press(drawn, "t")
+    press(drawn, "f5")
     text = text_of(drawn, size)
     assert all(part in text for part in ("StandIn 2.5 answers", "D16", "D39", "It can be used"))
     lines = [line.split() for line in text.splitlines()]
@@ -66,18 +66,18 @@ def test_a_report_is_seen_whole_in_every_size(size: tuple[int, int]) -> None:
 def test_a_failure_is_told_with_its_remedy_and_another_machine_has_no_report() -> None:
     ports = Ports(report=BAD)
     drawn = screen(ports)
-    press(drawn, "t")
+    press(drawn, "f5")
     assert "can't be used: firmata: no Firmata answers; upload" in text_of(drawn)
     ports.view = replace(PORT, card="UNO")
     drawn.refresh(VIEW)
     assert "upload" not in text_of(drawn)
 
 
-@pytest.mark.parametrize(("key", "method"), [("r", "go_real"), ("s", "go_simulated")])
+@pytest.mark.parametrize(("real", "method"), [(False, "go_real"), (True, "go_simulated")])
 @pytest.mark.parametrize("yes", [False, True])
-def test_the_machine_is_changed_after_a_yes_only(key: str, method: str, yes: bool) -> None:
-    ports, shell = Ports(answer=("the machine is at work",)), Shell(says_yes=yes)
-    press(screen(ports, shell), key)
+def test_the_machine_is_changed_after_a_yes_only(real: bool, method: str, yes: bool) -> None:
+    ports, shell = Ports(replace(PORT, real=real), answer=("the machine is at work",)), Shell(says_yes=yes)
+    press(screen(ports, shell), "f6")
     assert len(shell.asked) == 1 and ports.done == ([method] if yes else [])
     assert shell.told == ([("Nothing changed", ["the machine is at work"])] if yes else [])
 
@@ -100,5 +100,5 @@ def test_a_yes_drives_it_and_a_refusal_is_told() -> None:
 
 def test_without_a_port_for_the_card_nobody_is_asked_and_the_reason_told() -> None:
     ports, shell = Ports(replace(PORT, configured=""), answer=("no port drives the card",)), Shell()
-    press(screen(ports, shell), "r")
+    press(screen(ports, shell), "f6")
     assert shell.asked == [] and shell.told == [("Nothing changed", ["no port drives the card"])]

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 import urwid
@@ -78,10 +79,33 @@ def test_x_stops_the_job_over_a_box_too(box: str, key: str) -> None:
     assert program.console.asked == [("stop",)]
 
 
-def test_x_is_typed_in_a_field_while_a_job_runs() -> None:
-    program = Program(FakeConsole(now=replace(VIEW, at_work=True), loaded=BOARD))
-    program.press("t", "x")
-    assert program.app.layers.typing and not program.console.asked
+PLACES = {  # keys that lead there, and whether a text field has the cursor then
+    "drilling": ((), False), "a menu": (("meta f",), False), "the finder": (("ctrl p",), True),
+    "a form": (("t",), True), "the files": (("f",), False), "a filter": (("f", "/"), True),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("state", [{"at_work": True}, {"moving": True}, {"queued": 3}])
+@pytest.mark.parametrize("place", PLACES)
+def test_the_job_is_stopped_from_everywhere_by_the_key_that_the_next_step_names(
+    place: str, state: dict[str, Any]
+) -> None:
+    keys, typing = PLACES[place]
+    program = Program(FakeConsole(now=replace(VIEW, **state), loaded=BOARD))
+    program.press(*keys)
+    program.app.turn()
+    if not state.get("queued"):
+        assert f"{'Ctrl-X' if typing else 'X'} ends the job" in program.text()
+    program.press("x")
+    assert program.app.layers.typing == typing and program.console.asked == ([] if typing else [("stop",)])
+    program.press("ctrl x")
+    assert program.console.asked[-1] == ("stop",) and "stop; the position is kept" in program.text()
+
+
+def test_a_stop_with_nothing_under_way_says_so() -> None:
+    program = Program(FakeConsole(loaded=BOARD))
+    program.press("f", "x")
+    assert "nothing is under way that could be stopped" in program.text()
 
 
 def test_letters_are_typed_where_text_is_typed() -> None:

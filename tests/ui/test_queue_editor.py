@@ -119,12 +119,12 @@ def three_lines(editor: QueueEditor) -> QueueEditor:
 
 
 def test_a_queue_runs_whole_and_to_the_cursor(three_lines: QueueEditor, console: Console) -> None:
-    press(three_lines, "f5", "f6")
+    press(three_lines, "f5", "ctrl d")
     assert console.ran == ["KMD_CZEKAJ 1\nKMD_CZEKAJ 2\nKMD_CZEKAJ 3", "KMD_CZEKAJ 1\nKMD_CZEKAJ 2"]
 
 
 def test_lines_run_one_after_the_other(three_lines: QueueEditor, console: Console) -> None:
-    press(three_lines, "f7", "f7")
+    press(three_lines, "ctrl n", "ctrl n")
     assert [text.strip() for text in console.ran] == ["KMD_CZEKAJ 2", "KMD_CZEKAJ 3"]
     assert [text.count("\n") for text in console.ran] == [1, 2], "so that line numbers are those of the screen"
 
@@ -132,7 +132,7 @@ def test_lines_run_one_after_the_other(three_lines: QueueEditor, console: Consol
 def test_the_first_tick_begins_the_queue_and_the_next_ones_go_on(
     three_lines: QueueEditor, console: Console, hands: Hands
 ) -> None:
-    press(three_lines, "f8", "f8")
+    press(three_lines, "ctrl t", "ctrl t")
     assert hands.done == [("run_paused", three_lines.text), ("tick", 1), ("tick", 1)]
     three_lines.refresh(console.view())
     assert "stopped after tick 41: KMD_CZEKAJ 5" in text_of(three_lines)
@@ -144,11 +144,11 @@ def test_the_first_tick_begins_the_queue_and_the_next_ones_go_on(
 
 def test_a_queue_that_is_refused_gets_no_tick(three_lines: QueueEditor, hands: Hands, shell: Shell) -> None:
     hands.refusal = ("the machine is at work",)
-    press(three_lines, "f8")
+    press(three_lines, "ctrl t")
     assert [asked[0] for asked in hands.done] == ["run_paused"] and shell.told == [("Not run", [hands.refusal[0]])]
 
 
-@pytest.mark.parametrize("key", ["f5", "f6", "f7", "f8"])
+@pytest.mark.parametrize("key", ["f5", "ctrl d", "ctrl n", "ctrl t"])
 @pytest.mark.parametrize("yes", [False, True])
 def test_a_real_machine_is_asked_about_first(
     key: str, yes: bool, three_lines: QueueEditor, console: Console, hands: Hands, shell: Shell
@@ -160,18 +160,18 @@ def test_a_real_machine_is_asked_about_first(
 
 
 def test_a_wrong_queue_is_not_handed_on(editor: QueueEditor, console: Console, shell: Shell) -> None:
-    press(editor, *"nonsense", "f5", "f6", "f7")
+    press(editor, *"nonsense", "f5", "ctrl d", "ctrl n")
     assert console.ran == [] and shell.told == [("Not run", ["1:1: unknown command"])] * 3
 
 
 def test_a_right_line_runs_beside_a_wrong_one(three_lines: QueueEditor, console: Console) -> None:
-    press(three_lines, "down", "end", "enter", "X", "up", "f7")
+    press(three_lines, "down", "end", "enter", "X", "up", "ctrl n")
     assert [text.strip() for text in console.ran] == ["KMD_CZEKAJ 3"]
 
 
 def test_a_refusal_is_told_and_the_cursor_stays(three_lines: QueueEditor, console: Console, shell: Shell) -> None:
     console.refusal = ("the machine is at work",)
-    press(three_lines, "f7")
+    press(three_lines, "ctrl n")
     assert shell.told == [("Not run", ["the machine is at work"])] and "line 2" in text_of(three_lines)
 
 
@@ -180,19 +180,19 @@ def test_a_queue_is_saved_and_opened(editor: QueueEditor, shell: Shell, queues: 
     assert queues.files == {"q.kmd": "KMD_RUCH x=1"} and not editor.changed
     assert "Queue of commands: q.kmd" in text_of(editor)
     queues.files["q.kmd"] = "KMD_CZEKAJ 5"
-    press(editor, "f3")
+    press(editor, "ctrl o")
     assert editor.text == "KMD_CZEKAJ 5" and not editor.changed
 
 
 def test_a_file_that_cannot_be_read_leaves_the_queue(editor: QueueEditor, shell: Shell) -> None:
     shell.says_yes = True
-    press(editor, *"KMD_RUCH x=1", "f3")
+    press(editor, *"KMD_RUCH x=1", "ctrl o")
     assert editor.text == "KMD_RUCH x=1" and shell.told == [("Not opened", ["q.kmd: can't be read"])]
 
 
 def test_what_is_not_saved_is_asked_for(editor: QueueEditor, shell: Shell) -> None:
     assert press(editor, "esc") == ["esc"]
-    press(editor, "x", "f3", "esc")
+    press(editor, "x", "ctrl o", "esc")
     assert len(shell.asked) == 2 and editor.text == "x" and shell.closed == 0
 
 

@@ -96,7 +96,7 @@ def test_a_sound_ramp_is_saved(editor: RampEditor, tables: Tables) -> None:
 
 
 def test_a_pair_of_states_comes_and_goes_and_the_cursor_stays_on_its_state(editor: RampEditor) -> None:
-    press(editor, "down", "down", "a")
+    press(editor, "down", "down", "insert")
     assert editor.text == "-2 -1 -2 4\n-1 -1 -2 4\n0 0 0 7\n1 1 2 4\n2 1 2 4"
     rows = [row.split() for row in text_of(editor).split("\n")]
     assert ["1", "[1]", "2", "4", "1", "4"] in rows

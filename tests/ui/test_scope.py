@@ -126,12 +126,14 @@ def test_the_whole_run_shows_where_something_moved_and_where_not(square: TraceFi
 
 def test_every_search_goes_to_its_event_and_back_or_says_that_there_is_none(square: TraceFile) -> None:
     program = Scoped(square)
-    for search in SEARCHES:
-        program.press("home", search.letter)
+    for turns, search in enumerate(SEARCHES):
+        program.press(*["tab"] * min(turns, 1))
+        assert not turns or f"N: {search.on}" in program.text()
+        program.press("home", "n")
         found = square.find(search.what, 0, 1, 0)
         assert program.cursor() == (found or 0)
         assert (search.none in program.text()) == (found is None)
-        program.press("end", search.letter.upper())
+        program.press("end", "N")
         assert program.cursor() == (square.find(search.what, square.last_tick, -1, 0) or square.last_tick)
     assert square.find("command", 0, 1, 0) and square.find("sensor", 0, 1, 0)
 
@@ -141,7 +143,7 @@ def test_every_word_is_asked_for_a_tick_that_has_it(square: TraceFile, monkeypat
     asked, shown = [], square.shown
     monkeypatch.setattr(square, "shown", lambda *words: (asked.append(words), shown(*words))[1])
     program = Scoped(square, (160, 50))
-    for key in ("w", "c", *["+"] * 12):
+    for key in ("w", "tab", "tab", "n", *["+"] * 12):
         program.press(key)
         program.canvas()
     assert len(asked) > 1000
@@ -161,13 +163,13 @@ def test_what_is_not_found_yet_is_a_question_mark(square: TraceFile, monkeypatch
 
 def test_two_marks_tell_ticks_milliseconds_and_hertz_between(square: TraceFile) -> None:
     program = Scoped(square)
-    program.press(*["right"] * 10, "a", *["right"] * 25, "b")
+    program.press(*["right"] * 10, "[", *["right"] * 25, "]")
     assert "A 10 B 35: 25 ticks, 50 ms, 20 Hz" in program.text()
     ruler = program.text().splitlines()[3]
     assert ruler[12 + 10] == "A" and "▼" in ruler  # B stands under the cursor
     program.press("left")
     assert program.text().splitlines()[3][12 + 35] == "B"
-    program.press("right", "b", "a")
+    program.press("right", "]", "[")
     assert "A 35" in program.text() and "B 35" not in program.text()
 
 
@@ -192,11 +194,11 @@ def test_a_click_moves_the_bar_too_and_one_on_a_name_does_nothing(square: TraceF
 
 def test_rows_are_hidden_isolated_scrolled_and_shown_again(square: TraceFile) -> None:
     program = Scoped(square)
-    program.press("down", "h")
+    program.press("down", "delete")
     assert "x.1a" not in program.text() and ">x.1b" in program.text()
-    program.press("k")
+    program.press("enter")
     assert "y.1a" not in program.text() and "x.state" in program.text() and "x.1a" in program.text()
-    program.press("v", *["page down"] * 9)
+    program.press("insert", *["page down"] * 9)
     assert ">fault" in program.text() and "command" not in program.row("fault")
 
 
@@ -206,7 +208,7 @@ def test_a_fault_is_named_whole_at_the_foot_wherever_its_row_is(tmp_path: Path) 
     assert main(["run", str(queue), "--trace", str(file)]) == 1
     program = Scoped(TraceFile(file, Library((shipped_tables(),))))
     assert "HOMING_REQUIRED" not in program.text()
-    program.press("f")
+    program.press(*["tab"] * 6, "n")
     assert "HOMING_REQUIRED" in program.text() and "run.fault" not in program.text()
 
 
@@ -244,7 +246,7 @@ def test_a_run_without_a_tick_says_so_and_takes_every_key(square: TraceFile, mon
     monkeypatch.setattr(square, "last_tick", -1)
     program = Scoped(square, live=True)
     assert "Nothing was run yet." in program.text()
-    for name in (name for key in SCOPE_KEYS for name in key.names if name not in ("g", "o")):
+    for name in (name for key in SCOPE_KEYS for name in key.names if name not in ("g", "ctrl o")):
         program.press(name)
     assert "Nothing was run yet." in program.text()
 
@@ -262,14 +264,14 @@ PATIENCE_S = 60.0
 def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(background, "SHOWN_AFTER_S", PATIENCE_S)
     program = Scoped(square, live=True)
-    program.press("o", *"a.trace", "enter")
+    program.press("ctrl o", *"a.trace", "enter")
     assert program.runs.opened[-1] == "a.trace" and "following" not in program.text() and program.cursor() == 0
     program.runs.answer = ("a.trace:3: torn",)
-    program.press("right", "o", "enter")
+    program.press("right", "ctrl o", "enter")
     assert "a.trace:3: torn" in program.text()
     program.press("enter")
     assert program.cursor() == 1
-    program.press("m")
+    program.press("f6")
     assert "following" in program.text()
 
 
@@ -290,7 +292,7 @@ def test_a_long_file_is_read_beside_the_screen(
         return square, ()
 
     monkeypatch.setattr(program.runs, "open_trace", read)
-    program.press("o", *"long.trace", "enter")
+    program.press("ctrl o", *"long.trace", "enter")
     assert half.wait(PATIENCE_S)
     program.app.turn()
     assert "reading long.trace: 50%" in program.text()

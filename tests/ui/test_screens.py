@@ -15,6 +15,7 @@ from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import CHOICES, Files
 from drillctl.ui.pcb_drill.side_window import side_pages
 from drillctl.ui.screens.jog_controls import JOG_SIZES, MM, STEPS
+from drillctl.ui.widgets.keys import STOP
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import MachineView, ToolWanted
 from drillctl.viewmodel.job_options import JobOptions
@@ -45,9 +46,9 @@ REQUESTS = [
     ("page up", ("jog", "z", -12)),
     ("page down", ("jog", "z", 12)),
 ]
-OPENING = {"s": "Drill 4 holes of four.drl?", "f": "../", "h": "Number, 1 to 4:", "t": "X and Y in mm", "+": "step 120",
-           "=": "step 120", "-": "step 3", "m": "jog step 1 mm", "c": "no tool is waited for",
-           "e": "board blinker.drl", "z": "zoom 2", "Z": "zoom 1", "w": "the whole board", "v": "tool numbers",
+OPENING = {"s": "Drill 4 holes of four.drl?", "f": "../", "g": "Number, 1 to 4:", "t": "X and Y in mm", "+": "step 120",
+           "=": "step 120", "-": "step 3", "*": "jog step 1 mm", "c": "no tool is waited for",
+           "e": "board blinker.drl", "z": "zoom 2", "Z": "zoom 1", "w": "the whole board", "y": "tool numbers",
            **{f"shift {way}": "the whole board is seen" for way in ("left", "right", "up", "down")}}  # fmt: skip
 
 
@@ -66,7 +67,7 @@ def test_the_other_keys_of_drilling_show_something(key: str, shown: str) -> None
 
 
 def test_every_key_of_drilling_is_tried() -> None:
-    assert {name for key in Drilling.keys for name in key.names} == {*dict(REQUESTS), *OPENING, "tab"}
+    assert {name for key in Drilling.keys for name in key.names} == {*dict(REQUESTS), *OPENING, "tab"} - {*STOP.names}
 
 
 def test_drilling_without_a_board_says_how_one_is_opened() -> None:
@@ -99,7 +100,7 @@ def test_step_sizes_end_at_both_ends() -> None:
 
 def test_step_sizes_in_millimetres_are_the_axis_s_steps_and_each_unit_keeps_its_size() -> None:
     program = Program(FakeConsole())
-    program.press("m", "right", "-", "right", "+", "+", "up", "m", "right")
+    program.press("*", "right", "-", "right", "+", "+", "up", "*", "right")
     assert program.console.asked == [("jog", "x", 47), ("jog", "x", 5), ("jog", "y", 472), ("jog", "x", 12)]
     assert JOG_SIZES[MM] == (0.1, 1, 10)
 
@@ -115,10 +116,10 @@ def test_the_interrupt_frequency_is_typed_under_configuration() -> None:
 
 def test_going_to_a_hole_and_to_a_typed_place() -> None:
     program = Program(FakeConsole(loaded=BOARD))
-    program.press("h", "3", "enter")  # instead of the 1 that was proposed
+    program.press("g", "3", "enter")  # instead of the 1 that was proposed
     program.press("t", *["backspace"] * 3, *"12,7 -3.5", "enter")
     assert program.console.asked == [("go_to", 40.0, 20.0), ("go_to", 12.7, -3.5)]
-    program.press("h", "9", "enter")
+    program.press("g", "9", "enter")
     assert "there is no hole '9'" in program.text() and len(program.console.asked) == 2
 
 
@@ -266,13 +267,13 @@ def test_loading_tells_format_reason_tools_size_estimate_and_warnings(folder: Pa
 
 def test_placing_reads_the_file_anew_and_a_refused_one_changes_nothing(folder: Path) -> None:
     program = files_program()
-    program.press("down", "down", "enter", "m", "t")
+    program.press("down", "down", "enter", "m", "r")
     assert program.console.asked[-1][2] == JobOptions(mirror="x", rotate_deg=90.0)
     program.console.answer = ("beyond the reach: X 400 mm",)
     program.press("v", *["backspace"] * 3, *"400 0", "enter")
     assert "beyond the reach" in program.text()
     program.console.answer = ()
-    program.press("enter", "r")
+    program.press("enter", "#")
     assert program.console.asked[-1][2] == JobOptions(mirror="x", rotate_deg=90.0, order="nearest")
 
 

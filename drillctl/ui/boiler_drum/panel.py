@@ -15,7 +15,7 @@ from drillctl.ui.boiler_drum.programming import HEX_KEYS, Programming
 from drillctl.ui.screens.jog_controls import STEPS, JogControls
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.tick_rate import ask_tick_hz
-from drillctl.ui.widgets.keys import STOP_JOB, Key, called
+from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import Console, MachineView
@@ -38,7 +38,6 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key((" ",), N_("Space"), "pause", N_("the pause switch: brakes down the ramps"), N_("Pause")),
         Key(("g",), "G", "resume", N_("CONT: goes on after a pause"), "CONT"),
         Key(("z",), "Z", "return_to_zero", N_("ZERO: the tool back to zero, then the large carriage"), "ZERO"),
-        Key((STOP_JOB,), "X", "stop", N_("ends the program; the position is kept")),
         Key(("left",), N_("Left"), "jog_back", N_("X-: the large carriage back by a step"), argument=0),
         Key(("right",), N_("Right"), "jog_on", N_("X+: the large carriage on by a step"), argument=0),
         Key(("down",), N_("Down"), "jog_back", N_("Y-: the tool out by a step"), argument=1),

@@ -65,7 +65,7 @@ def placing_lines(options: JobOptions, keys: Sequence[Key]) -> list[str]:
             label, value = (_(OTHER_OPTIONS[key.method][0]), OTHER_OPTIONS[key.method][1](options))
         else:
             continue
-        lines.append(f"{_(key.printed):3}{label:{LABEL_COLUMNS}}{value}")
+        lines.append(f"{_(key.printed):4}{label:{LABEL_COLUMNS}}{value}")
     return [*lines, "", *_further(options)]
 
 

@@ -21,7 +21,7 @@ from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.tick_rate import ask_tick_hz
-from drillctl.ui.widgets.keys import STOP_JOB, Key, called
+from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import Console, MachineView
@@ -36,7 +36,7 @@ BOARD_KEYS = (
     Key(("shift right",), N_("Shift Right"), "pan_board", N_("the board further to the right"), argument="right"),
     Key(("shift up",), N_("Shift Up"), "pan_board", N_("the board further up"), argument="up"),
     Key(("shift down",), N_("Shift Down"), "pan_board", N_("the board further down"), argument="down"),
-    Key(("v",), "V", "tool_numbers", N_("holes to do by the numbers of their tools, or as dots")),
+    Key(("y",), "Y", "tool_numbers", N_("holes to do as numbers of their tools, or as dots")),
 )
 ZOOMS = {"closer": STEP, "further": 1 / STEP}
 PANS = {"left": (-0.25, 0), "right": (0.25, 0), "up": (0, -0.25), "down": (0, 0.25)}  # parts of what is seen
@@ -51,7 +51,6 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         Key(("s",), "S", "start", N_("drills the board; asks first"), N_("Start")),
         Key(("d",), "D", "dry_run", N_("goes to every hole with the drill up"), N_("Dry")),
         Key((" ",), N_("Space"), "hold_or_resume", N_("holds the job, or goes on with it"), N_("Hold")),
-        Key((STOP_JOB,), "X", "stop", N_("ends the job; the position is kept"), N_("Stop")),
         Key(("c",), "C", "tool_changed", N_("the tool that the job waits for is in; asks first")),
         Key(("i",), "I", "initialise", N_("head up, then X=0, Y=0 by the limit sensors"), N_("Init")),
         Key(("f",), "F", "files", N_("opens the files"), N_("Files")),
@@ -59,7 +58,7 @@ class Drilling(JogControls, urwid.WidgetWrap[urwid.Widget]):
         *JOG_KEYS,
         *BOARD_KEYS,
         Key(("tab",), "Tab", "turn_page", N_("the next page of the window at the right")),
-        Key(("h",), "H", "go_to_hole", N_("goes over a hole, by its number")),
+        Key(("g",), "G", "go_to_hole", N_("goes over a hole, by its number")),
         Key(("t",), "T", "type_place", N_("goes to X and Y in mm, typed")),
         Key(("b",), "B", "set_base", N_("takes this place as the working base")),
         Key(("a",), "A", "acknowledge", N_("the fault has been seen")),

@@ -18,7 +18,7 @@ PLACING_ITEMS = (
     Item(N_("Measured &holes..."), "files", "align"),
 )
 BASING_ITEMS = (
-    Item(N_("Type &X and Y..."), "drilling", "type_place"),
+    Item(N_("Type X and &Y..."), "drilling", "type_place"),
     Item(N_("Go to a &hole..."), "drilling", "go_to_hole"),
     Item(N_("Set the &base here"), "drilling", "set_base"),
 )

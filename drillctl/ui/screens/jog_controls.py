@@ -52,7 +52,7 @@ JOG_KEYS = (
     Key(("page down",), "PgDn", "jog_on", N_("third axis on: the head down"), argument=2),
     Key(("+", "="), "+", "step_size", N_("the next step size of a jog"), argument=1),
     Key(("-",), "-", "step_size", N_("the step size before"), argument=-1),
-    Key(("m",), "M", "jog_unit", N_("step sizes in millimetres, or in steps again")),
+    Key(("*",), "*", "jog_unit", N_("step sizes in millimetres, or in steps again")),
 )
 
 

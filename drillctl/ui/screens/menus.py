@@ -14,7 +14,7 @@ TESTS = Item(N_("&Tests"), items=(
     Item(N_("P&lant and faults"), "plant"),
     Item(N_("S&cope"), items=(
         Item(N_("&The machine's run"), "scope", "show_machine"),
-        Item(N_("&Open a trace..."), "scope", "open_file"),
+        Item(N_("&Open a trace..."), "scope", "open"),
     )),
 ))  # fmt: skip
 HELP = Item(N_("&Help"), items=(

@@ -28,7 +28,7 @@ class PhaseEditor(TableEditor):
     kind = "phase"
     title = N_("Phase table")
     keys = (
-        Key((" ",), N_("Space"), "toggle", N_("turns the cell over"), N_("Cell")),
+        Key((" ",), N_("Space"), "toggle", N_("switches the wire on or off in this column"), N_("Cell")),
         Key(("left",), N_("Left"), "sideways", N_("a column to the left"), argument=-1),
         Key(("right",), N_("Right"), "sideways", N_("a column to the right"), argument=1),
         Key(("up",), N_("Up"), "upwards", N_("a row up"), argument=-1),
@@ -36,7 +36,7 @@ class PhaseEditor(TableEditor):
         Key(("insert",), "Ins", "insert", N_("the column once more, beside it"), N_("Insert")),
         Key(("delete",), "Del", "remove", N_("takes the column away"), N_("Remove")),
         Key(("m",), "M", "mirror", N_("rows for motion backwards with forcing mirrored, or none again"), N_("Mirror")),
-        Key(("b",), "B", "change_bit", N_("changes the bit that switches the wire, for the motor shown"), N_("Bit")),
+        Key(("f6",), "F6", "change_bit", N_("another bit to switch the wire, for the motor shown"), N_("Bit")),
         Key(("tab",), "Tab", "next_motor", N_("the bits of the next motor that uses this table"), N_("Motor")),
         *TABLE_KEYS,
     )

@@ -22,9 +22,8 @@ class PortScreen(FoldedScreen):
 
     title = N_("Port")
     keys = (
-        Key(("t", "f5"), "T", "test", N_("opens the configured port and asks it; nothing moves"), N_("Test")),
-        Key(("r",), "R", "go_real", N_("drives the real machine on the configured port; asks first"), N_("Real")),
-        Key(("s",), "S", "go_simulated", N_("back to the simulated machine; asks first"), N_("Simulated")),
+        Key(("f5",), "F5", "test", N_("opens the configured port and asks it; nothing moves"), N_("Test")),
+        Key(("f6",), "F6", "swap", N_("real or simulated machine, in turn; asks first"), N_("Real or not")),
     )
 
     def __init__(self, console: Console, shell: Shell, control: PortControl):
@@ -48,7 +47,14 @@ class PortScreen(FoldedScreen):
         self._report = self._control.test()
         self._invalidate()
 
-    def go_real(self) -> None:
+    def swap(self) -> None:
+        """Asks, then changes to the machine that is not driven now: the real one, or the simulated one."""
+        if self._port.real:
+            self._go_simulated()
+        else:
+            self._go_real()
+
+    def _go_real(self) -> None:
         """Asks, then changes to the real machine; its position is not known then."""
         if not self._port.configured:
             self._changed(self._control.go_real())
@@ -56,7 +62,7 @@ class PortScreen(FoldedScreen):
         question = _("Drive the real machine on {port}? It may move from now on.")
         self._shell.ask(question.format(port=self._port.configured), lambda: self._changed(self._control.go_real()))
 
-    def go_simulated(self) -> None:
+    def _go_simulated(self) -> None:
         """Asks, then changes to the simulated machine; the outputs of the real one go off."""
         question = _("Go back to the simulated machine? The outputs go off, the position is lost.")
         self._shell.ask(question, lambda: self._changed(self._control.go_simulated()))
@@ -77,7 +83,7 @@ def port_lines(port: PortView, report: PortReport | None) -> list[Line]:
         _labelled(_("Its port"), port.configured or _("none drives this card")),
         [""],
     ]
-    return [*lines, *(_report_lines(report) if report else [[_("T tests the configured port: nothing moves.")]])]
+    return [*lines, *(_report_lines(report) if report else [[_("F5 tests the configured port: nothing moves.")]])]
 
 
 def _report_lines(report: PortReport) -> list[Line]:

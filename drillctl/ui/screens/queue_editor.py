@@ -30,12 +30,13 @@ class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
     keys = (
         Key(("tab",), "Tab", "complete", N_("completes the word before the cursor"), N_("Complete")),
         Key(("f5",), "F5", "run_all", N_("runs the whole queue; goes on where the clock was stopped"), N_("Run")),
-        Key(("f6",), "F6", "run_to_cursor", N_("runs down to the cursor's line, this one too"), N_("To cursor")),
-        Key(("f7",), "F7", "run_line", N_("runs the cursor's line alone and goes to the next"), N_("One")),
-        Key(("f8",), "F8", "tick", N_("one tick of the queue, then the clock waits"), N_("Tick")),
+        Key(("ctrl d",), "Ctrl-D", "run_to_cursor",
+            N_("runs down to the cursor's line, this one too"), N_("To cursor")),
+        Key(("ctrl n",), "Ctrl-N", "run_line", N_("runs the cursor's line alone and goes to the next"), N_("One")),
+        Key(("ctrl t",), "Ctrl-T", "tick", N_("one tick of the queue, then the clock waits"), N_("Tick")),
         *UNDO_KEYS,
         Key(("f2",), "F2", "save", N_("saves the queue to a file"), N_("Save")),
-        Key(("f3",), "F3", "open", N_("opens a file"), N_("Open")),
+        Key(("ctrl o",), "Ctrl-O", "open", N_("opens a file"), N_("Open")),
     )
 
     def __init__(

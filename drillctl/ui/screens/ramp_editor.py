@@ -33,7 +33,7 @@ class RampEditor(TableEditor):
         Key(("up",), N_("Up"), "upwards", N_("a state up"), argument=-1),
         Key(("down", "enter"), N_("Down"), "upwards", N_("a state down"), argument=1),
         Key(("backspace",), "Backspace", "rub_out", N_("takes the last digit away")),
-        Key(("a", "insert"), "A", "more", N_("a pair of states more; numbers are proposed"), N_("Add")),
+        Key(("insert",), "Ins", "more", N_("a pair of states more; numbers are proposed"), N_("Add")),
         Key(("delete",), "Del", "fewer", N_("takes the outermost pair of states away"), N_("Remove")),
         Key((), "0-9 -", "type", N_("types over the number"), N_("Number")),  # which one: see keypress
         *TABLE_KEYS,

@@ -9,7 +9,7 @@ import urwid
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.scope_curve import height_of
-from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS, SEARCH_OF
+from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, KINDS, SCOPE_KEYS, SEARCH_OF
 from drillctl.ui.screens.scope_measure import POSITION, command_after
 from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
 from drillctl.ui.screens.shell import Shell
@@ -40,6 +40,7 @@ class Scope(urwid.Widget):
     ):
         self._shell, self._runs, self._plain = shell, runs, plain
         self._file = self._sought = ""
+        self._kind: Find = KINDS[0]  # of event, to be looked for
         self._live = source is None
         self._look_at(source or runs.running())
 
@@ -89,7 +90,7 @@ class Scope(urwid.Widget):
         self._live = True
         self._look_at(self._runs.running())
 
-    def open_file(self) -> None:
+    def open(self) -> None:
         """Asks for a trace file, then shows its run."""
         self._shell.ask_text(_("Open a trace"), _("File:"), self._file, self._open)
 
@@ -153,13 +154,23 @@ class Scope(urwid.Widget):
         """Asks for a part of a command's text, then moves the cursor to the next such command."""
         self._shell.ask_text(_("Find a command"), _("A part of its text:"), self._sought, self._search)
 
-    def find_on(self, what: Find) -> None:
-        """Moves the cursor to the next such event."""
-        self._find(what, FORWARDS)
+    def next_kind(self) -> None:
+        """Chooses the next kind of event to be looked for, and says which."""
+        self._kind = KINDS[(KINDS.index(self._kind) + 1) % len(KINDS)]
+        self._say(_("N: {event}").format(event=_(SEARCH_OF[self._kind].on)))
 
-    def find_back(self, what: Find) -> None:
-        """Moves the cursor to such an event before it."""
-        self._find(what, BACKWARDS)
+    def look_for(self, kind: Find) -> None:
+        """Chooses a kind of event, and moves the cursor to the next one."""
+        self._kind = kind
+        self.find_on()
+
+    def find_on(self) -> None:
+        """Moves the cursor to the next event of the kind that was chosen."""
+        self._find(FORWARDS)
+
+    def find_back(self) -> None:
+        """Moves the cursor to the event of the kind that was chosen before it."""
+        self._find(BACKWARDS)
 
     def row(self, by: int) -> None:
         """Moves the bar down by so many rows."""
@@ -232,10 +243,10 @@ class Scope(urwid.Widget):
 
         self._shell.work(read, opened)
 
-    def _find(self, what: Find, direction: int) -> None:
-        tick = self._source.find(what, self._view.cursor, direction, self._rows.at)
+    def _find(self, direction: int) -> None:
+        tick = self._source.find(self._kind, self._view.cursor, direction, self._rows.at)
         if tick is None:
-            self._say(_(SEARCH_OF[what].none))
+            self._say(_(SEARCH_OF[self._kind].none))
         else:
             self._go(tick)
 

@@ -24,7 +24,7 @@ class Signals(urwid.Widget):
     _selectable = True
     title = N_("Signals")
     keys = (
-        Key((" ", "enter"), N_("Space"), "toggle", N_("switches the output over, at rest"), N_("Switch")),
+        Key((" ", "enter"), N_("Space"), "toggle", N_("switches the output on or off, at rest"), N_("Switch")),
         Key(("left",), N_("Left"), "sideways", N_("the signal before"), argument=-1),
         Key(("right",), N_("Right"), "sideways", N_("the next signal"), argument=1),
         Key(("up",), N_("Up"), "downwards", N_("a line up"), argument=-1),

@@ -35,9 +35,9 @@ class TableList(urwid.WidgetWrap[urwid.Widget]):
 
     keys = (
         Key(("enter",), "Enter", "edit", N_("opens the table"), N_("Open")),
-        Key(("c",), "C", "copy", N_("copies the table under another name"), N_("Copy")),
-        Key(("d",), "D", "compare", N_("what differs between this table and another"), N_("Differences")),
-        Key(("r",), "R", "reset", N_("takes your own copy away: the shipped table is in force again"), N_("Reset")),
+        Key(("f7",), "F7", "copy", N_("copies the table under another name"), N_("Copy")),
+        Key(("f3",), "F3", "compare", N_("what differs between this table and another"), N_("Differences")),
+        Key(("f8",), "F8", "reset", N_("takes your own copy away: the shipped table is in force again"), N_("Reset")),
         Key(("delete",), "Del", "delete", N_("deletes a table of your own that was never shipped"), N_("Delete")),
     )
 

@@ -27,17 +27,21 @@ class Key(NamedTuple):
 # Live everywhere, in dialogs, menus and fields too: looked at before anything else. F10 always; the key that can also
 # be typed is a character only in a text field, while nothing moves.
 TYPED_STOP = "!"
-STOP_JOB = "x"  # ends the job, on the screens that run one and in boxes over any screen
 EMERGENCY = Key(
     ("f10", TYPED_STOP), "F10 !", "emergency_stop",
     N_("emergency stop, always; ! is typed in fields at rest"), N_("E-STOP"),
 )  # fmt: skip
+
+# Live everywhere as well, while anything is under way. The letter is a letter in a text field.
+STOP_LETTER, STOP_IN_TEXT = "x", "ctrl x"
+STOP = Key((STOP_IN_TEXT, STOP_LETTER), "X", "stop", N_("ends the job, always; in a text field: Ctrl-X"), N_("Stop"))
 
 # Looked at before anything else too, so that a dialog can be copied.
 COPY = Key(("ctrl g",), "Ctrl-G", "copy_screen", N_("keeps a picture of the screen (SVG) in this folder"))
 
 FRAME_KEYS = (
     EMERGENCY,
+    STOP,
     Key(("f1", "?"), "F1 ?", "help", N_("explains the screen and lists its keys"), N_("Help")),
     Key(("f9",), "F9", "menu", N_("the menu; or Alt with a letter of it"), N_("Menu")),
     Key(("esc",), "Esc", "back", N_("closes what is on top"), N_("Back")),
