@@ -101,7 +101,7 @@ def _tell(account: "Account", session: "Session") -> None:
     for warning in left.warnings:
         streams.tell(f"warning: {warning}")
     if account.head.options.get("spot") is not None and account.holes_begun:
-        spotted = "holes of the tool in hand may bear their spot already; they are marked again, in the same place"
+        spotted = "holes of the present tool may have their spot already; they are spotted again, in the same place"
         streams.tell(f"{spotted}")
     if account.again is not None:
         x_mm, y_mm = left.file_place(account.again)

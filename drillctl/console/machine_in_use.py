@@ -93,7 +93,7 @@ class MachineInUse:
         if self.port.real:
             return (
                 Message(
-                    "a real machine hangs on {port} and has no plant; go back to the simulated one first (Port)",
+                    "a real machine is connected to {port} and has no plant; go back to the simulated one first (Port)",
                     port=self.running.port,
                 ),
             )

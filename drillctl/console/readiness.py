@@ -16,7 +16,7 @@ def occupied(link: Link, at_work: bool) -> Problems:
     """Why not even a return to zero can be begun now; ``at_work``: a job, a jog or an initialisation is on its way."""
     status = link.status()
     if link.lost():
-        return (Message("the ticker's process is gone; acknowledge, and it is started anew"),)
+        return (Message("the ticker's process has ended; acknowledge, and it is started again"),)
     if status["condition"] == Condition.LATCHED:
         return (Message("a fault waits to be acknowledged"),)
     return (BUSY,) if at_work or status["moving"] else ()

@@ -213,7 +213,7 @@ def _unlinked(own: Path) -> Problems:
 def _locked(source: Source, setting: Setting) -> Message:
     line = source.line_of("locked")
     return Message(
-        "{field} is locked in line {line} of the machine's file; whoever keeps the file opens it there",
+        "{field} is locked in line {line} of the machine's file; it can be unlocked only there",
         field=setting.key,
         line=line,
     )

@@ -191,7 +191,7 @@ def _fit_affine(file_mm: Millimetres, machine_mm: Millimetres) -> Affine:
     most, least = np.linalg.svd(linear, compute_uv=False)
     if least <= LINE_RATIO * most:
         raise AlignmentError(
-            Message("the measured places press the board flat onto a line: were they confused with one another?")
+            Message("the measured places lie on one line, the holes do not: were they mixed up?")
         )
     return Affine.of(linear, machine_mm.mean(axis=0) - linear @ file_mm.mean(axis=0))
 

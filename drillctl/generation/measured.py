@@ -59,8 +59,8 @@ def _row(line: str, name: str, number: int) -> list[float]:
         column = words[wanted].start() + 1 if len(words) > wanted else words[-1].end() + 1
         raise AlignmentError(
             Counted(
-                "{count} number where {wanted} are meant",
-                "{count} numbers where {wanted} are meant",
+                "{count} number where {wanted} are expected",
+                "{count} numbers where {wanted} are expected",
                 len(words),
                 wanted=" ".join(COLUMNS),
             ).at(name, number, column)

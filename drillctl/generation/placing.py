@@ -89,7 +89,7 @@ class Affine:
     @cached_property
     def _inverse(self) -> Affine:
         if abs(np.linalg.det(self.linear)) < 1e-12:
-            raise PlacingError(Message("the map presses the board flat onto a line; there is no way back from it"))
+            raise PlacingError(Message("the map flattens the board onto a line and can not be inverted"))
         back = np.linalg.inv(self.linear)
         return Affine.of(back, -back @ self.shift_mm)
 

@@ -60,7 +60,7 @@ class TableBench:
         machine = self._machine()
         axes = self._axes(kind, name, table if isinstance(table, PhaseTable) else None)
         if machine is None or not axes:
-            return None, (Message("no motor of the machine at hand has the wires of this table"),)
+            return None, (Message("no motor of the machine in use has the wires of this table"),)
         in_use = getattr(axes[0], kind).name == name
         runs = _runs([_with(axis, kind, table) for axis in axes], machine, watch)
         return BenchReport(machine.tick_hz, in_use, runs), ()

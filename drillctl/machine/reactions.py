@@ -16,7 +16,7 @@ _ENDS = Message("the fault ends the process that would brake")
 # Why a fault's reaction can't be chosen.
 FIXED: Mapping[str, Message] = {
     "EMERGENCY_STOP": Message("emergency_stop says what the machine does"),
-    "PORT_LOST": Message("the port is gone, and nothing that is put out reaches the motors"),
+    "PORT_LOST": Message("the port is gone: outputs do not reach the motors any more"),
     "HEARTBEAT_LOST": _ENDS,
     "TICKER_LOST": _ENDS,
     "PORT_SLOW": Message("the port does not put out what it is given"),
@@ -30,9 +30,9 @@ NOT_KEPT: Mapping[str, Message] = {
 }
 # Why a machine can't go home by its sensors after a fault.
 NO_RETURN: Mapping[str, Message] = {
-    "HOMING_NOT_FOUND": Message("the way home has just failed"),
-    "HEAD_NOT_UP": Message("the way home begins with raising the head"),
-    "SENSOR_CONTRADICTION": Message("the way home needs sensors that can be trusted"),
+    "HOMING_NOT_FOUND": Message("the return to zero has just failed"),
+    "HEAD_NOT_UP": Message("the return to zero begins by raising the head"),
+    "SENSOR_CONTRADICTION": Message("the return to zero needs sensors that can be trusted"),
 }
 ANY = (
     "LIMIT", "SOFT_LIMIT", "HOMING_REQUIRED", "DRILLING_TIME", "INPUT_TIMEOUT", "LINE_MISMATCH", "BAD_COMMAND",

@@ -31,7 +31,7 @@ class PlantChoice:
         if kind == NONE:
             return IDEAL_PLANT
         if kind not in (IDEAL, DYNAMIC):
-            raise PlantRefused(Message("plant {described!r} is none that can be built", described=described[:60]))
+            raise PlantRefused(Message("plant {described!r} can't be built", described=described[:60]))
         return cls(kind, tuple(faults), int(seed[:20]) if seed.isdecimal() else 0)
 
     def __str__(self) -> str:

@@ -74,7 +74,7 @@ class Faults:
                     )
                 )
             if (fault.name, fault.part) in self._values:
-                raise PlantRefused(Message("fault {fault}: told twice", fault=fault))
+                raise PlantRefused(Message("fault {fault}: given twice", fault=fault))
             self._values[fault.name, fault.part] = fault.value
 
     def of(self, name: str, part: str = "") -> float | None:
@@ -99,7 +99,7 @@ def parse_fault(text: str) -> Fault:
             )
         )
     if bool(found[2]) != bool(kind.part):
-        raise PlantRefused(Message("fault {text!r}: it is told as {usage}", text=text[:60], usage=usage(found[1])))
+        raise PlantRefused(Message("fault {text!r}: it is written {usage}", text=text[:60], usage=usage(found[1])))
     if not kind.least <= float(found[3]) <= kind.most:
         raise PlantRefused(
             Message(

@@ -86,7 +86,7 @@ class Watch:
     def hear(self, message: BoardMessage) -> None:
         """Judges a message. Raises PortLost for a greeting, and for a pin that is not as it was set."""
         if isinstance(message, Firmware | Version):
-            raise self._lost(Message("the board has greeted anew, so it was reset in mid-run"))
+            raise self._lost(Message("the board reported a new start, so it was reset in mid-run"))
         if not isinstance(message, PinState):
             return
         wanted = self._wanted.get(message.pin)

@@ -88,7 +88,7 @@ def read_map(file: Path) -> CardMap:
     data = read_start(file, LARGEST_FILE_BYTES + 1)
     words = memoryview(data[: len(data) // WORD_BYTES * WORD_BYTES]).cast("I")
     if not _is_map(words):
-        raise PortRefused("mapped", Message("{file} is there, and no image of a mapped card", file=file))
+        raise PortRefused("mapped", Message("{file} exists and is not the image of a mapped card", file=file))
     cards = words[2]
     outputs, inputs = (_image(words[start : start + cards]) for start in (_OUTPUTS, _OUTPUTS + cards))
     return CardMap(words[_FLUSHES], outputs, inputs)

@@ -5,24 +5,24 @@ Rule: what execution/fastforward can work out is taken over in whole batches of 
 where nothing live is attached.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution.fastforward import Batch, Engine
+from drillctl.execution.fastforward.quiet import Quiet, foresee_quiet, leave_quiet
 from drillctl.kmd import Condition, Queue
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.plant.forecast import PlantForecast
 from drillctl.portio.simulated import SimulatedCard
-from drillctl.ports import CARD_BITS
 from drillctl.ticker.sampler import Sampler, signals
+from drillctl.ticker.tape_recorder import TapeRecorder
 from drillctl.ticker.ticker import NEVER, Ticker
-from drillctl.trace import Recorder, Segments, Signal, Trace
-from drillctl.trace.segments import OUTPUT, without_outputs
-from drillctl.trace.tapes import DARK, ImagePool, Images, Tape, images
+from drillctl.trace import Recorder, Segments, Trace
+from drillctl.trace.tapes import Images, Tape, images
 
 FAST, TICK = "fast", "tick"
 MOST_TICKS = 1 << 22  # of a batch whose images are put together at once; a command that is longer is ticked
@@ -160,12 +160,26 @@ class FastTicker(Ticker):
         going_on = True
         while going_on:
             touches, first = self._touches, m.tick
-            self._step(before)
-            if recording is not None:
+            quiet = foresee_quiet(m, self.forecast, before - first) if self.in_batches else None
+            if quiet is not None:
+                self._pass_quiet(quiet)
+            else:
+                self._step(before)
+            if recording is not None and quiet is not None:
+                recording.note_quiet(quiet)
+            elif recording is not None:
                 recording.note(self.places() if self._touches != touches else None, m.tick - first)
             going_on = self._goes_on() and m.tick < before
         if recording is not None and self._undisturbed() and not m.busy:
             recording.end()
+
+    def _pass_quiet(self, quiet: Quiet) -> None:
+        """Takes a stretch over as if it had been ticked: into the record and the state of the machine."""
+        if self.sampler is not None:
+            self.sampler.sample_quiet(quiet, self.controller.tick, self.forecast)
+            if isinstance(self.sampler.recorder, TapeRecorder):
+                self.sampler.recorder.lay_strip(self.controller.tick, quiet.shown)
+        leave_quiet(self.controller, self.forecast, quiet)
 
     def _step(self, before: int) -> None:
         """Passes the ticks before the next column together, as nothing of the record changes in them; or runs one."""
@@ -179,52 +193,3 @@ class FastTicker(Ticker):
         """Whether there was no stop, no fault, no gap and no request in this tick."""
         m = self.controller
         return m.condition == Condition.READY and not (m.served or m.late)
-
-
-class TapeRecorder(Recorder):
-    """A Recorder whose outputs go onto ``tapes`` tapes of a pool."""
-
-    def __init__(self, signals: Sequence[Signal], pool: ImagePool, tapes: int) -> None:
-        super().__init__(signals)
-        self._cards = {n: int(m[1]) for n, s in enumerate(signals) if (m := OUTPUT.fullmatch(s.name))}
-        self._pool = pool
-        self._tapes: list[list[Tape]] = [[] for _ in range(tapes)]
-        self._until = 0  # what comes before is on the tapes
-        self._images = [0]  # of the ticked stretch since then, and the ticks they begin at
-        self._begins = [0]
-
-    def set(self, index: int, tick: int, value: int) -> None:
-        """Like the method of Recorder; a card's outputs are put into the image of the tick."""
-        if index not in self._cards:
-            super().set(index, tick, value)
-            return
-        shift, image = CARD_BITS * self._cards[index], self._images[-1]
-        changed = image ^ (value ^ (image >> shift & (1 << CARD_BITS) - 1)) << shift
-        if changed != image:
-            self._images.append(changed)
-            self._begins.append(tick)
-
-    def lay(self, first: int, tapes: Sequence[Tape], end: int, image: int) -> None:
-        """A batch's tapes, from tick ``first`` up to ``end``, which leaves this image standing."""
-        self._wind(first)
-        for kept, tape in zip(self._tapes, tapes, strict=True):
-            kept.append(tape)
-        self._until, self._images, self._begins = end, [image], [end]
-
-    def segments(self, end: int, header: Iterable[tuple[str, str]]) -> Segments:
-        """The run of ``end`` ticks."""
-        self._wind(end)
-        trace = self.finish(end, header)
-        pool = self._pool.images.copy()
-        return Segments(without_outputs(trace), trace.signals, pool, tuple(map(Tape.joined, self._tapes)))
-
-    def _wind(self, end: int) -> None:
-        """What was ticked up to ``end``, as one strip on the first tape."""
-        ticks = end - self._until
-        if not ticks:
-            return
-        shown_for = np.diff(np.array([*self._begins, end]))
-        start = self._pool.add(np.repeat(np.array(self._images, np.uint64), shown_for))
-        for number, tape in enumerate(self._tapes):
-            tape.append(Tape.steady(self._pool.steady(DARK), ticks) if number else Tape.whole(start, ticks))
-        self._until, self._images, self._begins = end, self._images[-1:], [end]

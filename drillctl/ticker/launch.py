@@ -144,7 +144,7 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
         why = message_of(error).at(error.filename) if error.filename else message_of(error)
         raise PortRefused(
             running.port,
-            Message("no process of its own for the ticks: {why}", why=why),
+            Message("the ticks have no process of their own: {why}", why=why),
         ) from error
 
 

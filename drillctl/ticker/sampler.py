@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from drillctl.execution import Controller
 from drillctl.execution.axis import Axis
 from drillctl.execution.fastforward import Batch
+from drillctl.execution.fastforward.quiet import Quiet
 from drillctl.kmd import Fault, Op, Request, RequestBit
 from drillctl.kmd.commands import BY_OP
 from drillctl.kmd.queue import pace_of
@@ -21,10 +22,12 @@ from drillctl.plant import Plant
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES
 from drillctl.plant.forecast import PlantForecast
 from drillctl.ports import CARD_BITS, CARD_MASK, word
+from drillctl.ticker.tape_recorder import TapeRecorder
 from drillctl.trace import Recorder, Signal, VcdVar, pack_command
 
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
 EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
+OF_AXIS = ("column", "position", "state")
 QUIET = 5  # signals in which a batch has nothing: request, hand, late, fault, pace
 _OUTPUT, _PACE = int(RequestBit.OUTPUT), int(RequestBit.PACE)  # plain integers: compared in every tick
 _REQUESTS = [request.name for request in Request if request]
@@ -78,11 +81,26 @@ class Sampler:
 
     def sample_outputs(self, images: NDArray[np.uint64], first: int) -> None:
         """After ticks from ``first`` on that have these output images (ticks,), in which nothing else has changed."""
-        assert isinstance(self.recorder, Recorder) and not self._derived
+        assert isinstance(self.recorder, Recorder)
         changes = np.flatnonzero(np.append(True, images[1:] != images[:-1]))
         for card in self._cards:
             words = images[changes] >> np.uint64(CARD_BITS * card) & np.uint64(CARD_MASK)
             self.recorder.extend(2 * card + 1, first + changes, words.astype(np.int64))
+
+    def sample_quiet(self, quiet: Quiet, first: int, forecast: PlantForecast) -> None:
+        """Before a stretch that begins at tick ``first`` is left, as ``sample_batch``; tapes take its outputs."""
+        if not isinstance(self.recorder, TapeRecorder):
+            self.sample_outputs(quiet.shown, first)
+        for number, axis in enumerate(self._m.axes if self._derived else ()):
+            motion = quiet.motion[number]
+            if motion is not None:
+                turns = np.full(motion.shape[1], axis.direction * axis.direction_sign)
+                self._extend_axis(self._first_of(number), number, motion, turns, first, forecast)
+
+    def _first_of(self, number: int) -> int:
+        """Returns the index of an axis's first signal."""
+        lanes = len(self._plant.lanes) if self._plant is not None else 0
+        return 2 * len(self._cards) + 1 + QUIET + number * (len(OF_AXIS) + lanes)
 
     def sample_batch(self, batch: Batch, images: NDArray[np.unsignedinteger] | None, first: int,
                      forecast: PlantForecast) -> None:  # fmt: skip
@@ -104,19 +122,24 @@ class Sampler:
         index += 1
         for quiet in range(index, index + QUIET):
             self.recorder.set(quiet, first, 0)
-        if self._derived:
-            self._extend_axes(self.recorder, index + QUIET, batch, first, forecast)
+        for number, axis in enumerate(self._m.axes if self._derived else ()):
+            motion = batch.motion(number)
+            _, column, position, _ = motion
+            self._extend_axis(self._first_of(number), number, motion, _turns(axis, column, position), first, forecast)
 
-    def _extend_axes(self, recorder: Recorder, index: int, batch: Batch, first: int, forecast: PlantForecast) -> None:
-        for number, axis in enumerate(self._m.axes):
-            ticks, column, position, state = batch.motion(number)
-            lanes: list[NDArray[np.int64]] = []
-            if self._plant is not None:
-                turns = _turns(axis, column, position)
-                lanes = forecast.lanes(number, axis.travelled * axis.direction_sign, turns, column)
-            for values in (column + 1, position, state, *lanes):
-                recorder.extend(index, first + ticks, values)
-                index += 1
+    def _extend_axis(self, index: int, number: int, motion: NDArray[np.int64], turns: NDArray[np.int64], first: int,
+                     forecast: PlantForecast) -> None:  # fmt: skip
+        """Notes an axis's signals, the first of which is at ``index``, from its motion (4, k), as Batch.motion has it.
+
+        turns  columns put out in each row, as the wires have it, (k,)
+        """
+        assert isinstance(self.recorder, Recorder)
+        ticks, column, position, state = motion
+        axis = self._m.axes[number]
+        travel = axis.travelled * axis.direction_sign
+        lanes = forecast.lanes(number, travel, turns, column) if self._plant is not None else []
+        for offset, values in enumerate((column + 1, position, state, *lanes)):
+            self.recorder.extend(index + offset, first + ticks, values)
 
     def _sample_axes(self, index: int, tick: int) -> None:
         put = self.recorder.set
@@ -140,7 +163,7 @@ def _turns(axis: Axis, column: NDArray[np.int64], position: NDArray[np.int64]) -
     if not len(made):
         return np.zeros(len(column), np.int64)
     put_out = np.diff(column, prepend=axis.column) != 0 if axis.length > 1 else steps != 0
-    following = np.minimum(np.searchsorted(made, np.arange(len(column))), len(made) - 1)
+    following = np.minimum(np.cumsum(steps != 0) - (steps != 0), len(made) - 1)
     return put_out * np.sign(steps[made[following]]) * axis.direction_sign
 
 
@@ -161,7 +184,7 @@ def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list
     ]
     if derived:
         for name in machine.axis_names:
-            found += [Signal(f"{name}.{field}", "count", False, True) for field in ("column", "position", "state")]
+            found += [Signal(f"{name}.{field}", "count", False, True) for field in OF_AXIS]
             found += [Signal(f"plant.{name}{lane}", "count", False, True) for lane in plant_lanes]
     return found
 
@@ -189,7 +212,7 @@ def vcd_layout(machine: Machine) -> list[VcdVar]:
     for axis in machine.axes:
         for wire, bit in zip(axis.phase.wire_names(), axis.wire_bits, strict=True):
             layout.append(VcdVar(axis.name, wire, "wire", f"out.{bit // CARD_BITS}", bit=bit % CARD_BITS))
-        for field in ("column", "position", "state"):
+        for field in OF_AXIS:
             layout.append(VcdVar(axis.name, field, "integer", f"{axis.name}.{field}"))
     for line in machine.input_lines:
         card, bit = divmod(line.bit, CARD_BITS)

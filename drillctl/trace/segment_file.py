@@ -149,7 +149,7 @@ def _unpacked(blocks: _Blocks) -> Segments:
             Message("{end} ticks; a trace in segments has at most {most}", end=end, most=MOST_TICKS)
         )
     if bits not in BITS or not tape_count:
-        raise ValueError(Message("no images of 32 or 64 bits"))
+        raise ValueError(Message("its images are not of 32 or 64 bits"))
     head = _head(next(blocks).decode(), next(blocks).decode(), bool(bare))
     pool = blocks.images(np.dtype(f"<u{bits // 8}"))
     tapes = [Tape(blocks.column(), blocks.column()) for _ in range(tape_count)]
@@ -173,7 +173,7 @@ def _check(tape: Tape, end: int, words: int) -> None:
     inside = (tape.start >= 0) & (tape.start <= words) & (tape.ticks > 0) & (tape.ticks <= words - tape.start)
     same_length = len(tape.start) == len(tape.ticks)
     if not same_length or not inside.all() or int(tape.ticks.sum()) != end:
-        raise ValueError(Message("a tape runs off its pool"))
+        raise ValueError(Message("a tape reaches beyond its image pool"))
 
 
 def _bare(header: Pairs) -> Pairs | None:

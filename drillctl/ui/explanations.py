@@ -36,7 +36,7 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
     "Files": (
         N_("Left, the drill files of a folder; right, what the chosen one says."),
         N_("Enter loads a file; Esc goes back to the machine, where S drills it."),
-        N_("The format of the numbers is recognised, and the reason is told."),
+        N_("The format of the numbers is recognised, and the reason is shown."),
         N_("Every change of placing or order reads the file anew."),
         N_("Placing and drilling: each option behind the key that changes it;"),
         N_("in a smaller window above the facts. Tab and arrows scroll them."),

@@ -83,7 +83,7 @@ class HelpActions(Boxes):
     def notices(self) -> None:
         """Shows all notices of the machine; the line on the machine has room for the last one only."""
         notices = self._console.view().notices
-        self.message(_("Notices"), [translated(notice) for notice in notices] or [_("There is nothing to be said.")])
+        self.message(_("Notices"), [translated(notice) for notice in notices] or [_("There are no notices.")])
 
     def about(self) -> None:
         """Says what the program is."""

@@ -43,7 +43,7 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
     ),
     Fault.HOMING_NOT_FOUND: FaultWords(
         Message(
-            "initialisation, or the way home after a fault, did not find a limit sensor or did not come clear of it"
+            "initialisation, or the return after a fault, did not find a limit sensor or did not get clear of it"
         ),
         Message("check the sensor, its wiring and its polarity, and that the carriage moves freely"),
     ),
@@ -98,7 +98,7 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("cut the motors' supply, check cable, card and the card's own supply, then start anew and initialise"),
     ),
     Fault.HEARTBEAT_LOST: FaultWords(
-        Message("the program above the queue ended or fell silent; the outputs were switched off"),
+        Message("the program that fills the queue ended or hung; the outputs were switched off"),
         Message("see why it ended or hung, then initialise; a job with a journal can be resumed"),
     ),
     Fault.TICKER_LOST: FaultWords(

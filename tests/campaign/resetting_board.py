@@ -110,7 +110,7 @@ def play_round(job: Job, folder: Path, message: int, greets: bool) -> Round:
         told, said = _drillctl(folder, board.device, "run", "short.drl", "--machine", "short.toml", "--journal", "j")
         made, r.messages, r.was_reset = board.plant.touches, board.messages, board.was_reset
         _judge_run(r, told, made)
-        reason = "greeted anew" if greets else "not as it was set"
+        reason = "reported a new start" if greets else "not as it was set"
         r.check(reason in said or r.busy or not r.was_reset, f"the reason is not told: {said}")
         board.arm(0, greets=False)
         for _ in range(MOST_RESUMES):

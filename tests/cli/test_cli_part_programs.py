@@ -115,7 +115,8 @@ REFUSED = [
     (["store", "remove", "07", "--store", "x.hex"], "drillctl: x.hex: 07: no workpiece of this number"),
     (["store", "compare", "01"], "drillctl: compare takes two part programs, or none for RAM and EPROM"),
     (["convert", "fine.toml", "--to", "o.sentences"], "drillctl: fine.toml:9: 1.25 mm is no whole number of tenths"),
-    (["convert", "gear.toml", "--to", "o.sentences"], "drillctl: gear.toml:5: "),
+    (["convert", "gear.toml", "--to", "o.sentences"], "drillctl: gear.toml:5:6: 'G' is no gear; gears are 0 "),
+    (["convert", "gears.toml", "--to", "o.sentences"], "drillctl: gears.toml:6:8: 'ff' is no gear; gears are 0 to 9"),
     (["convert", "shallow.toml", "--to", "o.sentences"], "drillctl: shallow.toml:1: approach_mm must be less than "),
 ]  # fmt: skip
 
@@ -129,6 +130,7 @@ def test_what_is_refused_changes_nothing(drillctl: Drillctl, folder: Path, call:
         "torn.hex": "drillctl-store 1 crc32 00000000\n:10000000FFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFF00\n",
         "fine.toml": PATTERN.replace("start_mm = 10.0", "start_mm = 1.25"),
         "gear.toml": PATTERN.replace('"E"', '"G"'),
+        "gears.toml": PATTERN.replace('"E"', "4").replace('"3"', '"ff"'),
         "shallow.toml": PATTERN.replace("30.0", "8.0"),
     }
     for name, text in texts.items():

@@ -123,7 +123,7 @@ def test_to_say_where_it_ran_is_to_say_nothing_new(site: Site, options: list[str
     [
         (Site("lpt1", "real", "none"), "there is no such port"),
         (Site("firmata:/dev/ttyACM0", "free", "none"), "a real machine can't run free"),
-        (Site("simulated", "free", "steam"), "plant 'steam' is none that can be built"),
+        (Site("simulated", "free", "steam"), "plant 'steam' can't be built"),
     ],
 )
 def test_a_site_that_can_not_be_is_refused(

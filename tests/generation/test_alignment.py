@@ -121,8 +121,8 @@ def test_holes_close_together_are_warned_about() -> None:
         ([[0, 0], [1, 1]], [[0, 0]], "2 holes of the file but 1 measured"),
         ([[7, 7], [7, 7.05]], [[0, 0], [9, 9]], "all file coordinates are the same place"),
         ([[0, 0], [9, 9]], [[7, 7], [7, 7]], "all machine coordinates are the same place"),
-        ([[0, 0], [90, 0], [0, 90]], [[0, 0], [90, 0], [45, 0]], "press the board flat onto a line"),
-        ([[0, 0], [90, 0], [90, 90], [0, 90]], [[0, 0], [90, 90], [0, 0], [90, 90]], "press the board flat"),
+        ([[0, 0], [90, 0], [0, 90]], [[0, 0], [90, 0], [45, 0]], "lie on one line"),
+        ([[0, 0], [90, 0], [90, 90], [0, 90]], [[0, 0], [90, 90], [0, 0], [90, 90]], "lie on one line"),
     ],
 )
 def test_measurements_that_settle_nothing_are_refused(
@@ -154,7 +154,7 @@ def test_a_file_is_read_fitted_and_places_the_board(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "where", "reason"),
     [
-        (b"0 0 1 1\n0 0 1\n", "2:6", "3 numbers where file_x file_y machine_x machine_y are meant"),
+        (b"0 0 1 1\n0 0 1\n", "2:6", "3 numbers where file_x file_y machine_x machine_y are expected"),
         (b"0 0 1 1 7\n", "1:9", "5 numbers"),
         (b"# x\n0  1,5 1 1\n", "2:4", "file_y '1,5' is not a number; write a point, not a comma"),
         (b"0 0 nan 1\n", "1:5", "machine_x 'nan' is not a number"),

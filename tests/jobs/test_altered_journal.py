@@ -182,9 +182,9 @@ ALL_DONE = [line for hole in range(1, HOLES + 1) for line in ({"begun": hole}, {
         ([*ALL_DONE, {"ended": "done"}, ON], "j:9: a resumption"),
         ([{**ON, "resumed": {**SITE_LINE, "pace": "fast"}}], "j:2: no port, pace and plant: Invalid enum value 'fast'"),
         ([{**ON, "resumed": {**SITE_LINE, "baud": 9600}}], "j:2: no port, pace and plant"),
-        ([{"resumed": SITE_LINE}], "j:2: 'resumed' is nothing that a journal holds"),
-        ([{"begun": 1, "done": 1}], "j:2: 'begun, done' is nothing"),
-        ([{"drilled": 1}], "j:2: 'drilled' is nothing"),
+        ([{"resumed": SITE_LINE}], "j:2: 'resumed' does not belong in a journal"),
+        ([{"begun": 1, "done": 1}], "j:2: 'begun, done' does not belong"),
+        ([{"drilled": 1}], "j:2: 'drilled' does not belong"),
         ([{}], "j:2: damaged"),
     ],
 )

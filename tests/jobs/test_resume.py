@@ -67,7 +67,7 @@ def test_spots_made_before_the_cut_are_named(folder: Path, capsys: pytest.Captur
     keep_lines(folder, 3)
     capsys.readouterr()
     assert resume() == 0
-    assert "may bear their spot already; they are marked again, in the same place" in capsys.readouterr().err
+    assert "may have their spot already; they are spotted again, in the same place" in capsys.readouterr().err
 
 
 def test_a_finished_journal_leaves_nothing_to_resume(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

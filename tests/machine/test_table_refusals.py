@@ -134,7 +134,7 @@ MACHINE: list[Row] = [
     ("[drill]", f"{REACTION}'RANGE'\ndo = 'brake'\nposition = 'kept'\n[drill]",
      "reaction RANGE: the position can't be kept: it is the count of steps that has left the range", "[[reaction]]"),
     ("[drill]", f"{REACTION}'HEAD_NOT_UP'\ndo = 'return'\nposition = 'lost'\n[drill]",
-     "reaction HEAD_NOT_UP: the machine can't return: the way home begins with raising the head", "[[reaction]]"),
+     "reaction HEAD_NOT_UP: the machine can't return: the return to zero begins by raising the head", "[[reaction]]"),
     ("[drill]", f"{REACTION}'PORT_LOST'\ndo = 'brake'\nposition = 'lost'\n[drill]",
      "reaction PORT_LOST: it can't be chosen: the port is gone", "[[reaction]]"),
     ("[drill]", f"{REACTION}'EMERGENCY_STOP'\ndo = 'brake'\nposition = 'kept'\n[drill]",

@@ -214,8 +214,8 @@ def test_the_recorder_sees_place_speed_and_currents(drill: Machine) -> None:
         ("blunt", "not known; there are stuck.SENSOR=N"),
         ("sharp=1", "not known"),
         ("blunt=much", "not known"),
-        ("blunt.x=1", "told as blunt=N"),
-        ("loose=1", "told as loose.AXIS=N"),
+        ("blunt.x=1", "written blunt=N"),
+        ("loose=1", "written loose.AXIS=N"),
         ("blunt=-1", "from 0 to 1000"),
         ("jammed.x=0.5", "from 1 to 1000"),
         ("jammed.q=2", "pcb-drill has no axis 'q'; it has x, y, z"),
@@ -228,7 +228,7 @@ def test_a_fault_that_makes_no_sense_is_refused(text: str, reason: str, drill: M
 
 
 def test_a_fault_is_told_once(drill: Machine) -> None:
-    with pytest.raises(PlantRefused, match=r"fault stuck\.x_min: told twice"):
+    with pytest.raises(PlantRefused, match=r"fault stuck\.x_min: given twice"):
         DynamicPlant(drill, ["stuck.x_min=0", "stuck.x_max=0", "stuck.x_min=1"])
 
 
@@ -248,7 +248,7 @@ def test_what_a_machine_cannot_have_is_refused(drill: Machine) -> None:
     eight = LIBRARY.machine("eight-axis")
     assert "eight-axis has no dynamics for x, y, z1" in refused(lambda: PlantChoice("dynamic").build(eight))
     assert "say --plant dynamic" in refused(lambda: PlantChoice("ideal", ("blunt=3",)).build(drill))
-    assert "is none that can be built" in refused(lambda: PlantChoice.of_header("magic", "0"))
+    assert "can't be built" in refused(lambda: PlantChoice.of_header("magic", "0"))
 
 
 def test_a_plant_tells_a_trace_what_builds_it_again(drill: Machine) -> None:

@@ -35,7 +35,7 @@ def ticked(card: FirmataCard, until: Callable[[], object] = lambda: False) -> No
 
 
 @pytest.mark.parametrize("wiring", [WIRING, BLIND], ids=["sensors", "none"])
-@pytest.mark.parametrize(("greets", "reason"), [(True, "greeted anew"), (False, "not as it was set")])
+@pytest.mark.parametrize(("greets", "reason"), [(True, "reported a new start"), (False, "not as it was set")])
 def test_a_reset_is_a_lost_port(
     stand_in: Callable[..., StandIn], greets: bool, reason: str, wiring: PortLayout
 ) -> None:

@@ -23,7 +23,7 @@ def test_an_interrupted_job_is_offered_with_all_that_it_means(language: str, siz
     program = Program(FakeConsole(unfinished_jobs=[CUT]), size)
     program.press("f", "u")
     text = " ".join(" ".join(row.split("│")[row.count("│") // 2] for row in program.text().splitlines()).split())
-    for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the tool in hand"):
+    for told in ("Hole {numbers} was cut off", "The last line of its journal", "Holes of the present tool"):
         source = next(message for message in screen_templates() if message.startswith(told))
         assert words._(source).format(numbers="4") in text
     assert counted("{done} of {count} holes are drilled", 26, done=3) in text

@@ -306,7 +306,7 @@ def test_a_bit_that_cannot_be_is_told(table_1: PhaseEditor, bench: TableFiles, s
 def test_a_table_that_no_motor_uses_has_no_bits(bench: TableFiles, shell: Shell) -> None:
     editor = PhaseEditor(AtPcbDrill(), shell, bench, "five-phase-ten-beat")
     press(editor, "f6", "tab")
-    assert shell.told == [("Not changed", ["No motor of the machine at hand uses this table."])]
+    assert shell.told == [("Not changed", ["No motor of the machine in use has this table."])]
     assert "motor" not in text_of(editor)
 
 

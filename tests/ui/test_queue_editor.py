@@ -155,7 +155,7 @@ def test_a_real_machine_is_asked_about_first(
 ) -> None:
     hands.port, shell.says_yes = "firmata", yes
     press(three_lines, key)
-    assert shell.asked == ["A real machine hangs on firmata. Run the queue on it?"]
+    assert shell.asked == ["A real machine is connected to firmata. Run the queue on it?"]
     assert bool(console.ran or hands.done) == yes
 
 

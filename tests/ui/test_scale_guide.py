@@ -179,7 +179,7 @@ def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Ta
     rows = [row for row in text_of(screen, (80, 40)).split("\n") if "locked" in row]
     assert [row.split(":")[0].strip()[0] for row in rows] == ["X", "X", "I"]
     press(screen, *["down"] * 6, "end", "9")
-    told = "range is locked in line 6 of the machine's file; whoever keeps the file opens it there"
+    told = "range is locked in line 6 of the machine's file; it can be unlocked only there"
     assert shell.told == [("Locked", [told])] and not screen.changed
     press(screen, *["down"] * 4, "end", "9")
     assert screen.changed, "of Y it is not"
@@ -188,7 +188,7 @@ def test_a_locked_field_is_marked_and_springs_back_with_who_and_where(locked: Ta
 def test_a_lock_holds_on_the_screens_too_and_a_copy_keeps_it(locked: TableFiles) -> None:
     text = locked.read("machines", "pcb-drill")
     assert locked.with_field(text, ("tick_hz",), "600") == (
-        text, ("tick_hz is locked in line 6 of the machine's file; whoever keeps the file opens it there",)
+        text, ("tick_hz is locked in line 6 of the machine's file; it can be unlocked only there",)
     )  # fmt: skip
     assert locked.copy("machines", "pcb-drill", "mine") == ()
     fields = {field.place: field.locked for field in locked.fields(locked.read("machines", "mine"))}

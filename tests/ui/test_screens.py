@@ -12,6 +12,7 @@ from drillctl.language.number_text import pair_mm
 from drillctl.ui.models.board_work import Work
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.drilling import Drilling
+from drillctl.ui.pcb_drill.drilling_windows import FIRST_WORDS
 from drillctl.ui.pcb_drill.files import CHOICES, Files
 from drillctl.ui.pcb_drill.side_window import side_pages
 from drillctl.ui.screens.jog_controls import JOG_SIZES, MM, STEPS
@@ -74,7 +75,15 @@ def test_drilling_without_a_board_says_how_one_is_opened() -> None:
     program = Program(FakeConsole())
     assert "F opens a drill file." in program.text()
     program.press("f")
-    assert "F opens a drill file." not in program.text() and "No board is loaded." in program.text()
+    assert "F opens a drill file." not in program.text() and "Enter loads the file" in program.text()
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_the_first_steps_stand_whole_on_the_first_screen(language: str) -> None:
+    words.use(language)
+    rows = Program(FakeConsole()).text().splitlines()
+    left = [row.partition("│")[0].rstrip() for row in rows]
+    assert [line for line in FIRST_WORDS if line and f" {words._(line)}" not in left] == []
 
 
 def test_drilling_begins_only_after_a_yes() -> None:

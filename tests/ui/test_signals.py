@@ -131,7 +131,8 @@ def test_a_real_machine_is_asked_about_for_every_output() -> None:
     shell = Shell()
     drawn, hands = screen(shell=shell, port="firmata:/dev/ttyACM0")
     press(drawn, "down", " ")
-    assert shell.asked == ["A real machine hangs on firmata:/dev/ttyACM0. Switch spindle on?"] and hands.done == []
+    asked = "A real machine is connected to firmata:/dev/ttyACM0. Switch spindle on?"
+    assert shell.asked == [asked] and hands.done == []
 
 
 def test_a_refusal_is_told() -> None:

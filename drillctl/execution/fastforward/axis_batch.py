@@ -90,6 +90,7 @@ class AxisBatch:
             distance = self.steps[rows]
             for steps in np.unique(distance).tolist():
                 parts.append(self._moved(profile.motion(abs(steps)), rows[distance == steps], starts))
+        parts.sort(key=lambda part: int(part[0, 0]))  # mostly that is the order of all ticks already
         motion = np.concatenate(parts, axis=1)
         return motion[:, np.argsort(motion[0], kind="stable")]
 

@@ -47,7 +47,7 @@ class Stroked:
         strokes_before = np.cumsum(np.bincount(self.rows, minlength=len(ticks))) if len(self.rows) else 0 * ticks
         start = np.array(rests)[np.concatenate(([0], self.which + 1))][strokes_before]
         period = np.full(len(ticks), PERIOD)
-        start[self.rows] = self.of_kinds([kind.strips[number] for kind in self.kinds])
+        start[self.rows] = self.of_kinds([kind.strip(pool, number) for kind in self.kinds])
         period[self.rows] = np.maximum(ticks[self.rows], PERIOD + 1)
         return Tape.of(start, ticks, period)
 

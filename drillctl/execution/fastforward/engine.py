@@ -28,7 +28,7 @@ class Engine:
     def __init__(self, m: Controller, world: PlantFacts, pool: ImagePool | None = None):
         self._m, self._world = m, world
         self.pool = pool or ImagePool(DTYPES.get(m.machine.cards, np.uint64))
-        self._strokes = Strokes(m, world, self.pool)
+        self._strokes = Strokes(m, world)
         self._profiles: dict[tuple[int, int, int], MoveProfile] = {}
 
     @property

@@ -30,6 +30,7 @@ class MoveProfile:
         self._cruise = [made_in for _, made_in in walk].index(state)  # steps before the cruise begins
         self._split = self._cruise * self._columns
         self._known: dict[int, tuple[int, int]] = {}  # by distance: ticks of the move, and those before its last column
+        self._walks: dict[int, Count] = {}  # by distance: interval and state of each step
         self._strips: dict[int, int] = {}
         self._cycle = -1
 
@@ -79,12 +80,18 @@ class MoveProfile:
         short = min(steps, self._straight)
         times = np.ones(short, np.int64)
         times[self._cruise : self._cruise + 1] += steps - short
-        walk = np.array([*self._axis.ramp.walk(self._direction * short, self._min_interval)])
-        waits, states = np.repeat(walk, times, axis=0).T
+        waits, states = np.repeat(self._walk(short), times, axis=1)
         columns = np.arange(1, steps * self._columns + 1)
         made = columns // self._columns
         ticks = np.cumsum(np.repeat(waits, self._columns)) - 1
         return np.stack((ticks, columns, made, np.append(states, 0)[made]))
+
+    def _walk(self, steps: int) -> Count:
+        """Returns interval and state of each step of a move, (2, steps)."""
+        if steps not in self._walks:
+            walk = [*self._axis.ramp.walk(self._direction * steps, self._min_interval)]
+            self._walks[steps] = np.array(walk, np.int64).reshape(-1, 2).T
+        return self._walks[steps]
 
     def _timed(self, steps: int) -> tuple[int, int]:
         """Ticks of a move, and those before its last column (0 of none)."""

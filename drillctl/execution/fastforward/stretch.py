@@ -8,7 +8,7 @@ finds out how many of its ticks passed before an input changed, and lets ``leave
 have made of it. Both count by the axis's own methods, ``foresee`` on a copy of it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass
 
@@ -23,6 +23,7 @@ from drillctl.kmd import Op
 LONGEST = 1 << 16  # ticks: more take too much memory at once
 
 Images = NDArray[np.uint64]
+Count = NDArray[np.int64]
 NONE: Images = np.zeros(0, np.uint64)
 
 
@@ -30,33 +31,50 @@ NONE: Images = np.zeros(0, np.uint64)
 class Course:
     """What an axis puts out in the next ``ticks``: runs of columns, with so many ticks before each column of a run.
 
-    rests  it comes to rest in the last of these ticks
+    states  after each column of a run
+    rests   it comes to rest in the last of these ticks
     """
 
     waits: list[int]
     columns: list[int]
+    states: list[int]
     ticks: int
     rests: bool
+
+    def begins(self) -> Count:
+        """Returns the ticks in which the columns come, (columns,)."""
+        return np.cumsum(np.repeat(np.array(self.waits, np.int64), self.columns)) - 1
 
 
 def foresee(m: Controller, inputs: int, most: int) -> Images:
     """Returns the output image of each tick of a stretch (ticks,) of at most ``most`` ticks, none where nothing is
     known. ``inputs`` is the input image that the next tick latches.
     """
+    ticks, courses = foresee_courses(m, inputs, most)
+    return shown_by(m, courses, ticks) if ticks else NONE
+
+
+def foresee_courses(m: Controller, inputs: int, most: int) -> tuple[int, list[Course | None]]:
+    """Returns the ticks of a stretch and the course of each axis that moves; otherwise as ``foresee``."""
     ticks = min(most, LONGEST, _undisturbed(m, inputs))
     if ticks <= 0 or not all(_is_quiet(axis, m.sensors, m.position_known) for axis in m.axes):
-        return NONE
+        return 0, []
     courses = [_course(axis, ticks) if axis.counting else None for axis in m.axes]
     moving = [course for course in courses if course is not None]
     if len(moving) != m.moving:
-        return NONE
+        return 0, []
     if moving:
         on = [course.ticks for course in moving if not course.rests]
         ticks = min(on) if on else max(course.ticks for course in moving) - 1  # then the command may end
+    return ticks, courses
+
+
+def shown_by(m: Controller, courses: Sequence[Course | None], ticks: int) -> Images:
+    """Returns the output image of each of so many ticks (ticks,), from the courses of all axes."""
     shown = np.full(ticks, m.switched, np.uint64)
     for axis, course in zip(m.axes, courses, strict=True):
         if course is not None:
-            shown |= _put_out(axis, course, ticks)
+            shown |= np.repeat(*put_out(axis, course, ticks))
         else:
             shown |= np.uint64(axis.bits if axis.motion == REST else axis.hold_bits)
     return shown
@@ -121,7 +139,7 @@ def _is_quiet(axis: Axis, sensors: int, position_known: bool) -> bool:
 
 def _course(axis: Axis, most: int) -> Course:
     """Returns the course of an axis that counts, for ``most`` ticks, or up to where it rests or turns round."""
-    there, course = copy(axis), Course([], [], 0, False)
+    there, course = copy(axis), Course([], [], [], 0, False)
     shown = axis.drive_patterns[axis.direction * axis.direction_sign]
     for wait, columns in _counted(there, most):
         if there.direction != axis.direction or there.bits != shown[there.column]:
@@ -129,6 +147,7 @@ def _course(axis: Axis, most: int) -> Course:
             return course
         course.waits.append(wait)
         course.columns.append(columns)
+        course.states.append(there.state)
         course.ticks += wait * columns
     course.rests = not there.counting
     if there.counting:
@@ -163,12 +182,11 @@ def _even_steps(axis: Axis) -> int:
     return to_go - max(1, axis.ramp.brake[axis.state]) if axis.motion in (MOVING, BRAKING) else 0
 
 
-def _put_out(axis: Axis, course: Course, ticks: int) -> Images:
-    """Returns the output bits of an axis in each of so many ticks (ticks,), from its course."""
+def put_out(axis: Axis, course: Course, ticks: int) -> tuple[Images, Count]:
+    """Returns what an axis puts out in so many ticks, from its course: images, and the ticks of each, (k,)."""
     turn = axis.direction * axis.direction_sign
     shown = np.array(axis.drive_patterns[turn], np.uint64)
-    waits = np.repeat(np.array(course.waits, np.int64), course.columns)
-    begins = np.cumsum(waits) - 1  # in these ticks its columns come
+    begins = course.begins()
     columns = (axis.column + turn * np.arange(1, len(begins) + 1)) % axis.length
     images = np.concatenate(([np.uint64(axis.bits)], shown[columns]))
     begins = np.concatenate(([0], begins))
@@ -176,4 +194,4 @@ def _put_out(axis: Axis, course: Course, ticks: int) -> Images:
         images = np.append(images, np.uint64(axis.hold_patterns[turn][columns[-1]]))
         begins = np.append(begins, begins[-1] + 1)
     lasts = np.diff(np.append(np.minimum(begins, ticks), ticks))
-    return np.repeat(images, lasts)
+    return images, lasts

@@ -13,9 +13,10 @@ import numpy as np
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
+from drillctl.execution.fastforward.quiet import Quiet
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.execution.motion import COOLED
-from drillctl.trace.tapes import ImagePool
+from drillctl.trace.tapes import Count, ImagePool, Images
 
 COUNTERS = ("made", "travelled")  # they only grow: a place is the same whatever they are
 MOTION = ("column", "position", "state")
@@ -30,8 +31,9 @@ REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *T
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
-    """What a stroke does. ``strips``: by head, where its images lie in the pool; each is ``ticks`` long.
+    """What a stroke of so many ``ticks`` does.
 
+    shown    by head, the images that it puts out, and the ticks of each, (k,)
     inputs   (tick, the heads' sensors as latched), changes only, from tick 0 to the first tick after the stroke
     touches  (tick, place of each head in steps) where the bit met the board
     motions  by head: tick and MOTION, changes only
@@ -41,13 +43,22 @@ class Stroke:
     """
 
     ticks: int
-    strips: tuple[int, ...]
+    shown: tuple[tuple[Images, Count], ...]
     inputs: tuple[tuple[int, int], ...]
     touches: tuple[tuple[int, tuple[float, ...]], ...]
     motions: tuple[tuple[tuple[int, ...], ...], ...]
     grown: tuple[tuple[int, ...], ...]
     last: tuple[tuple[int, int], ...]
     after: "Place"
+    strips: dict[int, int] = field(default_factory=dict)
+
+    def strip(self, pool: ImagePool, number: int) -> int:
+        """Returns where the images of a head, by its number, lie in the pool; they are put there when first asked for,
+        since a run that keeps no record needs none.
+        """
+        if number not in self.strips:
+            self.strips[number] = pool.add(np.repeat(*self.shown[number]))
+        return self.strips[number]
 
 
 @dataclass(eq=False)
@@ -71,8 +82,8 @@ class Place:
 class Strokes:
     """All strokes and places of one machine's heads."""
 
-    def __init__(self, m: Controller, world: PlantFacts, pool: ImagePool):
-        self._m, self._world, self._pool = m, world, pool
+    def __init__(self, m: Controller, world: PlantFacts):
+        self._m, self._world = m, world
         self.heads = m.machine.drill_axes
         self.mask = sum(1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads)
         self._places: dict[Hashable, Place] = {}
@@ -84,10 +95,6 @@ class Strokes:
         memories = tuple(self._world.memory(head) for head in self.heads)
         key = states, memories, self._m.position_known
         return self._places.setdefault(key, Place(states, memories))
-
-    def lay(self, images: list[int], shown_for: list[int]) -> int:
-        """Puts a head's images, each for so many ticks, into the pool; returns where they begin."""
-        return self._pool.add(np.repeat(np.array(images, np.uint64), shown_for))
 
 
 def _cooled(axis: Axis, slot: str) -> Any:
@@ -106,8 +113,7 @@ class Recording:
         self._start = strokes.here()
         self._counters = self._count()
         self._ticks = 0
-        self._images: list[list[int]] = [[] for _ in self._axes]
-        self._shown_for: list[int] = []  # ticks of each image
+        self._shown: list[list[tuple[int, int]]] = [[] for _ in self._axes]  # by head: image, and its ticks
         self._inputs: list[tuple[int, int]] = []
         self._touches: list[tuple[int, tuple[float, ...]]] = []
         self._motions: list[list[tuple[int, ...]]] = [[] for _ in self._axes]
@@ -117,16 +123,29 @@ class Recording:
         """After a tick, or several alike: ``places`` are all axes', where the bit has just met the board."""
         tick = self._ticks
         self._ticks += ticks
-        self._shown_for.append(ticks)
         self._see(tick, self._m.inputs)
         for number, axis in enumerate(self._axes):
-            self._images[number].append(axis.bits)
+            self._shown[number].append((axis.bits, ticks))
             at = axis.column, axis.position, axis.state
             if at != self._at[number]:
                 self._at[number] = at
                 self._motions[number].append((tick, *at))
         if places is not None:
             self._touches.append((tick, tuple(places[head] for head in self._strokes.heads)))
+
+    def note_quiet(self, quiet: Quiet) -> None:
+        """After a stretch."""
+        first, ticks = self._ticks, len(quiet.shown)
+        self._see(first, self._m.inputs)
+        self._ticks += ticks
+        for number, head in enumerate(self._strokes.heads):
+            bits, motion = quiet.bits[head], quiet.motion[head]
+            images, lasts = ([self._axes[number].bits], [ticks]) if bits is None else (each.tolist() for each in bits)
+            self._shown[number] += zip(images, lasts, strict=True)
+            for tick, *at in [] if motion is None else motion.T.tolist():
+                if tuple(at) != self._at[number]:
+                    self._at[number] = tuple(at)
+                    self._motions[number].append((first + tick, *at))
 
     def end(self) -> None:
         """From now on the stroke is known."""
@@ -136,10 +155,11 @@ class Recording:
             tuple(after - before for after, before in zip(now, then, strict=True))
             for now, then in zip(self._count(), self._counters, strict=True)
         ]
-        strips = tuple(self._strokes.lay(images, self._shown_for) for images in self._images)
+        rows = [np.array(shown, np.int64).reshape(-1, 2).T for shown in self._shown]
+        shown = tuple((images.astype(np.uint64), lasts) for images, lasts in rows)
         last = tuple((axis.motion, axis.bits) for axis in self._axes)
         self._start.known[self._signature] = Stroke(
-            ticks, strips, tuple(self._inputs), tuple(self._touches), tuple(map(tuple, self._motions)), tuple(grown),
+            ticks, shown, tuple(self._inputs), tuple(self._touches), tuple(map(tuple, self._motions)), tuple(grown),
             last, self._strokes.here(),
         )  # fmt: skip
 

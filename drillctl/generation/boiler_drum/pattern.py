@@ -16,11 +16,13 @@ Rule: lengths are whole tenths of a millimetre, refused by line where they are n
 carriage returns to where it began. The drum is turned by hand, so a pattern is one line of holes along it.
 """
 
+import re
 from pathlib import Path
 from typing import Annotated
 
 import msgspec
 
+from drillctl.generation.boiler_drum.gears import LETTERS
 from drillctl.generation.boiler_drum.sentence import Sentence, way
 from drillctl.generation.boiler_drum.text import MOST_SENTENCES
 from drillctl.generation.errors import JobError
@@ -31,7 +33,8 @@ ENDING = ".toml"
 ALONG, TOOL = "x", "y"
 MOST_MM = 100_000
 MOST_ROWS = 1000
-Gear = Annotated[str, msgspec.Meta(pattern="^[0-9A-F]$")]
+BEFORE_VALUE = r"(?<![\w-])[\"']?{key}[\"']?\s*=\s*"  # a key as it is written in a table, in quotes or not
+Gear = str | int  # a gear from 0 to 9 may be written without quotes
 Count = Annotated[int, msgspec.Meta(ge=1, le=MOST_SENTENCES)]
 Millimetres = Annotated[float, msgspec.Meta(ge=-MOST_MM, le=MOST_MM)]
 Length = Annotated[float, msgspec.Meta(ge=0, le=MOST_MM)]
@@ -68,8 +71,8 @@ def pattern_sentences(source: Source) -> list[Sentence]:
     depth, approach = (_tenths(source, getattr(wanted, key), key) for key in ("depth_mm", "approach_mm"))
     if not 0 <= approach < depth:
         raise source.error(Message("approach_mm must be less than depth_mm: the tool drills nothing"), "depth_mm")
-    hole = _hole(wanted.gears, depth, approach)
-    along = int(wanted.gears.along, 16)
+    along, *of_tool = _gears(source, wanted.gears)
+    hole = _hole(of_tool, depth, approach)
     sentences: list[Sentence] = []
     here = 0
     for place in _places(source, wanted.row):
@@ -80,8 +83,24 @@ def pattern_sentences(source: Source) -> list[Sentence]:
     return [*sentences, *way(ALONG, -here, along)]
 
 
-def _hole(gears: _Gears, depth: int, approach: int) -> list[Sentence]:
-    into, feed, out = (int(gear, 16) for gear in (gears.into, gears.feed, gears.out))
+def _gears(source: Source, gears: _Gears) -> list[int]:
+    """Returns the gears 0 to 15 of the way along, in, feed and out. Raises JobError that names each wrong one."""
+    written = {key: str(gear) for key, gear in msgspec.to_builtins(gears).items()}
+    wrong = [key for key, gear in written.items() if len(gear) != 1 or gear.upper() not in LETTERS]
+    if wrong:
+        raise JobError(*(_no_gear(source, key, written[key]) for key in wrong))
+    return [int(written[key], 16) for key in ("along", "in", "feed", "out")]
+
+
+def _no_gear(source: Source, key: str, gear: str) -> Message:
+    line = source.line_of("gears", key) or 1
+    value = re.search(BEFORE_VALUE.format(key=key), source.text.split("\n")[line - 1])
+    reason = Message("{gear!r} is no gear; gears are 0 to 9 and A to F, one character", gear=gear)
+    return reason.at(source.file, line, value.end() + 1 if value else 1)
+
+
+def _hole(gears: list[int], depth: int, approach: int) -> list[Sentence]:
+    into, feed, out = gears
     return [*way(TOOL, approach, into), *way(TOOL, depth - approach, feed), *way(TOOL, -depth, out)]
 
 

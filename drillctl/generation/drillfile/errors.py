@@ -110,7 +110,7 @@ WARNINGS = {
     ),
     "scaling-ignored": Message("the machine's scaling (M60) is not applied"),
     "second-header": Message("a second header begins inside the program"),
-    "side-file-cut": Message("a report beside the file is longer than what is read of it"),
+    "side-file-cut": Message("a report beside the file is too long: only its beginning is read"),
     "size-mismatch": Message(
         "a tool's diameter differs from what a comment or a report beside the file says; the file counts"
     ),

@@ -121,7 +121,7 @@ class Account:
         """The account after a further line. Raises OutOfPlace."""
         names = tuple(line)
         if names not in PLACES:
-            raise OutOfPlace(Message("{names!r} is nothing that a journal holds", names=", ".join(names)[:60]))
+            raise OutOfPlace(Message("{names!r} does not belong in a journal", names=", ".join(names)[:60]))
         return PLACES[names](self, *line.values())
 
     def _with_begun(self, hole: object) -> "Account":

@@ -105,7 +105,7 @@ def check_same(journal: Path, then: Head, now: Head) -> None:
     )
     for name, reason in compared:
         if getattr(then, name) != getattr(now, name):
-            raise JournalError(Message("{why}; what is left of it can't be told", why=reason).at(journal))
+            raise JournalError(Message("{why}; it can't be known what is left of it", why=reason).at(journal))
 
 
 def _begun(line: bytes, file: Path) -> Account:

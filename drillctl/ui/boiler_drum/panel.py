@@ -90,7 +90,8 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
             self._run()  # the console says what is missing
             return
         view = self._console.view()
-        reasons = [_("A real machine hangs on {port}.").format(port=view.port)] if view.lost_steps is None else []
+        real = _("A real machine is connected to {port}.").format(port=view.port)
+        reasons = [real] if view.lost_steps is None else []
         if not view.position_known or any(axis.position_steps for axis in view.axes):
             reasons.append(_("This place becomes zero: the tool has to stand where it was set for the workpiece."))
         if reasons:

@@ -56,7 +56,7 @@ def path_charts(path: CyclePath, saved: CyclePath, size: Size, plain: bool) -> l
     they differ. ``size``: columns of the panel, rows of a curve.
     """
     if not path.columns:
-        return [[_("no motor of the machine at hand has windings for this table")]]
+        return [[_("no motor of the machine in use has windings for this table")]]
     columns, rows = size
     if saved == path or not saved.columns:
         return _path_charts(path, "", size, plain)

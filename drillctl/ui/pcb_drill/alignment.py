@@ -218,7 +218,7 @@ def _verdict(measuring: Measuring) -> list[Line]:
         for line in wrap(f"- {translated(text)}", WIDTH, subsequent_indent="  ")
     ]
     if found.kind == "affine" and len(found.residual_mm) == NONE_TO_SPARE:
-        hints.append([_("with three holes nothing is left to judge by; a fourth would tell")])
+        hints.append([_("three holes fit exactly, so nothing checks them; a fourth would")])
     rejected = ("danger", _("REJECTED: this is not how the board lies"))
     return [[lies], *hints, [rejected if found.rejected else ("good", _("accepted: F2"))]]
 

@@ -70,7 +70,7 @@ def placing_lines(options: JobOptions, keys: Sequence[Key]) -> list[str]:
 
 
 def _set_or_none(is_set: object) -> str:
-    return _("as told below") if is_set else _("none")
+    return _("see below") if is_set else _("none")
 
 
 OTHER_OPTIONS: Mapping[str, tuple[str, Callable[[JobOptions], str]]] = {  # by the method that changes it

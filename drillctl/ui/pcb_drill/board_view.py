@@ -22,6 +22,7 @@ from drillctl.ui.pcb_drill.rulers import (
     ruler_below,
     scale_bar,
 )  # fmt: skip
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import BoardView
 
@@ -127,7 +128,7 @@ class BoardPicture(urwid.Widget):
     def _lines(self, columns: int, rows: int) -> list[Line]:
         board = self._board
         if board is None or not len(board.xy_mm):
-            return [[("dark", f" {_(line)}")] for line in self._hint]
+            return folded([[("dark", f" {_(line)}")] for line in self._hint], columns)
         ruled = has_rulers(columns, rows)
         sheet = (columns - RULER_COLUMNS, rows - RULER_ROWS - SCALE_ROWS) if ruled else (columns, rows - SCALE_ROWS)
         drawn = self._still(board, *sheet).with_head(self._head)

@@ -33,6 +33,15 @@ FIRST_WORDS = (
     N_("E shows example boards and lab sheets."),
     N_("L in Files offers the boards opened last."),
     N_("F1 or ? explains this screen."),
+    "",
+    N_("From here to a drilled board:"),
+    N_("1. E and a number: an example is loaded."),
+    N_("2. S, then Y: it finds zero and drills."),
+    N_("3. C: the drill that it asks for is in."),
+    "",
+    N_("From there to steps that are lost:"),
+    N_("4. Tests > Phase tables: Enter, change."),
+    N_("5. The key Try counts the lost steps."),
 )
 Paged = list[list[Line]]
 LEAST_BOARD = 24  # a board of fewer columns says nothing: then the window stands alone

@@ -64,7 +64,7 @@ def job_lines(job: UnfinishedJob) -> list[str]:
     if job.doubtful is not None:
         lines.append(_("Hole {number} may have been begun; it will be drilled again.").format(number=job.doubtful))
     if job.spotted:
-        lines.append(_("Holes of the tool in hand may bear their spot already; they are marked again."))
+        lines.append(_("Holes of the present tool may have their spot already; they are spotted again."))
     meaning = _("Going on initialises, takes the same working base and drills the rest. The board must lie as it lay.")
     return [*lines, "", meaning]
 

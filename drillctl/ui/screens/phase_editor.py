@@ -75,7 +75,7 @@ class PhaseEditor(TableEditor):
         """Asks for the wire's bit, exchanges it with a wire that has it, and saves the machine's file."""
         wire = self._wires.of(self._axis, self._grid.lines[self._line].name) if self._grid.lines else None
         if wire is None:
-            self._shell.message(_("Not changed"), [_("No motor of the machine at hand uses this table.")])
+            self._shell.message(_("Not changed"), [_("No motor of the machine in use has this table.")])
             return
         chosen: FieldView = wire
 

@@ -31,8 +31,8 @@ LACKS: Mapping[Lack, str] = {
     "running": N_("columns, positions and states are being found: {value} %"),
     "underivable": N_("columns, positions and states can't be found: {value}"),
     "too long": N_("columns, positions and states are known to tick {value}: more would take too much memory"),
-    "other rate": N_("the tick rate was changed in tick {value}; seconds are told by the rate named above"),
-    "other tables": N_("recorded with other tables: columns, positions and states are as the tables at hand have them"),
+    "other rate": N_("the tick rate was changed in tick {value}; seconds are counted by the rate shown above"),
+    "other tables": N_("recorded with other tables: columns, positions and states are computed with the present ones"),
 }
 
 

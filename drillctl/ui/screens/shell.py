@@ -116,7 +116,7 @@ def asked_to_leave(screen: urwid.Widget, shell: Shell, key: str, give_up: Callab
 def asked_if_real(control: ManualControl, shell: Shell, what: str, act: Callable[[], None], warning: str = "") -> None:
     """Calls ``act`` after a yes; without a question on a simulated machine if there is no ``warning``."""
     port = control.real_port()
-    real = _("A real machine hangs on {port}.").format(port=port) if port else ""
+    real = _("A real machine is connected to {port}.").format(port=port) if port else ""
     reasons = " ".join(filter(None, (real, warning)))
     if reasons:
         shell.ask(f"{reasons} {what}", act)

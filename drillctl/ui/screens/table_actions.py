@@ -30,7 +30,7 @@ class TableActions:
             question = _("Saved. Drive the machine with it now? The position will be lost.")
             self._shell.ask(question, lambda: self.drive(machine))
         else:
-            self._shell.message(_("Saved"), [_("The machine at hand is driven by other tables.")])
+            self._shell.message(_("Saved"), [_("The machine in use has other tables.")])
 
     def reset(self, name: str, then: Then) -> None:
         """Asks, then removes the user's copy; refused where the table does not come with the program."""

@@ -25,5 +25,5 @@ def ask_tick_hz(console: Console, shell: Shell, answer: Answer, say: Callable[[s
         )
         answer(console.set_tick_hz(hz), said.format(count=hz))
 
-    prompt = _("Ticks a second, until the machine is chosen anew:")
+    prompt = _("Ticks a second, until the machine is chosen again:")
     shell.ask_text(_("Interrupt frequency"), prompt, str(console.view().tick_hz), typed)
