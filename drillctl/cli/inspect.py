@@ -34,9 +34,9 @@ def call(arguments: argparse.Namespace) -> int:
 
 def _is_part_program(arguments: argparse.Namespace) -> bool:
     """Returns whether it is a part program's file or a workpiece; the machine is read only where that depends on it."""
-    from drillctl.generation.boiler_drum.names import is_sentences, number_of
+    from drillctl.generation.boiler_drum.names import is_sentences
 
-    if number_of(str(arguments.file)) is None:
+    if not str(arguments.file).isdecimal():
         return is_sentences(arguments.file)
     from drillctl.generation.boiler_drum.part import is_workpiece
 

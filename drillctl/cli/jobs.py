@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from drillctl.cli import options, streams
 from drillctl.cli.operating import waiting
 from drillctl.files.inputs import real_path
+from drillctl.language import Message
 from drillctl.viewmodel.choices import AFTER_END, MIRRORED, MOST_ORDER_SECONDS, ORDERS, ORIGINS
 
 if TYPE_CHECKING:
@@ -103,15 +104,29 @@ def _absolute(path: Path | None) -> str | None:
 
 
 def load(file: Path, chosen: "JobSetup", machine: "Machine") -> "Job":
-    """Returns the job in a file, made by these options, and prints what the measured holes say. Raises JobError,
-    PlacingError or AlignmentError.
+    """Returns the job in a file, made by these options, and prints what the measured holes say. Raises JobError, also
+    for options of a board beside a job that is none; PlacingError or AlignmentError.
     """
+    from drillctl.generation.errors import JobError
     from drillctl.generation.readers import load_job
 
     if aligned := chosen.alignment():
         _show_alignment(aligned)
     with waiting() as wait:
-        return load_job(file, machine, chosen, wait)
+        job = load_job(file, machine, chosen, wait)
+    if job.work is None and (given := _board_options(chosen.options)):
+        raise JobError(Message("only a drill file can be placed and ordered: leave out {options}",
+                               options=" ".join(given)).at(file))  # fmt: skip
+    return job
+
+
+def _board_options(chosen: "JobOptions") -> list[str]:
+    """Returns the options, as they are typed, that say how a board is read, placed and drilled."""
+    from drillctl.viewmodel.job_options import JobOptions
+
+    unset = JobOptions(store=chosen.store)
+    names = zip(JobOptions.__struct_fields__, JobOptions.__struct_encode_fields__, strict=True)
+    return [f"--{typed.replace('_', '-')}" for name, typed in names if getattr(chosen, name) != getattr(unset, name)]
 
 
 def _show_alignment(alignment: "Alignment") -> None:

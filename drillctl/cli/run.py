@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs, operating, options, streams
+from drillctl.language import Message
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
@@ -34,6 +35,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
 def call(arguments: argparse.Namespace) -> int:
     """Checks everything and reserves every output before the first tick; then runs the job and writes the results."""
     from drillctl.files.outputs import reserved, unwritten
+    from drillctl.generation.errors import JobError
     from drillctl.jobs.session import Session
     from drillctl.machine import machine_hazards
     from drillctl.replay.header import machine_named
@@ -54,6 +56,9 @@ def call(arguments: argparse.Namespace) -> int:
     chosen = jobs.job_setup(arguments)
     job = jobs.load(arguments.job, chosen, machine)
     session = Session(job, running)
+    if arguments.journal and not job.work:
+        raise JobError(Message("only a drill file has a journal: of another job nobody knows where it may go on").at(
+            arguments.job))  # fmt: skip
     if job.work and (paced or arguments.journal):
         session = session.journalled(arguments.job, arguments.journal, chosen)
     wanted = (arguments.trace, arguments.vcd, arguments.holes)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs, options, part_programs, streams
-from drillctl.language import Message
+from drillctl.language import Counted, Message
 
 if TYPE_CHECKING:
     from drillctl.generation.boiler_drum.stores import Store
@@ -83,8 +83,10 @@ def _list(arguments: argparse.Namespace) -> int:
     stores = _stores(arguments)
     damaged = [reason for store in stores for reason in store.damages()]
     for store in stores:
-        free = "" if damaged else f", {free_cells(store.cells, str(store.file))} cells free"
-        print(f"{store.kind}: {len(store.numbers())} workpieces{free}")
+        count = Counted("{count} workpiece", "{count} workpieces", len(store.numbers()))
+        cells = 0 if damaged else free_cells(store.cells, str(store.file))
+        free = "" if damaged else f", {Counted('{count} cell free', '{count} cells free', cells)}"
+        print(f"{store.kind}: {count}{free}")
         print("".join(f"  {number:02}  {offset_of(store.cells, number):04X}\n" for number in store.numbers()), end="")
     for reason in damaged:
         streams.tell(reason)
@@ -120,7 +122,7 @@ def _put(arguments: argparse.Namespace) -> int:
     part_program(part, machine)  # raises where it leaves the travel
     number, sentences = arguments.number, part.sentences
     change_ram(machine, arguments.store, lambda cells, name: with_program(cells, number, sentences, name))
-    print(f"RAM {number:02}: {len(sentences)} sentences")
+    print(f"RAM {number:02}: {Counted('{count} sentence', '{count} sentences', len(sentences))}")
     return 0
 
 

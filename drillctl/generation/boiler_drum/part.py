@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from drillctl.generation.boiler_drum.names import is_sentences, number_of
-from drillctl.generation.boiler_drum.program import part_program, tool_in_wall
+from drillctl.generation.boiler_drum.program import gear_not_kept, part_program, tool_in_wall
 from drillctl.generation.boiler_drum.stores import find_part, has_stores
 from drillctl.generation.boiler_drum.text import Part, read_part
 from drillctl.generation.errors import JobError
@@ -21,15 +21,21 @@ def is_part_file(path: Path, machine: Machine) -> bool:
 
 
 def is_workpiece(path: Path, machine: Machine) -> bool:
-    """Returns whether this is the number of a workpiece, on a machine that has stores of them."""
-    return number_of(str(path)) is not None and has_stores(machine)
+    """Returns whether this is meant as the number of a workpiece, on a machine that has stores of them: two digits from
+    01 to 99, or other digits that are no file's name.
+    """
+    text = str(path)
+    meant = number_of(text) is not None or (text.isascii() and text.isdigit() and not path.exists())
+    return meant and has_stores(machine)
 
 
 def part_of(path: Path, machine: Machine, ram: Path | None) -> Part:
     """Returns the part program of a file or a number; ``ram``: as ``read_ram``. Raises JobError."""
-    number = number_of(str(path)) if is_workpiece(path, machine) else None
-    if number is None:
+    if not is_workpiece(path, machine):
         return read_part(path)
+    number = number_of(str(path))
+    if number is None:
+        raise JobError(Message("{number!r} is no workpiece's number from 01 to 99", number=str(path)[:20]))
     if path.exists():
         raise JobError(Message("both a file and the number of a workpiece; give the file another name").at(path))
     return find_part(number, machine, ram)
@@ -45,4 +51,5 @@ def load_part(path: Path, machine: Machine, setup: JobSetup, settings: WorkSetti
 def job_of(part: Part, machine: Machine) -> Job:
     """Returns the job that runs a part program. Raises JobError with a line or a cell for each wrong sentence."""
     name = part.source if part.in_store else Path(part.source).name
-    return Job(name, part_program(part, machine), machine, warnings=tuple(tool_in_wall(part, machine)))
+    warnings = (*tool_in_wall(part, machine), *gear_not_kept(part, machine))
+    return Job(name, part_program(part, machine), machine, warnings=warnings)

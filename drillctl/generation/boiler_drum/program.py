@@ -5,9 +5,10 @@ leave the travel is refused, sentence by sentence, before there is a queue.
 """
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import NamedTuple
 
-from drillctl.generation.boiler_drum.gears import interval_ticks
+from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, LETTERS, MM_PER_M, columns_hz, interval_ticks
 from drillctl.generation.boiler_drum.sentence import CARRIAGES, DIRECTIONS
 from drillctl.generation.boiler_drum.text import Part
 from drillctl.generation.errors import JobError
@@ -16,6 +17,7 @@ from drillctl.kmd import Op
 from drillctl.language import Message
 from drillctl.machine import Machine
 
+GEAR_TOLERANCE = 0.01  # of a gear's speed; the shipped machine keeps all of them within 0.3 %
 COLUMNS_PER_INCH_OF_A_TENTH = 254  # a scale of so many columns an inch has one column to 0.1 mm
 
 
@@ -66,6 +68,20 @@ def tool_in_wall(part: Part, machine: Machine) -> list[Message]:
             why = Message("the large carriage moves with the tool {depth:.1f} mm in the wall", depth=depth)
             return [part.at(index, why)]
         places[move.axis] = move.place
+    return []
+
+
+def gear_not_kept(part: Part, machine: Machine) -> list[Message]:
+    """Returns a warning for the first sentence whose gear the ticks of the machine are too coarse for."""
+    for index, (sentence, move) in enumerate(zip(part.sentences, moves(part, machine), strict=True)):
+        ratio = float(Fraction(machine.tick_hz, move.floor_ticks) / columns_hz(sentence.gear, machine.axes[move.axis]))
+        if abs(ratio - 1) > GEAR_TOLERANCE:
+            speed = GEARS_MM_MIN[sentence.gear] / MM_PER_M
+            reason = Message(
+                "gear {gear} is {speed:g} m/min; at {tick_hz} ticks a second it runs at {found:.3g} m/min",
+                gear=LETTERS[sentence.gear], speed=speed, tick_hz=machine.tick_hz, found=speed * ratio,
+            )  # fmt: skip
+            return [part.at(index, reason)]
     return []
 
 

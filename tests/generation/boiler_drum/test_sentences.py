@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, gear_rows, interval_ticks
-from drillctl.generation.boiler_drum.program import moves, part_program, tool_in_wall
+from drillctl.generation.boiler_drum.program import gear_not_kept, moves, part_program, tool_in_wall
 from drillctl.generation.boiler_drum.sentence import DIRECTIONS, LONGEST_TENTHS, Sentence, way
 from drillctl.generation.boiler_drum.text import LONGEST_LINE, MOST_SENTENCES, parse_part, part_text, read_part
 from drillctl.generation.errors import JobError
@@ -168,6 +168,13 @@ def test_the_carriage_that_moves_with_the_tool_in_the_wall_is_warned_about() -> 
     assert [str(one) for one in tool_in_wall(within, DRUM)] == [
         "p:2: the large carriage moves with the tool 1.0 mm in the wall"
     ]
+
+
+def test_a_gear_that_coarse_ticks_do_not_keep_is_warned_about() -> None:
+    part = parse_part("640010\n8F0020\n", "p")
+    assert gear_not_kept(part, DRUM) == []
+    (said,) = gear_not_kept(part, DRUM.at_rate(1000))
+    assert str(said) == "p:2: gear F is 5 m/min; at 1000 ticks a second it runs at 1.2 m/min"
 
 
 def test_a_sentence_is_one_move_with_its_number_and_its_gear(tmp_path: Path) -> None:
