@@ -4,16 +4,17 @@ Rule: the outputs are safe from the first to the last moment, and nothing moves.
 """
 
 import time
+from collections.abc import Sequence
 
 from drillctl.console.machine_console import MachineConsole
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.language import Message, message_of
 from drillctl.machine import Machine
-from drillctl.portio.registry import open_port, rate_of, select
+from drillctl.portio.registry import PORTS, open_port, rate_of, select
 from drillctl.ports import Driver, PortError, Telling
 from drillctl.ticker.launch import port_layout
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.signals import PortReport, PortView
+from drillctl.viewmodel.signals import PortReport, PortView, PortWord
 
 LISTEN_S = 0.3  # a board reports its inputs when it comes round to them
 LOOK_EVERY_S = 0.01
@@ -69,6 +70,10 @@ class MachinePort:
     def port(self) -> PortView:
         """The port in use, and the one that the machine's file configures."""
         return self._console.used.port
+
+    def ports(self) -> Sequence[PortWord]:
+        """The ports of the table; those of other distributions are found by their names only."""
+        return [PortWord(port.name, port.summary, port.needs, port.missing()) for port in PORTS.values()]
 
     def test(self) -> PortReport:
         """Tests the configured port. One in use can't be opened twice: its inputs come from the status record."""

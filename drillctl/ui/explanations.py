@@ -140,6 +140,8 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
     "Port": (
         N_("The port that the machine's file names, and the one in use."),
         N_("Mode SIMULATED moves a simulation; REAL drives the port's card."),
+        N_("> is the port that the machine's file names; what each port needs"),
+        N_("is told beside it in a large window."),
         N_("A test opens the port and asks it; nothing moves."),
         N_("Behind a sensor's name: REACHED or clear, as it answers now."),
         N_("A real machine is driven only after a question."),

@@ -91,8 +91,21 @@ class PortView:
     overridden: bool
 
 
+@dataclass(frozen=True, slots=True)
+class PortWord:
+    """A port that a machine's file can name: what it is, what it needs, and why it can't be used here, if it can't."""
+
+    name: str
+    summary: Message
+    needs: Message
+    missing: Message | None
+
+
 class PortControl(Protocol):
     """The port of the machine in use, and the change to another one."""
+
+    def ports(self) -> Sequence[PortWord]:
+        """The ports that this program drives, and whether they can be used here now."""
 
     def port(self) -> PortView:
         """The port in use, and the configured one."""

@@ -4,9 +4,10 @@ from dataclasses import dataclass, field, replace
 
 import pytest
 
+from drillctl.language import Message
 from drillctl.ui.screens.port import PortScreen
 from drillctl.viewmodel.console import Problems
-from drillctl.viewmodel.signals import PortReport, PortView
+from drillctl.viewmodel.signals import PortReport, PortView, PortWord
 from tests.ui.editor_fakes import Shell, press, text_of
 from tests.ui.fake_console import VIEW, FakeConsole, Program
 
@@ -27,6 +28,9 @@ class Ports:
 
     def port(self) -> PortView:
         return self.view
+
+    def ports(self) -> list[PortWord]:
+        return [PortWord("firmata", Message("an Arduino"), Message("a board"), Message("no serial line"))]
 
     def test(self) -> PortReport:
         self.done.append("test")
@@ -52,13 +56,20 @@ def test_what_is_in_use_and_what_is_configured() -> None:
     assert "none drives this card" in text and "--port was given and wins" in text
 
 
+def test_the_ports_that_there_are_stand_where_there_is_room() -> None:
+    below, beside, neither = (text_of(screen(Ports()), size) for size in ((78, 20), (158, 46), (40, 7)))
+    assert ">firmata      an Arduino" in below and "it needs: a board" not in below
+    assert all(part in beside for part in (">firmata", "an Arduino", "it needs: a board", "used here: no serial line"))
+    assert "an Arduino" not in neither
+
+
 @pytest.mark.parametrize("size", [(80, 24), (160, 50), (40, 20)])
 def test_a_report_is_seen_whole_in_every_size(size: tuple[int, int]) -> None:
     drawn = screen(Ports())
     press(drawn, "f5")
     text = text_of(drawn, size)
     assert all(part in text for part in ("StandIn 2.5 answers", "D16", "D39", "It can be used"))
-    lines = [line.split() for line in text.splitlines()]
+    lines = [line.partition("│")[0].split() for line in text.splitlines()]
     assert ["x_min", "REACHED"] in lines and ["x_max", "clear"] in lines
     assert all(len(line) <= size[0] for line in text.splitlines())
 

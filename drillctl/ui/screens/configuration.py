@@ -261,4 +261,4 @@ def _row(field: FieldView, edit: Edit) -> urwid.Widget:
     label, box = Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
     if not hint:  # free text has the whole line
         return urwid.Columns([(LABEL_COLUMNS, label), box], 1)
-    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), Text(hint, wrap="clip")], 1)
+    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), Text(hint, wrap="ellipsis")], 1)

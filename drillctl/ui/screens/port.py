@@ -5,15 +5,20 @@ Rule: a test moves nothing; a real machine is driven after a question only.
 
 from collections.abc import Sequence
 
+import urwid
+
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.screens.folded_screen import FoldedScreen
 from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
-from drillctl.ui.widgets.texts import Line
+from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
+from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import Console, MachineView, Problems
 from drillctl.viewmodel.signals import PortControl, PortReport, PortView
 
-LABEL_COLUMNS = 14
+LABEL_COLUMNS, LEAST_LEFT = 14, 74
+PORTS_THERE_ARE = N_("Ports that a machine's file can name")
 WORDS = {True: N_("REACHED"), False: N_("clear")}
 
 
@@ -29,7 +34,7 @@ class PortScreen(FoldedScreen):
     def __init__(self, console: Console, shell: Shell, control: PortControl):
         self._shell, self._control = shell, control
         self._report: PortReport | None = None
-        self._port = control.port()
+        self._port, self._ports = control.port(), control.ports()
 
     def refresh(self, view: MachineView) -> None:
         """Redraws if the port is another one; the report of the one before goes."""
@@ -41,6 +46,34 @@ class PortScreen(FoldedScreen):
     def lines(self) -> Sequence[Line]:
         """The port, then the report of its test."""
         return port_lines(self._port, self._report)
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Draws the port, and the ports that there are: beside it where there is room, else below it, or not at all."""
+        assert len(size) == 2
+        columns, rows = size
+        beside = panel_columns(columns, LEAST_LEFT)
+        lines = folded(self.lines(), columns - beside)
+        if beside >= LEAST_LEFT:
+            panel = folded(self._each_port(further=True), beside - BORDER_COLUMNS)
+            return with_panel(boxed(lines, columns - beside, rows), _(PORTS_THERE_ARE), panel, beside, rows)
+        below = folded([[""], [("title", _(PORTS_THERE_ARE))], *self._each_port(further=False)], columns)
+        return boxed([*lines, *below] if len(lines) + len(below) <= rows else lines, columns, rows)
+
+    def _each_port(self, further: bool) -> list[Line]:
+        """A line for each port; ``further``: below it what it needs, and why it can't be used."""
+        name = self._port.configured.partition(":")[0]
+        lines: list[Line] = []
+        for port in self._ports:
+            mark = ">" if port.name == name else " "
+            label = ("key" if mark == ">" else "title", f"{mark}{port.name:{LABEL_COLUMNS - 1}}")
+            if not further:
+                lines.append([label, translated(port.summary)])
+                continue
+            missing = port.missing and _("can't be used here: {why}").format(why=translated(port.missing))
+            usable = ("warning", missing) if missing else ("good", _("can be used here"))
+            needs = _("it needs: {what}").format(what=translated(port.needs))
+            lines += [[label], [translated(port.summary)], [needs], [usable], [""]]
+        return lines
 
     def test(self) -> None:
         """Tests the configured port; takes some seconds where opening the line resets a board."""
