@@ -50,7 +50,7 @@ def call(arguments: argparse.Namespace) -> int:
         machine_named(machine, arguments.trace)  # raises where it could not be written afterwards
         taped = takes_segments(arguments.trace, machine.cards) or (in_batches(running) and machine.cards <= MOST_CARDS)
     else:
-        taped = machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
+        taped = bool(arguments.vcd) and machine.cards <= MOST_CARDS  # for the VCD file: the smaller record
     running = replace(running, taped=taped)
     paced = pace_of(running) == "real"
     chosen = jobs.job_setup(arguments)

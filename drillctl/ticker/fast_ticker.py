@@ -178,7 +178,7 @@ class FastTicker(Ticker):
         if self.sampler is not None:
             self.sampler.sample_quiet(quiet, self.controller.tick, self.forecast)
             if isinstance(self.sampler.recorder, TapeRecorder):
-                self.sampler.recorder.lay_strip(self.controller.tick, quiet.shown)
+                self.sampler.recorder.lay_strip(self.controller.tick, quiet.shown())
         leave_quiet(self.controller, self.forecast, quiet)
 
     def _step(self, before: int) -> None:

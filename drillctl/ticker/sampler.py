@@ -90,7 +90,7 @@ class Sampler:
     def sample_quiet(self, quiet: Quiet, first: int, forecast: PlantForecast) -> None:
         """Before a stretch that begins at tick ``first`` is left, as ``sample_batch``; tapes take its outputs."""
         if not isinstance(self.recorder, TapeRecorder):
-            self.sample_outputs(quiet.shown, first)
+            self.sample_outputs(quiet.shown(), first)
         for number, axis in enumerate(self._m.axes if self._derived else ()):
             motion = quiet.motion[number]
             if motion is not None:

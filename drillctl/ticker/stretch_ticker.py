@@ -46,7 +46,7 @@ class StretchTicker(Ticker):
         """Runs the plant on these output images (ticks,), up to the first tick that changes an input."""
         m = self.controller
         first, done = m.tick, self._dynamic.run(shown)
-        leave(m, done, int(shown[done - 1]))
+        leave(m, done)
         if self.sampler is not None:
             self.sampler.sample_outputs(shown[:done], first)
         self.note_touch()

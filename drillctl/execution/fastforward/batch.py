@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.axis_batch import AxisBatch
-from drillctl.execution.fastforward.strokes import COUNTERS, MOTION, POSITION, REMEMBERED, Place, Stroke
+from drillctl.execution.fastforward.strokes import COUNTERS, POSITION, REMEMBERED, Place, Stroke
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.trace.tapes import PERIOD, Count, ImagePool, Tape
 
@@ -56,7 +56,7 @@ class Stroked:
         parts = [np.array([[-1, *self.begin.motion(number)]], np.int64).T]
         for which, kind in enumerate(self.kinds):
             begins = starts[self.rows[self.which == which]]
-            once = np.array(kind.motions[number], np.int64).reshape(-1, 1 + len(MOTION)).T
+            once = kind.motions[number].T
             ticks = (begins[:, None] + once[0]).ravel()
             parts.append(np.stack((ticks, *np.tile(once[1:], len(begins)))))
         motion = np.concatenate(parts, axis=1)

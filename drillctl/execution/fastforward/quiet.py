@@ -12,9 +12,10 @@ import numpy as np
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.execution.fastforward.stretch import Count, Course, Images, foresee_courses, leave, put_out, shown_by
+from drillctl.execution.fastforward.stretch import Count, Course, Images, foresee_courses, leave, put_out, still_image
 from drillctl.execution.fastforward.world import PlantFacts
 
+LONGEST = 1 << 20  # ticks
 SHORTEST = 8  # ticks: a stretch of fewer is quicker ticked
 
 
@@ -22,14 +23,23 @@ SHORTEST = 8  # ticks: a stretch of fewer is quicker ticked
 class Quiet:
     """A stretch in the middle of a command, in which no input changes and the bit meets no board.
 
-    shown   the output image of each of its ticks, (ticks,)
+    still   the part of the output images that stays
     bits    by axis, what it puts out: images, and the ticks of each; None of an axis that stands
     motion  by axis, tick, column, position and state at each column put out, (4, k)
     """
 
-    shown: Images
+    ticks: int
+    still: int
     bits: Sequence[tuple[Images, Count] | None]
     motion: Sequence[Count | None]
+
+    def shown(self) -> Images:
+        """Returns the output image of each tick, (ticks,)."""
+        shown = np.full(self.ticks, self.still, np.uint64)
+        for bits in self.bits:
+            if bits is not None:
+                shown |= np.repeat(*bits)
+        return shown
 
 
 def foresee_quiet(m: Controller, world: PlantFacts, most: int) -> Quiet | None:
@@ -40,7 +50,7 @@ def foresee_quiet(m: Controller, world: PlantFacts, most: int) -> Quiet | None:
     columns = {index: _free_columns(world, index, m.axes[index]) for index in moving}
     if not moving or min(columns.values()) <= 0 or (len(moving) > 1 and any(m.axes[index].drive for index in moving)):
         return None
-    ticks, courses = foresee_courses(m, world.inputs, most)
+    ticks, courses = foresee_courses(m, world.inputs, min(most, LONGEST))
     for index in moving if ticks else ():
         begins = _course(courses, index).begins()
         ticks = min(ticks, _first_beyond(m.axes[index], begins, min(columns[index], len(begins)), ticks))
@@ -49,12 +59,12 @@ def foresee_quiet(m: Controller, world: PlantFacts, most: int) -> Quiet | None:
     pairs = list(zip(m.axes, courses, strict=True))
     bits = [None if course is None else put_out(axis, course, ticks) for axis, course in pairs]
     motion = [None if course is None else _motion(axis, course, ticks) for axis, course in pairs]
-    return Quiet(shown_by(m, courses, ticks), bits, motion)
+    return Quiet(ticks, still_image(m, courses), bits, motion)
 
 
 def leave_quiet(m: Controller, world: PlantFacts, quiet: Quiet) -> None:
     """Makes machine and plant what they are after a stretch."""
-    leave(m, len(quiet.shown), int(quiet.shown[-1]))
+    leave(m, quiet.ticks)
     for index, motion in enumerate(quiet.motion):
         if motion is not None:
             world.follow(index, _travel(m.axes[index]))

@@ -50,13 +50,19 @@ def foresee(m: Controller, inputs: int, most: int) -> Images:
     """Returns the output image of each tick of a stretch (ticks,) of at most ``most`` ticks, none where nothing is
     known. ``inputs`` is the input image that the next tick latches.
     """
-    ticks, courses = foresee_courses(m, inputs, most)
-    return shown_by(m, courses, ticks) if ticks else NONE
+    ticks, courses = foresee_courses(m, inputs, min(most, LONGEST))
+    if not ticks:
+        return NONE
+    shown = np.full(ticks, still_image(m, courses), np.uint64)
+    for axis, course in zip(m.axes, courses, strict=True):
+        if course is not None:
+            shown |= np.repeat(*put_out(axis, course, ticks))
+    return shown
 
 
 def foresee_courses(m: Controller, inputs: int, most: int) -> tuple[int, list[Course | None]]:
     """Returns the ticks of a stretch and the course of each axis that moves; otherwise as ``foresee``."""
-    ticks = min(most, LONGEST, _undisturbed(m, inputs))
+    ticks = min(most, _undisturbed(m, inputs))
     if ticks <= 0 or not all(_is_quiet(axis, m.sensors, m.position_known) for axis in m.axes):
         return 0, []
     courses = [_course(axis, ticks) if axis.counting else None for axis in m.axes]
@@ -69,28 +75,28 @@ def foresee_courses(m: Controller, inputs: int, most: int) -> tuple[int, list[Co
     return ticks, courses
 
 
-def shown_by(m: Controller, courses: Sequence[Course | None], ticks: int) -> Images:
-    """Returns the output image of each of so many ticks (ticks,), from the courses of all axes."""
-    shown = np.full(ticks, m.switched, np.uint64)
+def still_image(m: Controller, courses: Sequence[Course | None]) -> int:
+    """Returns what the axes that stand, and the outputs, show while those with a course move."""
+    image = m.switched
     for axis, course in zip(m.axes, courses, strict=True):
-        if course is not None:
-            shown |= np.repeat(*put_out(axis, course, ticks))
-        else:
-            shown |= np.uint64(axis.bits if axis.motion == REST else axis.hold_bits)
-    return shown
+        if course is None:
+            image |= axis.bits if axis.motion == REST else axis.hold_bits
+    return image
 
 
-def leave(m: Controller, ticks: int, image: int) -> None:
-    """Makes the controller what it is after so many ticks of a stretch; ``image`` is the last one."""
+def leave(m: Controller, ticks: int) -> None:
+    """Makes the controller what it is after so many ticks of a stretch."""
     m.elapsed += ticks
     m.tick += ticks
-    m.image = image
     m.moving = 0
     for axis in m.axes:
         if axis.motion != REST:
             for _ in _counted(axis, ticks):
                 pass
             m.moving += axis.counting
+    m.image = m.switched
+    for axis in m.axes:
+        m.image |= axis.bits
 
 
 def counting_ticks(m: Controller, inputs: int, most: int) -> int:

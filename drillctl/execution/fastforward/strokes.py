@@ -5,11 +5,12 @@ place is all that a head's automaton, its rotor and its sensors remember. The ti
 are noted by a Recording, which engine.py hands out; plan.py goes from place to place by what is ``known``.
 """
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
@@ -36,7 +37,7 @@ class Stroke:
     shown    by head, the images that it puts out, and the ticks of each, (k,)
     inputs   (tick, the heads' sensors as latched), changes only, from tick 0 to the first tick after the stroke
     touches  (tick, place of each head in steps) where the bit met the board
-    motions  by head: tick and MOTION, changes only
+    motions  by head: tick and MOTION, changes only, (k, 4)
     grown    by head, what it adds to the COUNTERS
     last     by head, its AxisMotion in the last tick, in which its forcing may still be on, and its bits then
     after    the place it ends at
@@ -46,7 +47,7 @@ class Stroke:
     shown: tuple[tuple[Images, Count], ...]
     inputs: tuple[tuple[int, int], ...]
     touches: tuple[tuple[int, tuple[float, ...]], ...]
-    motions: tuple[tuple[tuple[int, ...], ...], ...]
+    motions: tuple[Count, ...]
     grown: tuple[tuple[int, ...], ...]
     last: tuple[tuple[int, int], ...]
     after: "Place"
@@ -104,6 +105,11 @@ def _cooled(axis: Axis, slot: str) -> Any:
     return axis.hold_bits if slot == "bits" else getattr(axis, slot)
 
 
+def _joined(parts: Sequence[ArrayLike], dtype: type[np.generic]) -> NDArray[Any]:
+    """Returns one array of several, one after the other."""
+    return np.concatenate([np.asarray(part, dtype) for part in parts])
+
+
 class Recording:
     """One stroke while it is run by tick: ``note`` after each tick, ``end`` after the last."""
 
@@ -113,10 +119,10 @@ class Recording:
         self._start = strokes.here()
         self._counters = self._count()
         self._ticks = 0
-        self._shown: list[list[tuple[int, int]]] = [[] for _ in self._axes]  # by head: image, and its ticks
+        self._shown: list[list[tuple[ArrayLike, ArrayLike]]] = [[] for _ in self._axes]  # by head: images, their ticks
         self._inputs: list[tuple[int, int]] = []
         self._touches: list[tuple[int, tuple[float, ...]]] = []
-        self._motions: list[list[tuple[int, ...]]] = [[] for _ in self._axes]
+        self._motions: list[list[ArrayLike]] = [[] for _ in self._axes]
         self._at = [self._start.motion(number) for number in range(len(self._axes))]
 
     def note(self, places: tuple[float, ...] | None, ticks: int = 1) -> None:
@@ -125,27 +131,26 @@ class Recording:
         self._ticks += ticks
         self._see(tick, self._m.inputs)
         for number, axis in enumerate(self._axes):
-            self._shown[number].append((axis.bits, ticks))
+            self._shown[number].append(([axis.bits], [ticks]))
             at = axis.column, axis.position, axis.state
             if at != self._at[number]:
                 self._at[number] = at
-                self._motions[number].append((tick, *at))
+                self._motions[number].append([(tick, *at)])
         if places is not None:
             self._touches.append((tick, tuple(places[head] for head in self._strokes.heads)))
 
     def note_quiet(self, quiet: Quiet) -> None:
         """After a stretch."""
-        first, ticks = self._ticks, len(quiet.shown)
+        first, ticks = self._ticks, quiet.ticks
         self._see(first, self._m.inputs)
         self._ticks += ticks
         for number, head in enumerate(self._strokes.heads):
             bits, motion = quiet.bits[head], quiet.motion[head]
-            images, lasts = ([self._axes[number].bits], [ticks]) if bits is None else (each.tolist() for each in bits)
-            self._shown[number] += zip(images, lasts, strict=True)
-            for tick, *at in [] if motion is None else motion.T.tolist():
-                if tuple(at) != self._at[number]:
-                    self._at[number] = tuple(at)
-                    self._motions[number].append((first + tick, *at))
+            self._shown[number].append(bits or ([self._axes[number].bits], [ticks]))
+            if motion is not None and motion.size:
+                rows = np.concatenate(([(0, *self._at[number])], motion.T + np.array((first, 0, 0, 0))))
+                self._motions[number].append(rows[1:][(rows[1:, 1:] != rows[:-1, 1:]).any(axis=1)])
+                self._at[number] = tuple(rows[-1, 1:].tolist())
 
     def end(self) -> None:
         """From now on the stroke is known."""
@@ -155,11 +160,15 @@ class Recording:
             tuple(after - before for after, before in zip(now, then, strict=True))
             for now, then in zip(self._count(), self._counters, strict=True)
         ]
-        rows = [np.array(shown, np.int64).reshape(-1, 2).T for shown in self._shown]
-        shown = tuple((images.astype(np.uint64), lasts) for images, lasts in rows)
+        shown = tuple(
+            (_joined([images for images, _ in parts], np.uint64), _joined([lasts for _, lasts in parts], np.int64))
+            for parts in self._shown
+        )
+        none = np.zeros((0, 1 + len(MOTION)), np.int64)
+        motions = tuple(_joined([none, *parts], np.int64) for parts in self._motions)
         last = tuple((axis.motion, axis.bits) for axis in self._axes)
         self._start.known[self._signature] = Stroke(
-            ticks, shown, tuple(self._inputs), tuple(self._touches), tuple(map(tuple, self._motions)), tuple(grown),
+            ticks, shown, tuple(self._inputs), tuple(self._touches), motions, tuple(grown),
             last, self._strokes.here(),
         )  # fmt: skip
 
