@@ -33,7 +33,7 @@ class TooSmall(urwid.WidgetWrap[urwid.Widget]):
     def __init__(self, columns: int, rows: int):
         template = _(
             "This terminal has {columns} columns and {rows} rows. The screen needs {least_columns} and {least_rows}, "
-            "and is made for 80 and 24. The machine goes on as it was; F10 is the emergency stop."
+            "and is made for 80 and 24. The machine goes on as it was; X ends the job, F10 is the emergency stop."
         )
         text = template.format(columns=columns, rows=rows, least_columns=LEAST[0], least_rows=LEAST[1])
         super().__init__(urwid.AttrMap(urwid.Filler(Text(text), "top"), "body"))
@@ -70,7 +70,8 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         widget: urwid.Widget | None = self
         while widget is not None and not isinstance(widget, urwid.Edit):
             widget = _within(widget)
-        return widget is not None or isinstance(self.top, Finder)
+        found = isinstance(self.top, Finder) and not isinstance(self.original_widget, TooSmall)
+        return widget is not None or found
 
     def push_dialog(self, dialog: dialogs.Dialog) -> None:
         """Lays a dialog over everything, in the middle of the terminal."""

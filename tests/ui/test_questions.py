@@ -102,6 +102,17 @@ def test_the_job_is_stopped_from_everywhere_by_the_key_that_the_next_step_names(
     assert program.console.asked[-1] == ("stop",) and "stop; the position is kept" in program.text()
 
 
+@pytest.mark.parametrize("box", ["ctrl p", "t", "f9"])
+def test_a_terminal_that_is_too_small_shows_x_and_x_stops(box: str) -> None:
+    program = Program(FakeConsole(now=replace(VIEW, at_work=True), loaded=BOARD))
+    program.press(box)
+    program.paper.size = (40, 12)
+    program.press("window resize")
+    assert "X ends the job" in " ".join(program.text().split())
+    program.press("x")
+    assert program.console.asked == [("stop",)]
+
+
 def test_a_stop_with_nothing_under_way_says_so() -> None:
     program = Program(FakeConsole(loaded=BOARD))
     program.press("f", "x")

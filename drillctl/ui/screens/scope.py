@@ -9,28 +9,27 @@ import urwid
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.scope_curve import height_of
-from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, KINDS, SCOPE_KEYS, SEARCH_OF
-from drillctl.ui.screens.scope_measure import POSITION, command_after
+from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS
+from drillctl.ui.screens.scope_measure import POSITION
+from drillctl.ui.screens.scope_search import Searching
 from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.keys import called
 from drillctl.ui.widgets.texts import Size, boxed
 from drillctl.viewmodel.console import Console, MachineView, Problems, Watch
-from drillctl.viewmodel.scope import BACKWARDS, FORWARDS, Find, RunOpening, ScopeSource
+from drillctl.viewmodel.scope import RunOpening, ScopeSource
 
 ROOM_FOR_CURVES = 46  # rows of a window in which positions are curves from the beginning
 WHEEL = {4: CLOSER, 5: FURTHER}  # buttons of the mouse
 
 
-class Scope(urwid.Widget):
+class Scope(Searching, urwid.Widget):
     """Waves under a cursor. ``source``: what is looked at first; None: the run of the machine at hand."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
     _selectable = True
     title = N_("Scope")
     keys = SCOPE_KEYS
-    _view: Viewport
-    _rows: SignalRows
     _following: bool
     _curves_drawn: bool
     _seen: object = None  # of the run, when it was last drawn
@@ -39,8 +38,7 @@ class Scope(urwid.Widget):
         self, _console: Console, shell: Shell, runs: RunOpening, plain: bool = False, source: ScopeSource | None = None
     ):
         self._shell, self._runs, self._plain = shell, runs, plain
-        self._file = self._sought = ""
-        self._kind: Find = KINDS[0]  # of event, to be looked for
+        self._file = ""
         self._live = source is None
         self._look_at(source or runs.running())
 
@@ -150,28 +148,6 @@ class Scope(urwid.Widget):
             heights[at] = height
         self._with_rows(self._rows.with_heights(heights))
 
-    def search(self) -> None:
-        """Asks for a part of a command's text, then moves the cursor to the next such command."""
-        self._shell.ask_text(_("Find a command"), _("A part of its text:"), self._sought, self._search)
-
-    def next_kind(self) -> None:
-        """Chooses the next kind of event to be looked for, and says which."""
-        self._kind = KINDS[(KINDS.index(self._kind) + 1) % len(KINDS)]
-        self._say(_("N: {event}").format(event=_(SEARCH_OF[self._kind].on)))
-
-    def look_for(self, kind: Find) -> None:
-        """Chooses a kind of event, and moves the cursor to the next one."""
-        self._kind = kind
-        self.find_on()
-
-    def find_on(self) -> None:
-        """Moves the cursor to the next event of the kind that was chosen."""
-        self._find(FORWARDS)
-
-    def find_back(self) -> None:
-        """Moves the cursor to the event of the kind that was chosen before it."""
-        self._find(BACKWARDS)
-
     def row(self, by: int) -> None:
         """Moves the bar down by so many rows."""
         self._with_rows(self._rows.move(by))
@@ -198,14 +174,6 @@ class Scope(urwid.Widget):
         signals = enumerate(self._source.signals())
         heights = {row: height_of(signal) for row, signal in signals if signal.name == POSITION}
         self._rows = self._rows.with_heights(heights)
-
-    def _search(self, typed: str) -> None:
-        self._sought = typed.strip()
-        tick = command_after(self._source, self._view.cursor, self._sought)
-        if tick is None:
-            self._say(_("no further command with {text!r} in it").format(text=self._sought))
-        else:
-            self._go(tick)
 
     def _look_at(self, source: ScopeSource) -> None:
         """Shows another run: a live one from its end on, following it; a recorded one at its opening tick."""
@@ -242,13 +210,6 @@ class Scope(urwid.Widget):
             self._look_at(source)
 
         self._shell.work(read, opened)
-
-    def _find(self, direction: int) -> None:
-        tick = self._source.find(self._kind, self._view.cursor, direction, self._rows.at)
-        if tick is None:
-            self._say(_(SEARCH_OF[self._kind].none))
-        else:
-            self._go(tick)
 
     def _go_to_typed(self, text: str) -> None:
         if text.strip().isdecimal():
