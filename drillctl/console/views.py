@@ -1,6 +1,7 @@
 """Status record, machine and board as the records that screens draw (viewmodel/console.py)."""
 
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -97,7 +98,7 @@ def _axis_view(
 ) -> AxisView:  # fmt: skip
     position, target = int(status["position"][index]), int(status["target"][index])
     wires = tuple(
-        (wire.name, "".join(_cell(on, wire.forcing) for on in wire.forward), bool(image >> bit & 1))
+        (wire.name, _row(wire.forward, wire.forcing), bool(image >> bit & 1))
         for wire, bit in zip(axis.phase.wires, axis.wire_bits, strict=True)
     )
     return AxisView(
@@ -115,9 +116,10 @@ def _axis_view(
     )
 
 
-def _cell(on: bool, forcing: bool) -> str:
-    """A cell of a phase table as the screens have it."""
-    return "." if not on else "X" if forcing else "x"
+@lru_cache(256)  # the wires of a machine: a view is made at every beat of the screen
+def _row(columns: tuple[bool, ...], forcing: bool) -> str:
+    """A row of a phase table as the screens have it."""
+    return "".join("." if not on else "X" if forcing else "x" for on in columns)
 
 
 def _command_texts(machine: Machine, status: np.void, program: NDArray[np.void] | None, done_before: int) -> list[str]:

@@ -67,6 +67,7 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
         self._left = urwid.Pile([self._parts["board"]])
         self._right = urwid.Pile([self._parts["machine"]])
         self._columns = urwid.Columns([self._left, self._right])
+        self._laid_out: tuple[Layout, int] | None = None
         super().__init__(self._columns)
 
     def show(self, view: MachineView, board: BoardView | None, progress: Progress | None) -> None:
@@ -88,7 +89,10 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
         self._motors.turn_page()
 
     def lay_out(self, room: Layout, columns: int) -> None:
-        """Shows the windows that there is room for on a screen of so many columns."""
+        """Shows the windows that there is room for on a screen of so many columns; the same again draws nothing."""
+        if self._laid_out == (room, columns):
+            return
+        self._laid_out = room, columns
         beside = columns >= room.side + LEAST_BOARD
         for part in self._parts.values():
             part.show(room.framed)
