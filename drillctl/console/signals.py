@@ -23,7 +23,7 @@ class MachineSignals:
     def signals(self) -> list[SignalView]:
         """Every signal of the first two cards (the status record has no more), as it is now."""
         status, machine = self._console.link.status(), self._console.machine
-        return signals_of(machine, int(status["sensors"]), int(status["image"]))
+        return signals_of(machine, int(status["sensors"]), int(status["image"]), self._console.link.held_inputs)
 
     def real_port(self) -> str:
         """The real port that the machine runs on; empty where it is simulated."""
@@ -37,6 +37,14 @@ class MachineSignals:
             return (Message("bit {bit} is no output of this machine", bit=bit),)
         taken = self._console.link.set_output(bit, int(on))
         return () if taken else (Message("too many outputs at once; try again"),)
+
+    def press_input(self, bit: int, on: bool) -> Problems:
+        """Holds an input at its active level, or lets it go: what the machine then does is decided by the tick."""
+        line = next((line for line in self._console.machine.input_lines if line.bit == bit), None)
+        if line is None:
+            return (Message("bit {bit} is no input of this machine", bit=bit),)
+        taken = self._console.link.hold_input(bit, line.active_level if on else None)
+        return () if taken else (Message("only a simulated machine at real pace has inputs that can be pressed"),)
 
     def run_paused(self, text: str) -> Problems:
         """Runs a queue with the clock stopped before its first tick."""
@@ -68,16 +76,18 @@ class MachineSignals:
         return ()
 
 
-def signals_of(machine: Machine, reached: int, image: int) -> list[SignalView]:
-    """All signals of a machine: sensors by ``reached`` (a bit each, 1 where reached), outputs by the image."""
-    return [*_inputs(machine, reached), *_outputs(machine, image)]
+def signals_of(machine: Machine, reached: int, image: int, held: int = 0) -> list[SignalView]:
+    """All signals of a machine: inputs by ``reached`` (a bit each, 1 where reached) and ``held``, outputs by the
+    image.
+    """
+    return [*_inputs(machine, reached, held), *_outputs(machine, image)]
 
 
-def _inputs(machine: Machine, reached: int) -> Iterator[SignalView]:
+def _inputs(machine: Machine, reached: int, held: int) -> Iterator[SignalView]:
     for line in machine.input_lines:
         on = reached >> line.bit & 1
         level = line.active_level if on else 1 - line.active_level
-        yield SignalView("input", line.name, line.bit, level, line.active_level)
+        yield SignalView("input", line.name, line.bit, level, line.active_level, held=bool(held >> line.bit & 1))
 
 
 def _outputs(machine: Machine, image: int) -> Iterator[SignalView]:

@@ -1,7 +1,11 @@
 """Simulated cards, whose wires end in a plant. 32 outputs and 32 inputs a card, as on a PCL-720."""
 
+import mmap
+
 from drillctl.plant import Plant
 from drillctl.ports import SAFE_IMAGE, Driver
+
+HELD_BYTES = 64  # input bits of 16 cards
 
 
 class SimulatedCard:
@@ -25,6 +29,40 @@ class SimulatedCard:
     def close(self) -> None:
         """Sets all outputs low; there is nothing to release."""
         self.safe()
+
+
+class SwitchedCard(SimulatedCard):
+    """A simulated card whose input lines a person can hold at a level, from this process and from those that were
+    forked off it: what is held lies in memory that they share. A held line reads so whatever the plant says.
+    """
+
+    def __init__(self, plant: Plant):
+        super().__init__(plant)
+        self._held = mmap.mmap(-1, 1 + 2 * HELD_BYTES)  # whether any is held; the lines held high; those held low
+
+    def hold(self, bit: int, level: int | None) -> None:
+        """Holds the line of an input bit high (1) or low (0), or lets it go (None)."""
+        place, mask = 1 + bit // 8, 1 << bit % 8
+        for start, held_at in ((place, 1), (place + HELD_BYTES, 0)):
+            self._held[start] = self._held[start] | mask if level == held_at else self._held[start] & ~mask
+        self._held[0] = any(self._held[1:])
+
+    @property
+    def held(self) -> int:
+        """The input bits that are held."""
+        high, low = self._masks()
+        return high | low
+
+    def latch(self) -> int:
+        """Returns the plant's inputs, and those that are held as they are held."""
+        if not self._held[0]:
+            return self.plant.inputs
+        high, low = self._masks()
+        return (self.plant.inputs | high) & ~low
+
+    def _masks(self) -> tuple[int, int]:
+        low_at = 1 + HELD_BYTES
+        return int.from_bytes(self._held[1:low_at], "little"), int.from_bytes(self._held[low_at:], "little")
 
 
 class WatchedCard:

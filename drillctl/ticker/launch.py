@@ -13,7 +13,7 @@ from drillctl.machine import Machine
 from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice, PlantRefused
 from drillctl.portio.registry import check_rate as check_port_rate
 from drillctl.portio.registry import open_port, port_of_card, select
-from drillctl.portio.simulated import SimulatedCard
+from drillctl.portio.simulated import SimulatedCard, SwitchedCard
 from drillctl.ports import Driver, PortLayout, PortRefused
 from drillctl.ticker.fast_ticker import FAR_SIGHT, FAST, TICK, FastTicker
 from drillctl.ticker.link import Link, LocalLink
@@ -120,7 +120,7 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
     pace = pace_of(running)
     check_rate(machine, running)
     plant = plant_of(machine, running)
-    driver = open_port(running.port, port_layout(machine), SimulatedCard(plant) if plant else None)
+    driver = open_port(running.port, port_layout(machine), _card(plant, running, pace) if plant else None)
     if _goes_fast(running, pace, driver, plant, keeper):
         return LocalLink(
             FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
@@ -146,6 +146,11 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
             running.port,
             Message("the ticks have no process of their own: {why}", why=why),
         ) from error
+
+
+def _card(plant: Plant, running: RunSettings, pace: str) -> SimulatedCard:
+    """The card of a simulated machine; one whose inputs can be pressed where a screen keeps the machine."""
+    return SwitchedCard(plant) if running.kept and pace == REAL else SimulatedCard(plant)
 
 
 def check_rate(machine: Machine, running: RunSettings) -> None:

@@ -13,6 +13,8 @@ import numpy as np
 from drillctl.kmd import CommandQueue, Request, TickGate
 from drillctl.language import Message
 from drillctl.plant import Plant
+from drillctl.portio.simulated import SwitchedCard
+from drillctl.ports import Driver
 from drillctl.ticker.edited_tables import take_tables
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Segments, Trace
@@ -57,6 +59,15 @@ class Link(Protocol):
 
     def set_output(self, bit: int, value: int) -> bool:
         """Makes the request OUTPUT. False, and nothing asked, where too many of them wait."""
+
+    def hold_input(self, bit: int, level: int | None) -> bool:
+        """Holds an input line of a simulated card at a level (1, 0), or lets it go (None). False, and nothing done,
+        where the inputs are a machine's own.
+        """
+
+    @property
+    def held_inputs(self) -> int:
+        """The input bits that are held, as an image."""
 
     def set_rate(self, tick_hz: int) -> bool:
         """Makes the request PACE. False, and nothing asked, where too many wait. The caller has checked that port and
@@ -134,6 +145,15 @@ class LocalLink:
         """Puts OUTPUT into the ticker's mailbox."""
         return self.ticker.requests.set_output(bit, value)
 
+    def hold_input(self, bit: int, level: int | None) -> bool:
+        """Holds an input of the ticker's card."""
+        return hold_input(self.ticker.port, bit, level)
+
+    @property
+    def held_inputs(self) -> int:
+        """What is held on the ticker's card."""
+        return held_inputs(self.ticker.port)
+
     def set_rate(self, tick_hz: int) -> bool:
         """Puts PACE into the ticker's mailbox."""
         return self.ticker.requests.set_rate(tick_hz)
@@ -178,6 +198,19 @@ class LocalLink:
     def close(self) -> None:
         """Closes the port, which makes the outputs safe."""
         self.ticker.port.close()
+
+
+def hold_input(port: Driver, bit: int, level: int | None) -> bool:
+    """Holds an input line where the port is a simulated card that can be held; returns whether it is."""
+    if not isinstance(port, SwitchedCard):
+        return False
+    port.hold(bit, level)
+    return True
+
+
+def held_inputs(port: Driver) -> int:
+    """The input bits that are held; 0 on a port where none can be."""
+    return port.held if isinstance(port, SwitchedCard) else 0
 
 
 def header_of(plant: Plant | None) -> Header:

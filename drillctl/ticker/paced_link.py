@@ -21,7 +21,7 @@ from drillctl.ports import Driver
 from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.edited_tables import TableSlot
 from drillctl.ticker.guard_process import SILENCE_NS, run_guard
-from drillctl.ticker.link import Touch, header_of
+from drillctl.ticker.link import Touch, header_of, held_inputs, hold_input
 from drillctl.ticker.message_text import message_read
 from drillctl.ticker.sampler import signals
 from drillctl.ticker.ticker_process import DESK_IDLE_NS, TOUCH, TickerProcess
@@ -88,6 +88,15 @@ class PacedLink:
     def set_output(self, bit: int, value: int) -> bool:
         """Makes the request OUTPUT; False where too many wait."""
         return self._requests.set_output(bit, value)
+
+    def hold_input(self, bit: int, level: int | None) -> bool:
+        """Holds an input of the card, in memory that the ticker's process shares."""
+        return hold_input(self._port, bit, level)
+
+    @property
+    def held_inputs(self) -> int:
+        """What is held on the card."""
+        return held_inputs(self._port)
 
     def set_rate(self, tick_hz: int) -> bool:
         """Makes the request PACE; False where too many wait."""

@@ -24,6 +24,7 @@ class SignalView:
     level         1 where the wire is high
     active_level  the level that means on: of an input, its sensor reached
     forcing       a coil's wire that must not stay on for long: the winding would burn
+    held          an input that a person holds at its active level
     """
 
     kind: SignalKind
@@ -32,6 +33,7 @@ class SignalView:
     level: int
     active_level: int = 1
     forcing: bool = False
+    held: bool = False
 
     @property
     def on(self) -> bool:
@@ -55,6 +57,11 @@ class ManualControl(Protocol):
 
     def set_output(self, bit: int, on: bool) -> Problems:
         """Switches an output or a coil's wire, at rest and outside a job. A coil's costs the position."""
+
+    def press_input(self, bit: int, on: bool) -> Problems:
+        """Holds an input of a simulated machine at its active level, as a finger on the switch does, or lets it go;
+        at any time. Refused on a real port.
+        """
 
     def run_paused(self, text: str) -> Problems:
         """Begins a queue of commands with the clock stopped; ``tick`` and ``go`` let it run."""

@@ -1,5 +1,6 @@
 """After an emergency stop of the boiler drum's drill the console lets it return to zero, and refuses all else."""
 
+import sys
 from collections.abc import Callable
 
 import pytest
@@ -19,6 +20,49 @@ REFUSED: dict[str, Callable[[MachineConsole], object]] = {
     "rate": lambda console: console.set_tick_hz(90_000),
     "output": lambda console: MachineSignals(console).set_output(0, True),
 }
+
+BY_SIMULATED_CLOCK = RunSettings(pace="real", sliced=True)
+
+
+def press(console: MachineConsole, name: str, on: bool) -> object:
+    hands = MachineSignals(console)
+    return hands.press_input(next(signal.bit for signal in hands.signals() if signal.name == name), on)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="real pace needs Linux")
+def test_the_switches_of_the_simulated_machine_are_pressed_by_hand() -> None:
+    library = Library.standard()
+    console = MachineConsole(library, library.machine("boiler-drum"), BY_SIMULATED_CLOCK)
+    try:
+        assert press(console, "pause", True) == ()
+        assert console.run_queue("KMD_INICJALIZACJA\nKMD_RUCHd x=60\n") == ()
+        until(console, lambda: console.view().condition == "held")
+        assert press(console, "pause", False) == ()
+        settle(console)
+        assert [axis.position_steps for axis in console.view().axes] == [60, 0]
+        assert press(console, "emergency_stop", True) == ()
+        assert console.run_queue("KMD_RUCHd x=60\n") == ()
+        until(console, lambda: console.view().condition == "latched")
+        assert press(console, "emergency_stop", False) == ()
+        until(console, lambda: not MachineSignals(console).signals()[1].on)
+        console.acknowledge()
+        until(console, lambda: console.view().condition == "zero_only")
+        settle(console)
+        assert console.return_to_zero() == ()
+        settle(console)
+        assert [axis.position_steps for axis in console.view().axes] == [0, 0]
+        assert MachineSignals(console).press_input(31, True) == ("bit 31 is no input of this machine",)
+    finally:
+        console.close()
+
+
+def test_a_machine_that_runs_free_has_no_switches_to_press() -> None:
+    library = Library.standard()
+    console = MachineConsole(library, library.machine("boiler-drum"), RunSettings("simulated", "free"))
+    try:
+        assert "only a simulated machine at real pace" in str(press(console, "pause", True))
+    finally:
+        console.close()
 
 
 @pytest.mark.parametrize("back", [MachineConsole.return_to_zero, lambda console: console.run_queue("KMD_POWROT\n")])

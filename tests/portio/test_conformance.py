@@ -11,7 +11,7 @@ from drillctl.portio.firmata_pins import MEGA
 from drillctl.portio.gpiod_lines import GpioLines, LineMap
 from drillctl.portio.mapped import MappedCard, read_map
 from drillctl.portio.pcl720 import Pcl720
-from drillctl.portio.simulated import SimulatedCard
+from drillctl.portio.simulated import SimulatedCard, SwitchedCard
 from drillctl.ports import bits_of
 from tests.portio.conformance import WIRING, Bench, DriverConformance, SharedCardConformance, StandInPlant
 from tests.portio.firmata_stand_in import StandIn
@@ -28,6 +28,12 @@ class SimulatedBench(Bench):
 
     def put(self, image: int) -> None:
         self.plant.inputs = image
+
+
+class SwitchedBench(SimulatedBench):
+    def __init__(self) -> None:
+        super().__init__()
+        self.driver = SwitchedCard(self.plant)
 
 
 class RecordedBench(SimulatedBench):
@@ -128,6 +134,27 @@ class TestSimulated(DriverConformance):
     @pytest.fixture
     def bench(self) -> Iterator[Bench]:
         yield SimulatedBench()
+
+
+class TestSwitched(DriverConformance):
+    @pytest.fixture
+    def bench(self) -> Iterator[Bench]:
+        yield SwitchedBench()
+
+    def test_a_line_is_held_at_either_level_in_every_process(self) -> None:
+        bench = SwitchedBench()
+        bench.put(0b101)
+        child = os.fork()
+        if not child:
+            bench.driver.hold(1, 1)
+            bench.driver.hold(2, 0)
+            bench.driver.hold(40, 1)
+            os._exit(0)
+        os.waitpid(child, 0)
+        assert (bench.driver.latch(), bench.driver.held) == (0b011 | 1 << 40, 0b110 | 1 << 40)
+        for bit in (1, 2, 40):
+            bench.driver.hold(bit, None)
+        assert (bench.driver.latch(), bench.driver.held) == (0b101, 0)
 
 
 class TestRecorded(DriverConformance):

@@ -130,6 +130,11 @@ class Hands:
             self.shown = [replace(s, level=int(on)) if s.bit == bit and s.kind != "input" else s for s in self.shown]
         return self._keep("set_output", bit, on)
 
+    def press_input(self, bit: int, on: bool) -> Problems:
+        if not self.refusal:
+            self.shown = [replace(s, held=on) if s.bit == bit and s.kind == "input" else s for s in self.shown]
+        return self._keep("press_input", bit, on)
+
     def run_paused(self, text: str) -> Problems:
         self.console.paused = not self.refusal
         return self._keep("run_paused", text)

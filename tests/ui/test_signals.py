@@ -95,10 +95,21 @@ def test_down_and_up_again_stay_in_their_column(columns: int) -> None:
     assert place in grid_rows(shown, columns)[1]
 
 
-def test_an_output_is_switched_at_once_and_an_input_never() -> None:
+def test_an_input_is_pressed_and_let_go_and_on_a_real_port_never() -> None:
     drawn, hands = screen()
     press(drawn, " ")
+    drawn.refresh(VIEW)
+    assert hands.done == [("press_input", 0, True)] and "x_min is pressed; Space lets it go" in text_of(drawn)
+    assert "reached when low, held by hand" in text_of(drawn)
+    press(drawn, " ")
+    assert hands.done[-1] == ("press_input", 0, False) and "x_min is let go" in text_of(drawn)
+    drawn, hands = screen(port="firmata:/dev/ttyACM0")
+    press(drawn, " ")
     assert hands.done == [] and "x_min is an input" in text_of(drawn)
+
+
+def test_an_output_is_switched_at_once() -> None:
+    drawn, hands = screen()
     press(drawn, "down", " ")
     assert hands.done == [("set_output", 18, True)]
     drawn.refresh(VIEW)

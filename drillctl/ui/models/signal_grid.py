@@ -68,7 +68,8 @@ def about(signal: SignalView) -> str:
     card, bit = signal.card_and_bit
     place = _("{name}: bit {bit} of card {card}").format(name=signal.name, bit=bit, card=card)
     if signal.kind == "input":
-        return f"{place}, " + _("reached when {level}").format(level=_(LEVELS[signal.active_level]))
+        reached = _("reached when {level}").format(level=_(LEVELS[signal.active_level]))
+        return ", ".join([place, reached, *([_("held by hand")] if signal.held else [])])
     if signal.kind == "coil":
         return f"{place}, " + (_("forcing wire") if signal.forcing else _("motor's wire"))
     return place

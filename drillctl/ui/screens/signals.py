@@ -1,4 +1,5 @@
-"""The Signals screen (Tests): every input and output by name, live; outputs and coils switched by hand while at rest.
+"""The Signals screen (Tests): every input and output by name, live; outputs and coils switched by hand while at
+rest, inputs of a simulated machine pressed.
 
 Rule: what is seen is what the port has, and nothing is switched that was not asked for: a coil costs the position, a
 real machine moves, so both are asked about first.
@@ -15,6 +16,7 @@ from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.signals import ManualControl, SignalView
 
 FOOT_ROWS = 2
+SWITCHES = N_("switches the output on or off, at rest; presses an input of the simulated machine")
 
 
 class Signals(urwid.Widget):
@@ -24,7 +26,7 @@ class Signals(urwid.Widget):
     _selectable = True
     title = N_("Signals")
     keys = (
-        Key((" ", "enter"), N_("Space"), "toggle", N_("switches the output on or off, at rest"), N_("Switch")),
+        Key((" ", "enter"), N_("Space"), "toggle", SWITCHES, N_("Switch")),
         Key(("left",), N_("Left"), "sideways", N_("the signal before"), argument=-1),
         Key(("right",), N_("Right"), "sideways", N_("the next signal"), argument=1),
         Key(("up",), N_("Up"), "downwards", N_("a line up"), argument=-1),
@@ -82,10 +84,12 @@ class Signals(urwid.Widget):
         return place < len(places)
 
     def toggle(self) -> None:
-        """Switches an output or a coil over; asks first where a coil would cost a known position."""
+        """Switches an output or a coil over; asks first where a coil would cost a known position. Presses an input of a
+        simulated machine, and lets it go.
+        """
         signal = self._signals[self._cursor]
         if signal.kind == "input":
-            self._say("warning", _("{name} is an input: it is read, not switched").format(name=signal.name))
+            self._press(signal)
             return
         coil = signal.kind == "coil" and self._console.view().position_known
         warning = _("{name} is a motor's wire: the position will be lost.").format(name=signal.name) if coil else ""
@@ -101,6 +105,15 @@ class Signals(urwid.Widget):
         """Moves the cursor down by so many lines; it stops at the ends."""
         for _line in range(abs(by)):
             self._go(moved(self._signals, self._cursor, self._columns, 1 if by > 0 else -1))
+
+    def _press(self, signal: SignalView) -> None:
+        if self._control.real_port():
+            self._say("warning", _("{name} is an input: it is read, not switched").format(name=signal.name))
+        elif problems := self._control.press_input(signal.bit, not signal.held):
+            self._say("warning", _("refused: {why}").format(why="; ".join(map(translated, problems))))
+        else:
+            said = _("{name} is let go") if signal.held else _("{name} is pressed; Space lets it go")
+            self._say("body", said.format(name=signal.name))
 
     def _switch(self, signal: SignalView) -> None:
         if problems := self._control.set_output(signal.bit, not signal.on):
