@@ -1,7 +1,7 @@
 """The drum's drill as it is shipped, at 100,000 ticks a second: every gear, direction, short and long strokes.
 
 What a part program ought to do is read from its characters (tests/support/sentences.py), what it did from the coil
-words (tests/support/decoder.py): neither shares a line with the program.
+words by the sequences as the paper prints them: neither shares a line, or a table, with the program.
 """
 
 from itertools import pairwise
@@ -19,12 +19,15 @@ from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Trace, first_difference, render
 from tests.support.bench import Bench, shipped
-from tests.support.decoder import Watch, decoders
 from tests.support.sentences import decoded
 from tests.support.twins import ran, remembered, trace
 
 DRUM = Library((shipped_tables(),)).machine("boiler-drum")
-CODERS = decoders(shipped_tables() / "machines" / "boiler-drum.toml", shipped_tables())
+# By carriage: the paper's sequence of coils, and the bits of port B: a to e of the large one, a to c of the small one.
+SEQUENCES = (
+    (["AB", "ABC", "BC", "BCD", "CD", "CDE", "DE", "DEA", "EA", "EAB"], {"A": 0, "B": 1, "C": 2, "D": 3, "E": 4}),
+    (["A", "AB", "B", "BC", "C", "CA"], {"A": 5, "B": 6, "C": 7}),
+)
 WAYS = ("64", "82")  # large carriage on and back, small carriage on and back
 STEPS_PER_TENTH = 5
 FOREVER = 10**9
@@ -65,17 +68,24 @@ def test_every_gear_lands_exactly_both_ways_on_short_and_long_strokes(letter: st
     assert m.fault == Fault.NONE
     assert [axis.position for axis in m.axes] == [*map(round, ticker.lost_steps())] == [0, 0]
     ticks, words = word_changes(found)
-    courses = [coder.recount(words, Watch()) for coder in CODERS]
-    for axis, course in enumerate(courses):
-        assert course.least == course.most, "a word that could be two columns"
-        steps = [after - before for before, after in pairwise([0, *course.most]) if after != before]
-        assert set(steps) <= {1, -1}
-        wanted = [row[axis] for row in decoded(text) if row[axis]]
-        assert runs(steps) == wanted
+    for axis, sequence in enumerate(SEQUENCES):
+        assert runs(steps_of(words, *sequence)) == [row[axis] for row in decoded(text) if row[axis]]
     metres_a_minute = decoded(text)[0][2]
     due = round(DRUM.tick_hz / (metres_a_minute * 1000 / 60 / 0.02))
     least = min(after - before for before, after in pairwise(ticks))
     assert least == due, "the gear's own interval is never reached, or passed"
+
+
+def steps_of(words: list[int], sequence: list[str], bits: dict[str, int]) -> list[int]:
+    """The steps of a carriage, +1 or -1 each: where its coils go on to the next of their sequence, or to the one
+    before. A motor that was not on yet stands at the last of them.
+    """
+    beats = [frozenset(beat) for beat in sequence]
+    lit = [frozenset(coil for coil, bit in bits.items() if word >> bit & 1) for word in words]
+    places = [beats.index(coils) for coils in lit if coils]  # raises for coils that are never on together
+    ways = [(after - before) % len(beats) for before, after in pairwise([len(beats) - 1, *places])]
+    assert set(ways) <= {0, 1, len(beats) - 1}, "a beat was left out"
+    return [1 if way == 1 else -1 for way in ways if way]
 
 
 def runs(steps: list[int]) -> list[int]:
