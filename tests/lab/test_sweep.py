@@ -28,7 +28,7 @@ ASKED = Question(
     phases("two-phase-forced,forcing removed", AXIS, LIBRARY),
     (("coulomb_nm", (0.5, 1.0, 2.0)), ("inertia_kgm2", (1.0, 1.1))),
     (0.0, 0.001),
-    (2, 15),
+    (2, 9),
     draws=2,
     spread=0.02,
     seed=3,

@@ -44,7 +44,7 @@ def long_moves(axis: AxisTable) -> list[int]:
 
 @BOTH
 def test_short_moves_lose_nothing_at_500_hz(axis: AxisTable) -> None:
-    most = 120 if axis is LITERAL else 24
+    most = 48 if axis is LITERAL else 12
     steps = [way * length for length in (*range(1, most + 1), 240 // axis.columns_per_step * 2) for way in (1, -1)]
     assert not losing(axis, steps, THREE, [500])
 
@@ -58,7 +58,7 @@ def test_no_move_of_1_to_500_steps_from_any_column_loses_at_500_hz(axis: AxisTab
 
 @BOTH
 def test_nothing_is_lost_up_to_580_hz(axis: AxisTable) -> None:
-    assert not losing(axis, long_moves(axis), THREE, [300, 400, 480, 500, 520, 540, 560, 580])
+    assert not losing(axis, long_moves(axis), THREE, [300, 500, 540, 580])
 
 
 @BOTH
