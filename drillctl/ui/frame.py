@@ -119,10 +119,11 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
     def __init__(self, press: Callable[[str], object]) -> None:
         self.bar = MenuBar()
         self._machine = Text("", wrap="ellipsis")
-        self._step = Text("", wrap="ellipsis")
+        self._step = Text("")  # in a narrow terminal it takes a second row
         self._keys = KeyLine(press)
         self._window = Window(urwid.SolidFill())
         self._title: Line = []
+        self._name = self._port = ""
         self._state: Line = []
         self._notice: Line = []
         self._shown: Line = []
@@ -159,12 +160,18 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
             self._step.set_text([*said, *self._next])
 
     def render(self, size: Size, focus: bool = False) -> urwid.CompositeCanvas:
-        """Fits the line on the machine first: the screen's title is left out where the position would not be seen."""
+        """Fits the line on the machine first: where the position would not be seen, the screen's title is left out,
+        then the port, then the end of the machine's name.
+        """
         assert len(size) == 2
         framed = layout(size[0], size[1] - FRAME_ROWS).framed
         self._window.show(framed and not getattr(self.screen, "has_windows", False))
-        line = [*([] if framed else self._title), *self._state]
-        markup = [*(line if width_of(line) <= size[0] else self._state), *self._notice]
+        before: list[Line] = [[f" {self._name} | {self._port} | "], [f" {self._name} | "]]
+        if not framed:
+            before.insert(0, [*self._title, *before[0]])
+        room = size[0] - width_of(self._state)
+        fitting = next((line for line in before if width_of(line) <= room), [_shortened(self._name, room)])
+        markup = [*fitting, *self._state, *self._notice]
         if (left := size[0] - width_of(markup) - 1) > 0:
             markup = [*markup, " ", ("border", lines().across * left)]
         if markup != self._shown:
@@ -182,14 +189,21 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         moving = _("moving") if view.moving else _("at rest")
         position = ("good", _("position known")) if view.position_known else ("warning", _("position not known"))
         tables = f" {_('(local)')}" if view.local else ""
-        place = f" {view.machine}{tables} | {_plant_or_port(view)} | "
+        name, port = f"{view.machine}{tables}", _plant_or_port(view)
         shown = (attribute, f" {_(word)} ")
         title = ("title", f" {_(getattr(self.screen, 'title', ''))} ")
-        state: Line = [place, shown, f" {moving} | ", position]
+        state: Line = [shown, f" {moving} | ", position]
         notice: Line = [" | ", ("warning", translated(view.notices[-1]))] if view.notices else []
-        if (state, notice, [title]) != (self._state, self._notice, self._title):
-            self._title, self._state, self._notice = [title], state, notice
+        known = (self._name, self._port, self._state, self._notice, self._title)
+        if (name, port, state, notice, [title]) != known:
+            self._name, self._port, self._state, self._notice, self._title = name, port, state, notice, [title]
             self._invalidate()
+
+
+def _shortened(name: str, columns: int) -> str:
+    """The beginning of a machine's name in so many columns; empty where there is room for less than a letter."""
+    kept = columns - len(" … | ")
+    return f" {name[:kept]}… | " if kept > 0 else ""
 
 
 def _plant_or_port(view: MachineView) -> str:

@@ -18,12 +18,13 @@ from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
-from drillctl.ui.widgets.texts import Edit, Line, Text
+from drillctl.ui.widgets.texts import Edit, Line, Text, WholeText
 from drillctl.viewmodel.bench import Bench
 from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.tables import FieldView, TableEditing
 
 LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
+HINT_COLUMNS = 32  # in fewer the hint of the field under the cursor stands below the fields
 MOST_EFFECTS = 3  # below the fields, where there is no panel
 
 
@@ -31,7 +32,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
     title = N_("Configuration")
-    _has_panel = False  # as drawn last
+    _has_panel = _narrow = False  # as drawn last
     keys = (
         Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
         Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
@@ -86,8 +87,9 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         left, rows = self._left(size)
         assert len(size) == 2
         beside = size[0] - left
-        if bool(beside) != self._has_panel:
-            self._has_panel = bool(beside)
+        narrow = left - LABEL_COLUMNS - VALUE_COLUMNS < HINT_COLUMNS
+        if (bool(beside), narrow) != (self._has_panel, self._narrow):
+            self._has_panel, self._narrow = bool(beside), narrow
             self._look()
         lines = about_field(self._draft, self._field, self._carried, beside - BORDER_COLUMNS) if beside else []
         return with_panel(super().render((left, rows), focus), _("This field"), lines, beside, rows)
@@ -246,7 +248,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
         lines: list[Line] = []
         if not self._has_panel:
-            lines = [[_(words_of(field).meaning)]]
+            lines = [[_(words_of(field).meaning)], *([hint] if (hint := _hint(field)) and self._narrow else [])]
             carried: list[Line] = [[self._carried]] if self._carried and field.place == TICK_RATE else []
             effects = effect_lines(self._draft)[:MOST_EFFECTS] if self._draft.changed and not problems else []
             lines += [*carried, *effects]
@@ -254,11 +256,16 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
 
 
 def _row(field: FieldView, edit: Edit) -> urwid.Widget:
-    unit = _(words_of(field).unit)
-    allowed = "" if field.locked else " | ".join(field.choices) or field.bounds
-    sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
-    hint: Line = [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []
+    hint = _hint(field)
     label, box = Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
     if not hint:  # free text has the whole line
         return urwid.Columns([(LABEL_COLUMNS, label), box], 1)
-    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), Text(hint, wrap="ellipsis")], 1)
+    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), WholeText(hint)], 1)
+
+
+def _hint(field: FieldView) -> Line:
+    """Unit and bounds, or what can be chosen; that it is locked. Nothing for a field of free text."""
+    unit = _(words_of(field).unit)
+    allowed = "" if field.locked else " | ".join(field.choices) or field.bounds
+    sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
+    return [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []

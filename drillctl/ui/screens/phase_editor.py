@@ -13,13 +13,14 @@ from drillctl.ui.models.bench_lines import path_cells, path_charts, path_words
 from drillctl.ui.models.phase_grid import ON, GridLine, PhaseGrid, WireBits
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.screens.table_editor import TABLE_KEYS, TableEditor
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Line, around
 from drillctl.viewmodel.bench import CyclePath
 from drillctl.viewmodel.tables import FieldView
 
 NAME_COLUMNS, VOLTS_COLUMNS, BIT_COLUMNS, CELL_COLUMNS = 12, 7, 5, 3
-FURTHER_ROWS = 6  # above and below the wires
+HEADING_ROWS = 2  # the columns' numbers above the wires, and an empty row
 
 
 class PhaseEditor(TableEditor):
@@ -103,8 +104,9 @@ class PhaseEditor(TableEditor):
         if self._grid.has_reverse:
             lines.insert(len(self._grid.rows), [("title", _("backwards"))])
             cursor += self._grid.lines[self._line].backwards
-        window = around(cursor, len(lines), max(rows - FURTHER_ROWS, 1))
-        return [self._numbers(shown), *(lines[row] for row in window), *self._path_rows(shown), [self._place()]]
+        below = folded([*self._path_rows(shown), [self._place()]], columns)
+        window = around(cursor, len(lines), max(rows - len(below) - HEADING_ROWS, 1))
+        return [self._numbers(shown), *(lines[row] for row in window), *below]
 
     def picture(self, columns: int, rows: int) -> list[Line]:
         """The rotor over one cycle, and the torque that holds it."""

@@ -16,7 +16,7 @@ from drillctl.ui.widgets.dialogs import Answered, Field
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
-from drillctl.ui.widgets.texts import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed, width_of
 from drillctl.viewmodel.console import Console, MachineView, Problems
 from drillctl.viewmodel.plant import FaultWord, PlantControl, PlantView
 
@@ -57,7 +57,7 @@ class PlantScreen(FoldedScreen):
 
     def lines(self) -> Sequence[Line]:
         """The plant, then the faults that it can have."""
-        return plant_lines(self._plant, self._at)
+        return plant_lines(self._plant, self._at, LIST_COLUMNS)
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws plant and faults; what faults do below them or, with a drawing, beside them."""
@@ -65,7 +65,7 @@ class PlantScreen(FoldedScreen):
         columns, rows = size
         beside = panel_columns(columns, LIST_COLUMNS)
         left = columns - beside
-        lines = folded(self.lines(), left)
+        lines = folded(plant_lines(self._plant, self._at, left), left)
         if beside >= LIST_COLUMNS - BORDER_COLUMNS:
             lines += [[], *folded(_in_words(), left)]
             panel = _effects(self._plant.words, self._at, (beside - BORDER_COLUMNS, rows - 1), self._plain)
@@ -113,9 +113,13 @@ class PlantScreen(FoldedScreen):
         return problems
 
 
-def plant_lines(plant: PlantView, at: int) -> list[Line]:
-    """The plant in use, a line for each fact; then the faults with their ranges, and the names that they take."""
+def plant_lines(plant: PlantView, at: int, columns: int) -> list[Line]:
+    """The plant in use, a line for each fact; then the faults with their ranges, and the names that they take. What
+    the faults are is left out where there are too few columns for one of them.
+    """
     faults = [_fault_line(word, number == at) for number, word in enumerate(plant.words)]
+    if max(map(width_of, faults), default=0) > columns:
+        faults = [fault[:-1] for fault in faults]
     in_use = _("{port}, a real machine").format(port=plant.real_port) if plant.real_port else _(KINDS[plant.kind])
     return [
         _labelled(_("In use"), in_use),

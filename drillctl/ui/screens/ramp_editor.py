@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from drillctl.language.words import N_, _, ngettext
 from drillctl.ui.models.bench_lines import chart
 from drillctl.ui.screens.table_editor import TABLE_KEYS, Size, TableEditor
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Line, around
 from drillctl.viewmodel.tables import StateRow
@@ -89,10 +90,11 @@ class RampEditor(TableEditor):
         """The lines of the states, those around the cursor where there is no room for all, and the profile."""
         if not self._ramp.states:
             return [[("danger", _("no ramp: its rows can't be read"))]]
-        heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS)
+        cells = min(columns // CELL_COLUMNS, len(HEADINGS))  # the others are left out
+        heading = "".join(f"{_(word):>{CELL_COLUMNS}}" for word in HEADINGS[:cells])
         profile = [] if self._beside_table else self._profile(columns, PROFILE_ROWS)
         window = around(self._line, len(self._ramp.states), max(rows - len(profile) - 2, LEAST_STATES))
-        states = [self._row(line, self._ramp.states[line]) for line in window]
+        states = [self._row(line, self._ramp.states[line])[:cells] for line in window]
         return [[("dark", heading)], *states, [""], *profile]
 
     def _look(self) -> None:
@@ -161,7 +163,7 @@ class RampEditor(TableEditor):
         speeds = [1 / interval for interval in ticks for _column in range(wide)]
         bars = bar_rows(speeds, columns, rows, self._plain)
         profile: list[Line] = [[("lit", row)] for row in bars]
-        return [[caption], *profile, [("good", _("every move lands exactly"))]]
+        return [*folded([[caption]], columns), *profile, [("good", _("every move lands exactly"))]]
 
 
 EIGHTHS = " ▁▂▃▄▅▆▇█"

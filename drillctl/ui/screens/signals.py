@@ -5,18 +5,21 @@ Rule: what is seen is what the port has, and nothing is switched that was not as
 real machine moves, so both are asked about first.
 """
 
+from collections.abc import Sequence
+
 import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, image_lines, moved
 from drillctl.ui.screens.shell import Shell, asked_if_real
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key, called
-from drillctl.ui.widgets.texts import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed, width_of
 from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.signals import ManualControl, SignalView
 
-FOOT_ROWS = 2
 SWITCHES = N_("switches the output on or off, at rest; presses an input of the simulated machine")
+LEAST_FOOT_ROWS = 2  # what the cursor is on, and the last answer
 
 
 class Signals(urwid.Widget):
@@ -61,13 +64,15 @@ class Signals(urwid.Widget):
         """Draws the lines around the cursor, and below them what the cursor is on."""
         assert len(size) == 2
         self._columns, rows = size
-        room = max(1, rows - FOOT_ROWS)
+        about_it = folded([[("key", about(self._signals[self._cursor]))]], self._columns - 2)
+        room = max(1, rows - len(about_it) - LEAST_FOOT_ROWS + 1)
         lines = grid_lines(self._signals, self._cursor, self._columns)
         self._scroll(room, len(lines))
         shown = lines[self._top : self._top + room]
         image = [[], *image_lines(self._signals)]
         shown += image if len(shown) + len(image) <= room else []
-        return boxed([*shown, *([[]] * (room - len(shown))), *self._foot(len(lines), room)], self._columns, rows)
+        foot = self._foot(about_it, len(lines), room)
+        return boxed([*shown, *([[]] * (room - len(shown))), *foot], self._columns, rows)
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
         """Sets the cursor on a click; moves it with the wheel."""
@@ -146,11 +151,13 @@ class Signals(urwid.Widget):
         self._top = max(min(self._top, at - 1), at - room + 1, 0)
         self._top = min(self._top, max(0, lines - room))
 
-    def _foot(self, lines: int, room: int) -> list[Line]:
+    def _foot(self, about_it: Sequence[Line], lines: int, room: int) -> list[Line]:
         """What the cursor is on, what was answered, and how much there is above and below."""
         above, below = self._top, max(0, lines - self._top - room)
         more = _("lines above: {above}, below: {below}").format(above=above, below=below) if above or below else ""
-        return [[("key", f" {about(self._signals[self._cursor])} "), " ", more], [self._answer_line()]]
+        *before, last = [[("key", " "), *line, ("key", " ")] for line in about_it]
+        ended: Line = [*last, " ", more]
+        return [*before, ended if width_of(ended) <= self._columns else last, [self._answer_line()]]
 
     def _answer_line(self) -> tuple[str, str]:
         """The last answer, or the warning that a winding is in danger."""

@@ -48,6 +48,19 @@ class Text(urwid.Text):
             super().set_text(shown(markup))
 
 
+class WholeText(Text):
+    """A text of one line that is shown whole, or not at all where there are too few columns."""
+
+    def __init__(self, markup: Any):
+        super().__init__(markup, wrap="clip")
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Draws the text, or an empty line."""
+        if size and urwid.calc_width(str(self.text), 0, len(self.text)) > size[0]:
+            return urwid.SolidCanvas(" ", size[0], 1)
+        return super().render(size, focus)
+
+
 class Icon(urwid.SelectableIcon):
     """A line of a list that can have the cursor."""
 

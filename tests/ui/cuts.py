@@ -1,0 +1,72 @@
+"""Notes what a terminal has no room for while a screen is drawn: lines that are clipped, titles that are left away.
+
+Rule: what is noted is the whole text and the columns it got; which texts may be cut is for the test to say.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+import pytest
+import urwid
+
+from drillctl.ui.widgets import texts, windows
+from drillctl.ui.widgets.texts import Line, Part, Size, width_of
+
+
+class Cut(NamedTuple):
+    """A text that got fewer columns than it is wide, and by what: a ``line``, a ``text``, a ``title``."""
+
+    kind: str
+    text: str
+    columns: int
+
+
+class Cuts:
+    """The cuts since the last look, each once."""
+
+    def __init__(self) -> None:
+        self.found: dict[Cut, None] = {}
+
+    def note(self, kind: str, line: Line, columns: int) -> None:
+        """Keeps a line that is wider than the columns it gets."""
+        if width_of(line) > columns:
+            self.found[Cut(kind, plain(line), columns)] = None
+
+    def take(self) -> list[Cut]:
+        """Those found since the last call."""
+        found = [*self.found]
+        self.found.clear()
+        return found
+
+
+def plain(line: Line) -> str:
+    """The words of a line, without trailing spaces."""
+    return "".join(part if isinstance(part, str) else part[1] for part in line).rstrip()
+
+
+@contextmanager
+def noted() -> Iterator[Cuts]:
+    """While this is open, whatever is cut in drawing is noted."""
+    cuts = Cuts()
+    drawn, sides, render = texts._drawn, windows._sides, urwid.Text.render
+
+    def draws(line: tuple[Part, ...], columns: int, encoding: str) -> Any:
+        cuts.note("line", [plain([*line])], columns)
+        return drawn(line, columns, encoding)
+
+    def frames(title: str, columns: int, rows: int) -> Any:
+        cuts.note("title", [f" {title} "], columns - 2)
+        return sides(title, columns, rows)
+
+    def renders(self: urwid.Text, size: Size, focus: bool = False) -> Any:
+        if size and self.wrap in ("clip", "ellipsis"):
+            for row in str(self.text).split("\n"):
+                cuts.note("text", [row.rstrip()], size[0])
+        return render(self, size, focus)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(texts, "_drawn", draws)
+        patched.setattr(windows, "_sides", frames)
+        patched.setattr(urwid.Text, "render", renders)
+        yield cuts
