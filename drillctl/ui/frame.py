@@ -129,7 +129,6 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         self._shown: Line = []
         self._next: Line = []
         self._said = ""
-        self._bottom_shown: list[Line] = []
         header = urwid.Pile([urwid.AttrMap(self.bar, "menu"), self._machine])
         super().__init__(self._window, header=header, footer=urwid.Pile([self._step, self._keys]))
 
@@ -145,19 +144,20 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
 
     def show_step(self, step: Line) -> None:
         """Shows what the machine waits for, and the keys that do it."""
-        self._next = step
-        self._show_bottom()
+        if step != self._next:
+            self._next = step
+            self._invalidate()
 
     def say(self, text: str) -> None:
-        """Shows a word in front of the next step, an empty text none; the word has the line where both don't fit."""
-        self._said = text
-        self._show_bottom()
+        """Shows a word in front of the next step, an empty text none; where both don't fit the word stands alone."""
+        if text != self._said:
+            self._said = text
+            self._invalidate()
 
-    def _show_bottom(self) -> None:
+    def _fit_bottom(self, columns: int) -> None:
         said: Line = [("title", f" {self._said} ")] if self._said else []
-        if [said, self._next] != self._bottom_shown:
-            self._bottom_shown = [said, self._next]
-            self._step.set_text([*said, *self._next])
+        both = [*said, *self._next]
+        self._step.set_text(both if not said or width_of(both) <= columns else said)
 
     def render(self, size: Size, focus: bool = False) -> urwid.CompositeCanvas:
         """Fits the line on the machine first: where the position would not be seen, the screen's title is left out,
@@ -174,6 +174,7 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
         markup = [*fitting, *self._state, *self._notice]
         if (left := size[0] - width_of(markup) - 1) > 0:
             markup = [*markup, " ", ("border", lines().across * left)]
+        self._fit_bottom(size[0])
         if markup != self._shown:
             self._shown = markup
             self._machine.set_text(list(markup))

@@ -11,7 +11,7 @@ import pytest
 import urwid
 
 from drillctl.ui.widgets import texts, windows
-from drillctl.ui.widgets.texts import Line, Part, Size, width_of
+from drillctl.ui.widgets.texts import Line, Part, width_of
 
 
 class Cut(NamedTuple):
@@ -59,7 +59,7 @@ def noted() -> Iterator[Cuts]:
         cuts.note("title", [f" {title} "], columns - 2)
         return sides(title, columns, rows)
 
-    def renders(self: urwid.Text, size: Size, focus: bool = False) -> Any:
+    def renders(self: urwid.Text, size: tuple[int] | tuple[()], focus: bool = False) -> Any:
         if size and self.wrap in ("clip", "ellipsis"):
             for row in str(self.text).split("\n"):
                 cuts.note("text", [row.rstrip()], size[0])

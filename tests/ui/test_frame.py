@@ -106,7 +106,8 @@ def test_a_position_that_was_not_known_is_not_told_as_lost() -> None:
 
 
 def test_a_line_on_the_machine_that_is_cut_says_so() -> None:
-    program = Program(FakeConsole(now=replace(VIEW, machine="a-machine-with-a-name-of-forty-characters")), (80, 24))
+    view = replace(VIEW, machine="a-machine-with-a-name-of-sixty-characters-as-nobody-has-it")
+    program = Program(FakeConsole(now=view), (80, 24))
     line = program.text().splitlines()[1]
     assert "a-machine" in line and "… | " in line and "position known" in line
 

@@ -54,10 +54,11 @@ class WholeText(Text):
     def __init__(self, markup: Any):
         super().__init__(markup, wrap="clip")
 
-    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+    def render(self, size: Size, focus: bool = False) -> urwid.TextCanvas:
         """Draws the text, or an empty line."""
-        if size and urwid.calc_width(str(self.text), 0, len(self.text)) > size[0]:
-            return urwid.SolidCanvas(" ", size[0], 1)
+        assert len(size) < 2
+        if size and width_of([str(self.text)]) > size[0]:
+            return urwid.TextCanvas([b""], maxcol=size[0])
         return super().render(size, focus)
 
 
