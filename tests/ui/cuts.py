@@ -45,6 +45,11 @@ def plain(line: Line) -> str:
     return "".join(part if isinstance(part, str) else part[1] for part in line).rstrip()
 
 
+def is_word_cut(cut: Cut) -> bool:
+    """Whether a cut leaves words away: what is beyond the columns has a letter in it."""
+    return any(sign.isalpha() for sign in cut.text[cut.columns :])
+
+
 @contextmanager
 def noted() -> Iterator[Cuts]:
     """While this is open, whatever is cut in drawing is noted."""

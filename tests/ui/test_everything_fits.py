@@ -20,7 +20,7 @@ from drillctl.viewmodel.console import MachineView
 from drillctl.viewmodel.fault_texts import FAULT_WORDS, fault_report
 from tests.support.labels import POLISH, menu
 from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
-from tests.ui.whole import SCREENS, Whole, at_home
+from tests.ui.whole import MACHINES, SCREENS, Whole, at_home
 
 COLUMNS = 80
 FIELD = re.compile(r"\{(\w+)(?:![rs])?(:[^}]*)?\}")  # of a message: its name, and its format if it is a figure
@@ -111,7 +111,10 @@ def opened(name: str) -> Iterator[Whole]:
     """A screen by its menu; then the one that Enter opens from it, where that is another."""
     program = Whole()
     try:
-        program.press(*way(name, "show_machine" if name == "scope" else ""))
+        if name in MACHINES:
+            program.app.take_machine(MACHINES[name])
+        else:
+            program.press(*way(name, "show_machine" if name == "scope" else ""))
         program.app.turn()
         yield program
         before = program.app.screens[-1]

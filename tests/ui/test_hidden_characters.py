@@ -29,7 +29,7 @@ from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Paper, Program
-from tests.ui.whole import BLINKER, SCREENS, at_home
+from tests.ui.whole import BLINKER, SCREENS, at_home, show
 
 NASTY = "n\x1b[31m\x07\x9b2J\r\u202e\u200b\udcff"
 THERE = Site(NASTY, NASTY, NASTY)
@@ -153,9 +153,9 @@ class WholeProgram:
 def test_every_screen(screen: str, hostile: Path) -> None:
     whole = WholeProgram()
     try:
-        whole.app.show(screen)
+        show(whole.app, screen)
         whole.press("down", "enter", "down", "enter", "f1", "esc", "s", "esc", "esc")
-        whole.app.show(screen)
+        show(whole.app, screen)
         whole.press("end", "down", "down", "enter", "enter", "esc", "f9", "down", "right", "esc")
     finally:
         whole.console.close()

@@ -9,7 +9,7 @@ import pytest
 
 from drillctl.ui.frame import screen_keys
 from drillctl.ui.widgets.keys import COPY, EMERGENCY, FRAME_KEYS, Key, help_lines
-from tests.ui.whole import SCREENS, Whole, at_home
+from tests.ui.whole import SCREENS, Whole, at_home, show
 
 PRESS = "mouse press"
 TAKEN_BY_LISTS = {("files", "choose")}  # Enter opens what the list stands on before the screen sees the key
@@ -56,7 +56,7 @@ def wanted(key: Key) -> tuple[object, ...]:
 def test_a_click_on_a_line_of_the_help_does_what_its_key_does(
     name: str, program: Whole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    screen = program.app.show(name)
+    screen = show(program.app, name)
     assert screen is not None
     keys = tuple(key for key in screen_keys(screen) if key.names and (name, key.method) not in TAKEN_BY_LISTS)
     calls = recorded(monkeypatch, screen, keys)

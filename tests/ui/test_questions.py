@@ -14,7 +14,7 @@ from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.widgets.dialogs import WIDEST
 from drillctl.viewmodel.console import ToolWanted
 from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Program
-from tests.ui.whole import SCREENS, Whole, at_home
+from tests.ui.whole import SCREENS, Whole, at_home, show
 
 pytestmark = pytest.mark.usefixtures("idle")
 
@@ -172,7 +172,7 @@ def test_every_screen_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     program = Whole((100, 60))
     try:
         for name in SCREENS:
-            screen = program.app.show(name)
+            screen = show(program.app, name)
             program.press("?" if name != "queue_editor" else "f1")
             assert words._(EXPLAINED[screen.title][0]) in program.text(), name
             program.press("q")

@@ -1,23 +1,28 @@
 """Keys, clicks and new sizes at random on the whole program, with a machine that runs free behind it.
 
-Nothing is raised, nothing moves but by the few actions that the operator knows to move something, and the emergency
-stop is live in every state that comes up. Spied on is the console: whatever goes down to the machine goes through it.
+Nothing is raised, nothing moves but by the few actions that the operator knows to move something, the emergency stop
+is live in every state that comes up, and every text has its room. Spied on is the console: whatever goes down to the
+machine goes through it.
 """
 
 import random
 from collections import Counter
 from contextlib import suppress
+from itertools import product
 from pathlib import Path
 
 import pytest
 import urwid
 
+from drillctl.language import words
+from tests.ui.cuts import Cuts, is_word_cut, noted
 from tests.ui.whole import Event, Whole, at_home
 
-EVENTS = 500
+EVENTS = 120
 MANY_EVENTS = 10_000
-LONG = (pytest.mark.long, pytest.mark.timeout(900))  # a minute on an idle computer
-SIZES = [(80, 24), (160, 50), (60, 18), (40, 12)]
+LONG = (pytest.mark.long, pytest.mark.timeout(3600))  # minutes on an idle computer
+MACHINES = ("pcb-drill", "boiler-drum", "eight-axis", "ramp-lab")
+SIZES = [(80, 24), (160, 50), (60, 18), (40, 12), (50, 15), (100, 32), (220, 60)]
 KEYS = [
     *"abcdefghijklmnopqrstuvwxyzABX0123456789 +-=.,", "enter", "enter", "esc", "esc", "tab", "up", "down", "left",
     "right", "page up", "page down", "home", "end", "backspace", "delete", "insert", *(f"f{n}" for n in range(1, 10)),
@@ -46,8 +51,10 @@ ANSWERED = "Dialog._closed_by.<locals>.both"  # a button was pressed
 class Chance(Whole):
     """The program, and somebody who presses what comes to hand."""
 
-    def __init__(self, seed: int):
+    def __init__(self, seed: int, machine: str):
         super().__init__()
+        if machine != "pcb-drill":
+            self.app.take_machine(machine)
         self.random = random.Random(seed)
         self.seen: Counter[tuple[str, str]] = Counter()
         self.waiting = 0  # keys of jogs
@@ -59,8 +66,7 @@ class Chance(Whole):
             with suppress(urwid.ExitMainLoop):  # Quit was found
                 self.press(event)
         self.go_on(self.random.choice((0, 1, 5, 50)))
-        if self.random.random() < 0.1:
-            self.text()
+        self.canvas()
 
     def state(self) -> tuple[str, str]:
         """What is on top, and over which screen."""
@@ -98,23 +104,38 @@ def check_stop(chance: Chance) -> None:
     assert view.condition == "latched" and not view.moving, chance.state()
 
 
+def check_fit(chance: Chance, cuts: Cuts) -> None:
+    """No text is cut that the program itself has put there."""
+    assert not (cut := [each for each in cuts.take() if is_word_cut(each)]), (chance.state(), chance.paper.size, cut)
+
+
 @pytest.mark.parametrize(
-    ("seed", "events"),
-    [(1996, EVENTS), *(pytest.param(seed, MANY_EVENTS, marks=LONG) for seed in range(5))],
+    ("machine", "language", "seed", "events"),
+    [
+        *((machine, language, 1996, EVENTS) for machine, language in zip(MACHINES, ("en", "pl") * 2, strict=True)),
+        *(
+            pytest.param(machine, language, seed, MANY_EVENTS, marks=LONG)
+            for seed, (machine, language) in enumerate(product(MACHINES, words.LANGUAGES))
+        ),
+    ],
 )
 def test_random_events_raise_nothing_move_nothing_unasked_and_leave_the_stop_alive(
-    seed: int, events: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    machine: str, language: str, seed: int, events: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     at_home(tmp_path, monkeypatch)
-    chance = Chance(seed)
-    try:
-        for _ in range(events):
-            chance.event()
-            check_moves(chance)
-            chance.seen[chance.state()] += 1
-            if chance.seen[chance.state()] == 1 or chance.random.random() < 0.005:
-                check_stop(chance)
-        tops, screens = {top for top, _screen in chance.seen}, {screen for _top, screen in chance.seen}
-        assert {"NoneType", "Dialog", "PullDown"} <= tops and len(screens) >= 6, chance.seen
-    finally:
-        chance.console.close()
+    words.use(language)
+    with noted() as cuts:
+        chance = Chance(seed, machine)
+        try:
+            for _ in range(events):
+                chance.event()
+                check_moves(chance)
+                check_fit(chance, cuts)
+                chance.seen[chance.state()] += 1
+                if chance.seen[chance.state()] == 1 or chance.random.random() < 0.005:
+                    check_stop(chance)
+            tops, screens = {top for top, _screen in chance.seen}, {screen for _top, screen in chance.seen}
+            assert {"NoneType", "Dialog", "PullDown"} <= tops and len(screens) >= 3, chance.seen
+        finally:
+            chance.console.close()
+            words.use("en")

@@ -52,7 +52,7 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
         Programming.__init__(self, console, shell)
         self._sizes.unit, self._sizes.chosen[STEPS] = STEPS, 1  # the panel's jog keys make one step a press
         self._windows = PanelWindows(self._click, plain)
-        self._footer = Text("", wrap="ellipsis")
+        self._footer = Text("")
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._windows, footer=self._footer))
         self.refresh(console.view())
 
@@ -70,7 +70,7 @@ class Panel(Programming, JogControls, urwid.WidgetWrap[urwid.Widget]):
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Lays the windows out for this size."""
         assert len(size) == 2
-        self._windows.lay_out(layout(*size), size[0], size[1] - 1)
+        self._windows.lay_out(layout(*size), size[0], size[1] - self._footer.rows(size[:1]))
         return super().render(size, focus)
 
     def refresh(self, view: MachineView) -> None:

@@ -71,7 +71,7 @@ class Browser(urwid.ListBox[int]):
             yield self.folder, _("(more than can be shown: use the filter)")
 
     def _row(self, path: Path, name: str) -> Pick:
-        return Pick(one_line(name), lambda: self._choose(path))
+        return Pick(one_line(name), lambda: self._choose(path), wrap="ellipsis")
 
     def _matches(self, name: str) -> bool:
         return fits(name, self.pattern)

@@ -122,9 +122,11 @@ class Pick(Link):
 
     _selectable = True
 
-    def __init__(self, text: str | Line, chosen: Callable[[], object], *keys: str):
+    def __init__(
+        self, text: str | Line, chosen: Callable[[], object], *keys: str, wrap: Literal["space", "ellipsis"] = "space"
+    ):
         self._keys = ("enter", *keys)
-        super().__init__(text, chosen, wrap="ellipsis")
+        super().__init__(text, chosen, wrap)
 
     def keypress(self, size: Size, key: str) -> str | None:
         """Chooses the line for Enter and the further keys; returns any other key."""
