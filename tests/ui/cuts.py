@@ -15,7 +15,9 @@ from drillctl.ui.widgets.texts import Line, Part, width_of
 
 
 class Cut(NamedTuple):
-    """A text that got fewer columns than it is wide, and by what: a ``line``, a ``text``, a ``title``."""
+    """A text that got fewer columns than it is wide: a ``line``, a ``text``, a ``title``, or one ``elided``, with a
+    sign of it at its end.
+    """
 
     kind: str
     text: str
@@ -46,8 +48,11 @@ def plain(line: Line) -> str:
 
 
 def is_word_cut(cut: Cut) -> bool:
-    """Whether a cut leaves words away: what is beyond the columns has a letter in it."""
-    return any(sign.isalpha() for sign in cut.text[cut.columns :])
+    """Whether a cut leaves words away that the program itself has put there: what is beyond the columns has a letter in
+    it. The name of a file may be elided, and the line on the machine, whose notice has a box of its own.
+    """
+    may_be = cut.kind == "elided" and (" " not in cut.text.strip() or " | " in cut.text)
+    return not may_be and any(sign.isalpha() for sign in cut.text[cut.columns :])
 
 
 @contextmanager
@@ -67,7 +72,7 @@ def noted() -> Iterator[Cuts]:
     def renders(self: urwid.Text, size: tuple[int] | tuple[()], focus: bool = False) -> Any:
         if size and self.wrap in ("clip", "ellipsis"):
             for row in str(self.text).split("\n"):
-                cuts.note("text", [row.rstrip()], size[0])
+                cuts.note("elided" if self.wrap == "ellipsis" else "text", [row.rstrip()], size[0])
         return render(self, size, focus)
 
     with pytest.MonkeyPatch.context() as patched:

@@ -18,7 +18,7 @@ from drillctl.language import words
 from tests.ui.cuts import Cuts, is_word_cut, noted
 from tests.ui.whole import Event, Whole, at_home
 
-EVENTS = 120
+EVENTS = 80
 MANY_EVENTS = 10_000
 LONG = (pytest.mark.long, pytest.mark.timeout(3600))  # minutes on an idle computer
 MACHINES = ("pcb-drill", "boiler-drum", "eight-axis", "ramp-lab")
@@ -35,6 +35,7 @@ WAYS = [
     (*CLOSED, "meta d", "d"), (*CLOSED, "meta d", "h"), (*CLOSED, "meta f", "o", "down", "enter", "esc"),
     (*CLOSED, "meta t", "q", *"KMD_RUCHd x=9", "f5"), (*CLOSED, "meta t", "p", "enter"), (*CLOSED, "meta t", "s"),
     (*CLOSED, "meta t", "r", "enter"), (*CLOSED, "meta t", "o"), (*CLOSED, "meta c", "p", "enter"),
+    *((*CLOSED, "f9", *("right",) * menu, *("down",) * entry, "enter") for menu in (0, 2, 3) for entry in range(8)),
 ]  # fmt: skip
 CLICKS = ("mouse press", "mouse release", "mouse drag")
 
@@ -61,7 +62,7 @@ class Chance(Whole):
 
     def event(self) -> None:
         """One, or a way of some; and what the machine makes of it."""
-        events = self.random.choice(WAYS) if self.random.random() < 0.06 else (self._event(),)
+        events = self.random.choice(WAYS) if self.random.random() < 0.2 else (self._event(),)
         for event in events:
             with suppress(urwid.ExitMainLoop):  # Quit was found
                 self.press(event)

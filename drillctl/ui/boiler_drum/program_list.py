@@ -7,25 +7,25 @@ import textwrap
 
 from drillctl.language.number_text import clock
 from drillctl.language.words import _, ngettext, translated
-from drillctl.ui.widgets.texts import Line, around
+from drillctl.ui.widgets.texts import Line, around, width_of
 from drillctl.viewmodel.records import Progress
 from drillctl.viewmodel.workpieces import PartView, SentenceView
 
 LABEL_COLUMNS = 8
-LEAST_FOR_WORDS = 90
 
 
 def list_lines(part: PartView | None, sentence: int, done: int, columns: int, rows: int) -> list[Line]:
-    """As many sentences as there are rows, those around the one in execution; in words too where there is room."""
+    """As many sentences as there are rows, those around the one in execution; in words too where all have room."""
     if part is None:
         advice = (_("No workpiece is called."), _("Type its number, 01 to 99,"), _("then P (PROG). L lists them."))
         return [[text] for text in advice[:rows]]
     current = max(sentence, min(done + 1, len(part.sentences))) - 1
     shown = around(current, len(part.sentences), rows)
     lines = [_sentence(index + 1, part.sentences[index], sentence, done, part) for index in shown]
-    if columns < LEAST_FOR_WORDS:
-        return lines
-    return [[*line, f"  {translated(part.sentences[index].words)}"] for index, line in zip(shown, lines, strict=True)]
+    told: list[Line] = [
+        [*line, f"  {translated(part.sentences[index].words)}"] for index, line in zip(shown, lines, strict=True)
+    ]
+    return told if max(map(width_of, told), default=0) <= columns else lines
 
 
 def heading(part: PartView | None) -> Line:

@@ -55,7 +55,7 @@ class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
         self._options, self._path, self._large = JobOptions(), Path(), False
         self._board: BoardView | None = None
         self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
-        self._where, self._placing = Text("", wrap="ellipsis"), Text("", wrap="ellipsis")
+        self._where, self._placing = Text("", wrap="ellipsis"), Text("")
         self._picture = BoardPicture(plain, HINT)
         self._facts: urwid.Frame[Any, Any, Any] = urwid.Frame(urwid.ListBox(self._rows))
         self._right = urwid.Pile([self._picture, ("given", 1, self._facts)], focus_item=1)

@@ -16,6 +16,7 @@ from drillctl.ui.screens.machine_lines import phase_line, phase_table
 from drillctl.ui.screens.scope_curve import curve_lines
 from drillctl.ui.screens.scope_measure import between
 from drillctl.ui.screens.scope_wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.texts import Line, packed
 from drillctl.viewmodel.scope import AxisMoment, Ints, Lack, Moment, ScopeSignal, ScopeSource
 
@@ -74,9 +75,9 @@ def scope_lines(source: ScopeSource, look: ScopeLook, columns: int, rows: int) -
     layout = ScopeLayout.of(source.signals(), columns)
     if source.last_tick < source.first_tick:
         return [[("dark", _("Nothing was run yet."))]], 0, 0
-    head = _heading(source, look)
+    head = folded(_heading(source, look), columns)
     moment = source.at(look.view.cursor)
-    foot = _foot(source, look, moment, columns, bool(layout.tables))
+    foot = folded(_foot(source, look, moment, columns, bool(layout.tables)), columns)
     room = max(1, rows - len(head) - len(foot) - 1)
     edges = look.view.edges()
     waves = [_ruler(look, layout, edges)]
