@@ -24,6 +24,7 @@ from drillctl.lab.trials import Trial, errors_full_steps, lost
 from drillctl.machine import AxisTable, Dynamics, Library, shipped_tables
 from drillctl.plant import PlantChoice
 from drillctl.plant.dynamic.plant import DynamicPlant
+from drillctl.plant.dynamic.rotor import DynamicRotor
 from drillctl.ticker.link import LocalLink
 from drillctl.ticker.ticker import Ticker
 
@@ -34,6 +35,7 @@ VARIANTS, SPREAD = 40, 0.03
 WAYS = {"forward": 1, "backward": -1}
 NEVER = "-"
 BOARD = Path(__file__).resolve().parent.parent / "examples" / "blinker.drl"
+DRUM_STEPS = 700
 BOARD_HZ = (500, 560, 575, 580, 585, 590, 595, 600)
 
 
@@ -144,6 +146,29 @@ def whole_board() -> None:
     print_table(["blinker.drl at", "holes", "steps lost", "fault"], lines)
 
 
+def behind_steps(axis: AxisTable, steps: int, tick_hz: int, part: float = 1.0) -> int:
+    """The steps by which a rotor is behind at rest, after this part of a move and a dead stop."""
+    made = move(axis, steps, rest_ticks=1)
+    last = round(part * len(made.images)) - 1
+    images = [made.images[0]] * tick_hz + [*made.images[: last + 1]] + [made.images[last]] * tick_hz
+    rotor = DynamicRotor(axis, tick_hz)
+    for image in images:
+        rotor.pull(int(image))
+    return round(rotor.columns_lost(int(made.columns[last])))
+
+
+def drum_strokes() -> None:
+    """What boiler-drum's motors lose of a stroke at its fastest gear: with its ramp, without, and stopped dead."""
+    machine = Library((shipped_tables(),)).machine("boiler-drum")
+    lines = []
+    for what, ramped, part in (("with its ramp", True, 1.0), ("without its ramp", False, 1.0),
+                               ("stopped dead at its top speed", True, 0.5)):  # fmt: skip
+        axes = [axis if ramped else replace(axis, ramp=direct_start(axis.ramp)) for axis in machine.axes]
+        lost_steps = [[behind_steps(axis, way * DRUM_STEPS, machine.tick_hz, part) for way in (1, -1)] for axis in axes]
+        lines.append([what, *(f"{forward}, {backward}" for forward, backward in lost_steps)])
+    print_table(["", "x, five phases", "y, three phases"], lines)
+
+
 def ticks_a_second(name: str) -> str:
     """Of the scalar plant, three axes moving; of CPU time."""
     machine = Library((shipped_tables(),)).machine(name)
@@ -168,6 +193,8 @@ def main() -> None:
     broken_tables(axes[0], bench)
     print()
     whole_board()
+    print()
+    drum_strokes()
     speeds = ", ".join(f"{name} {ticks_a_second(name)}" for name in MACHINES)
     print(f"\nTicks a second, three axes moving: {speeds}; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 

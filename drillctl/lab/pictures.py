@@ -16,7 +16,6 @@ from drillctl.lab.moves import move
 from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, Trial, errors_full_steps, lost
 from drillctl.language import Message
 from drillctl.machine import AxisTable, Dynamics
-from drillctl.machine.dynamics import WINDING_DEGREES
 from drillctl.plant.rotor import FULL_TURN
 from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
 
@@ -79,15 +78,18 @@ def lag(run: AxisRun, window: Window) -> Picture:
 
 
 def currents(run: AxisRun, window: Window) -> Picture:
-    """The currents of the four half windings, one phase above the other."""
+    """The currents of the windings, one phase above the other: of a unipolar motor two half windings each."""
+    assert run.table.dynamics is not None
     shown = window.of(run)
     time_s = _time_s(run)[shown]
     names = {degrees % FULL_TURN: name for name, degrees in run.table.motor.windings}
     curves = [
         Curve.of(names[degrees], time_s, amperes[shown])
-        for degrees, amperes in zip(WINDING_DEGREES, run.rotor.currents.T, strict=True)
+        for degrees, amperes in zip(run.table.dynamics.degrees, run.rotor.currents.T, strict=True)
     ]
-    charts = tuple(Chart(TIME, "current, A", tuple(curves[phase : phase + 2])) for phase in (0, 2))
+    each = 2 if run.table.dynamics.kind == "unipolar" else 1
+    phases = range(0, len(curves), each)
+    charts = tuple(Chart(TIME, "current, A", tuple(curves[phase : phase + each])) for phase in phases)
     greatest = f"greatest current {run.rotor.currents[shown].max():.2f} A"
     return Picture(_title(run, "currents"), charts, (greatest, _whose(run)))
 

@@ -12,9 +12,10 @@ from drillctl.plant.effects import Effect
 from drillctl.plant.rotor import Rotor
 
 # Signals of an axis in a trace, by the suffix of the axis's name: the carriage's place in whole steps; the columns by
-# which it is behind the controller (its lag, and at rest its lost steps); the currents that pull, in mA.
+# which it is behind the controller (its lag, and at rest its lost steps); the current that pulls in each phase, in
+# mA, of as many phases as the motor with most of them has.
 PLACE_LANES = ("", "_behind")
-CURRENT_LANES = ("_i1_mA", "_i2_mA")
+CURRENT_LANES = ("_i1_mA", "_i2_mA", "_i3_mA", "_i4_mA", "_i5_mA")
 
 
 class Plant:

@@ -77,6 +77,9 @@ def test_what_surrounds_the_motors_is_read(changed: Change) -> None:
         (CARRIAGE, "24a = ", "24c = ", "forcing wire 24a of table two-phase-forced is not under"),
         (CARRIAGE, '["1a", "1b"]', '["1a", "1c"]', "motor two-phase has no winding 1c"),
         (DRILL, 'dynamics = "tuned-carriage"', 'dynamics = "none"', "no dynamics table is named 'none'"),
+        (CARRIAGE, "detent_nm = 0.0112", "", "detent_nm is missing"),
+        (CARRIAGE, "detent_nm = 0.0112", "detent_nm = 0.0112\nphases = 3", "phases belongs to a reluctance motor"),
+        (CARRIAGE, "detent_nm = 0.0112", 'kind = "servo"', "kind: "),
         ("motor/two-phase", "2b = 90", "2b = 80", "motor two-phase has not the four half windings"),
         (DRILL, "scatter_mm = 0.01", "scatter_mm = -1", "plant.scatter_mm: expected float >= 0.0"),
     ],
@@ -87,7 +90,30 @@ def test_what_is_refused(table: str, old: str, new: str, reason: str, changed: C
     assert reason in str(caught.value)
 
 
-@pytest.mark.parametrize("name", ["tuned-carriage", "tuned-head", "tuned-lab-carriage", "tuned-lab-head"])
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("phases = 5", "phases = 3", "has not the 3 windings at 0, 120, 240 degrees"),
+        ("phases = 5", "phases = 4", "phases: "),
+        ("current_a = 13", "", "current_a is missing"),
+        ("current_a = 13", "current_a = 13\ndetent_nm = 0.1", "detent_nm belongs to a unipolar motor"),
+        ("current_a = 13", 'current_a = 13\nforcing = { a = ["b"] }', "forcing belongs to a unipolar motor"),
+    ],
+)
+def test_what_is_refused_of_a_reluctance_motor(old: str, new: str, reason: str, tmp_path: Path) -> None:
+    shutil.copytree(shipped_tables(), tmp_path, dirs_exist_ok=True)
+    file = tmp_path / "dynamics/assumed-150bf003.toml"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new, 1))
+    with pytest.raises(TableError) as caught:
+        Library((tmp_path,)).machine("boiler-drum")
+    assert reason in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["assumed-150bf003", "assumed-110bf003", "tuned-carriage", "tuned-head", "tuned-lab-carriage", "tuned-lab-head"],
+)
 def test_the_shipped_ones_are_tables_that_can_be_checked(name: str) -> None:
     library = Library((shipped_tables(),))
     assert name in library.names("dynamics")

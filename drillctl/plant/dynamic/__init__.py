@@ -1,4 +1,4 @@
-"""The dynamic plant: a motor as four half-winding currents, an inertia, friction and a detent. docs/PLANT.md.
+"""The dynamic plant: a motor as the currents of its windings, an inertia, friction and a detent. docs/PLANT.md.
 
 coefficients.py  the equations, and the constants that a substep multiplies with
 law.py           what a tick does to motors, carriages and drill, in plain floats; law.pxd: its C types

@@ -29,11 +29,10 @@ class DynamicAxis:
         self.take(law)
 
     @property
-    def currents(self) -> tuple[float, float, float, float]:
-        """Returns the currents of the four half windings, in A, in the order of WINDING_DEGREES."""
+    def currents(self) -> tuple[float, ...]:
+        """Returns the currents of the windings, in A, in the order of their degrees (machine/dynamics.py)."""
         begin = self.at + columns.CURRENTS
-        first, second, third, fourth = self.rows[begin : begin + columns.WINDINGS]
-        return first, second, third, fourth
+        return tuple(self.rows[begin : begin + self.law.windings])
 
     @property
     def speed(self) -> float:
@@ -72,7 +71,7 @@ class DynamicAxis:
         nothing was to be done.
         """
         begin = self.at + columns.SUPPLY
-        if tuple(self.rows[begin : begin + columns.WINDINGS]) != supply:
+        if tuple(self.rows[begin : begin + len(supply)]) != supply:
             for winding, level in enumerate(supply):
                 self.rows[begin + winding] = level
             self.rows[self.at + columns.RESTING] = 0.0

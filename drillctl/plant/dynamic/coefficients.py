@@ -8,7 +8,14 @@
     T        = -Km ((i0 - i180) s + (i270 - i90) c) - Td sin 4 phi
     J dw/dt  = T - B w - friction; below it a rotor at rest stays at rest
 
-This is a unipolar motor as textbooks and Simscape have it (independent half windings, no saturation), with diodes,
+A motor of variable reluctance (kind "reluctance", machine/dynamics.py) has n windings k, 360/n degrees apart, and
+
+    L di/dt  = V - R i + K w i sin(phi - phi_k)      0 <= i <= the current at which the chopper holds it
+    T        = sum of i^2/2 dL/dtheta = -K/2 sum of i^2 sin(phi - phi_k)
+
+where L in the first line is the mean inductance: the time constant is taken as the same at every angle.
+
+The first is a unipolar motor as textbooks and Simscape have it (independent half windings, no saturation), with diodes,
 forcing and true stiction added. One substep of h seconds: currents exactly for a frozen back-EMF, then speed, then
 friction as far as it can stop the rotor, then place (semi-implicit Euler).
 
@@ -20,13 +27,13 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
-from drillctl.machine.dynamics import WINDING_DEGREES, Dynamics
+from drillctl.machine.dynamics import KINDS, Dynamics
 
 SUBSTEPS = 40  # 50 us at 500 Hz: a rotor's place is then within 0.02 full steps of the limit of finer ones
 LONGEST_SUBSTEP_S = 5e-4  # even at ten times 50 us steps are lost from the same tick rate on
+LONGEST_CHOPPED_S = 5e-6  # of a reluctance motor, whose windings change fifty times more often than the paper's ticks
 SINES = 1024  # places of a cycle; between them a straight line, wrong by less than 5e-6
 QUARTER = SINES // 4
-WAYS = tuple((round(math.cos(math.radians(a))), round(math.sin(math.radians(a)))) for a in WINDING_DEGREES)
 
 
 def rounded(value: float) -> float:
@@ -51,6 +58,11 @@ class Coefficients:
     stop      rad/s that Coulomb friction takes off
     gain      rad/s gained by 1 N m, for a load beside the table's
     advance   cycles by 1 rad/s
+    limit     A at which a chopper holds a current; 0 without one
+    spacing   cycles from a winding of a reluctance motor to the next
+    windings  how many; ``kind`` is one of law.py's
+
+    For a reluctance motor emf is A per rad/s and A, and push is by the square of an ampere.
     """
 
     substeps: int
@@ -62,50 +74,60 @@ class Coefficients:
     stop: float
     gain: float
     advance: float
+    limit: float
+    spacing: float
+    windings: int
+    kind: int
 
 
 def coefficients(d: Dynamics, tick_hz: int) -> Coefficients:
     """Returns the coefficients for ticks of 1 / tick_hz seconds."""
-    substeps = max(SUBSTEPS, math.ceil(1 / (tick_hz * LONGEST_SUBSTEP_S)))
+    chopped = d.kind == "reluctance"
+    fewest, longest_s = (1, LONGEST_CHOPPED_S) if chopped else (SUBSTEPS, LONGEST_SUBSTEP_S)
+    substeps = max(fewest, math.ceil(1 / (tick_hz * longest_s)))
     h_s = 1 / (tick_hz * substeps)
     gain = h_s / d.inertia_kgm2
+    torque = d.torque_nm_per_a2 if chopped else d.torque_nm_per_a
     return Coefficients(
         substeps,
         decay=rounded(math.exp(-d.resistance_ohm * h_s / d.inductance_h)),
-        emf=rounded(d.torque_nm_per_a / d.resistance_ohm),
+        emf=rounded(torque / d.resistance_ohm),
         keep=rounded(1 - d.viscous_nms * gain),
-        push=rounded(d.torque_nm_per_a * gain),
+        push=rounded((torque / 2 if chopped else torque) * gain),
         detent=rounded(4 * d.detent_nm * gain),
         stop=rounded(d.coulomb_nm * gain),
         gain=rounded(gain),
         advance=rounded(d.cycles_per_turn * h_s / (2 * math.pi)),
+        limit=d.current_a,
+        spacing=rounded(1 / d.windings),
+        windings=d.windings,
+        kind=KINDS.index(d.kind),
     )
 
 
-Supply = tuple[float, float, float, float]
+Supply = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Wires:
-    """Which output bit switches each half winding, and which bits force it.
+    """Which output bit switches each winding, and which bits force it.
 
-    on       by winding, in the order of WINDING_DEGREES: the bit of its 5 V wire
-    forcing  by winding: the bits of the 24 V wires that feed it while it is on
+    on       by winding, in the order of their degrees (machine/dynamics.py): the bit that switches it on
+    forcing  by winding: the bits of the forcing wires that feed it while it is on
     """
 
-    on: tuple[int, int, int, int]
-    forcing: tuple[int, int, int, int]
+    on: tuple[int, ...]
+    forcing: tuple[int, ...]
 
     def supply(self, image: int, d: Dynamics) -> Supply:
         """Returns the final currents, in A, that a port image drives towards without back-EMF."""
         off, normal, forced = self.levels(d)
-        first, second, third, fourth = (
+        return tuple(
             (forced if image & forcing else normal) if image & on else off
             for on, forcing in zip(self.on, self.forcing, strict=True)
         )
-        return first, second, third, fourth
 
     def levels(self, d: Dynamics) -> tuple[float, float, float]:
-        """Returns the final current, in A, of a winding that is off, on 5 V, on 24 V."""
+        """Returns the final current, in A, of a winding that is off, on the normal supply, on the forcing one."""
         off, normal, forced = -d.freewheel_volts, d.normal_volts - d.switch_volts, d.forcing_volts - d.switch_volts
         return rounded(off / d.resistance_ohm), rounded(normal / d.resistance_ohm), rounded(forced / d.resistance_ohm)

@@ -1,7 +1,8 @@
 """Many variants of one rotor at once: the same substep as law.py, a lane for each, equal to the bit.
 
 Rule: numpy's + - * and comparisons element by element, in the order of law.py; no reductions. Quicker than the plain
-law from about thirty lanes on. For sweeps, tuning, and the figures of docs/PLANT.md; the machine is run by law.py.
+law from about thirty lanes on. Unipolar motors only. For sweeps, tuning, and the figures of docs/PLANT.md; the machine
+is run by law.py.
 """
 
 from collections.abc import Sequence
@@ -10,11 +11,13 @@ from dataclasses import astuple, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.language import Message
 from drillctl.machine.dynamics import WINDING_DEGREES, Dynamics
 from drillctl.plant.dynamic.coefficients import QUARTER, SINE, SINES, SLOPE, Wires, coefficients
 
 Floats = NDArray[np.float64]
 _SINE, _SLOPE = np.array(SINE), np.array(SLOPE)
+OF_THE_LAW = 8  # coefficients, from decay to advance
 _AHEAD = np.array([[0], [QUARTER]])  # the cosine is the sine a quarter cycle on
 
 
@@ -41,12 +44,20 @@ class Fleet:
     """
 
     def __init__(self, lanes: Sequence[Lane], wires: Wires):
+        if other := next((lane.dynamics for lane in lanes if lane.dynamics.kind != "unipolar"), None):
+            raise ValueError(
+                Message(
+                    "sweeps of single moves take unipolar motors; {name} is a {kind} motor's: sweep --board takes it",
+                    name=other.name,
+                    kind=other.kind,
+                )
+            )
         laws = [coefficients(lane.dynamics, lane.tick_hz) for lane in lanes]
         if len({law.substeps for law in laws}) != 1:
             raise ValueError("the lanes of a fleet need the same number of substeps: tick rates from 50 Hz on have it")
         self._substeps = laws[0].substeps
         self._lanes, self._wires = lanes, wires
-        columns = np.array([astuple(law)[1:] for law in laws]).T
+        columns = np.array([astuple(law)[1 : 1 + OF_THE_LAW] for law in laws]).T
         self._decay, self._emf, self._keep, self._push, self._detent, stop, gain, self._advance = columns
         self._forward = stop + np.array([lane.forward_nm for lane in lanes]) * gain
         self._backward = -(stop + np.array([lane.backward_nm for lane in lanes]) * gain)

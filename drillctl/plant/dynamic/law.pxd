@@ -3,9 +3,10 @@
 cimport cython
 
 cdef Py_ssize_t CURRENTS, SPEED, CYCLES, SUPPLY, OFF, NORMAL, FORCED, DECAY, EMF, KEEP, PUSH, DETENT, STOP, GAIN, ADVANCE
-cdef Py_ssize_t SUBSTEPS, FORWARD, BACKWARD, RESTING, ZERO, COLUMNS, START, PITCH, PLAY, PLACE, LOW, HIGH, SCALE
-cdef Py_ssize_t MOVED, ROW
-cdef Py_ssize_t WINDINGS, WIRES
+cdef Py_ssize_t SUBSTEPS, LIMIT, SPACING, WINDINGS, KIND, FORWARD, BACKWARD, RESTING, ZERO, COLUMNS, START, PITCH, PLAY, PLACE, LOW, HIGH, SCALE
+cdef Py_ssize_t MOVED, BEFORE, ROW
+cdef Py_ssize_t MOST, WIRES
+cdef Py_ssize_t UNIPOLAR, RELUCTANCE
 cdef Py_ssize_t MOUNTED, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN, WEAR, METRES, THRUST, GROWTH, LEVER, SAME, LEFT, STILL, HOLE
 cdef double TURN
 cdef Py_ssize_t SINES, QUARTER
@@ -17,8 +18,13 @@ cdef Py_ssize_t SINES, QUARTER
                entry=cython.Py_ssize_t, part=cython.double, sin=cython.double, cos=cython.double, back=cython.double, goal=cython.double, pull=cython.double, hold=cython.double)
 cpdef void unipolar(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
 
-@cython.locals(a=cython.double, b=cython.double, c=cython.double, d=cython.double, speed=cython.double,
-               cycles=cython.double, moved=cython.bint)
+@cython.locals(decay=cython.double, emf=cython.double, keep=cython.double, push=cython.double, limit=cython.double, spacing=cython.double, forward=cython.double,
+               backward=cython.double, advance=cython.double, speed=cython.double, cycles=cython.double, windings=cython.Py_ssize_t,
+               _=cython.Py_ssize_t, winding=cython.Py_ssize_t, turned=cython.double, back=cython.double, pull=cython.double, place=cython.double,
+               entry=cython.Py_ssize_t, part=cython.double, sin=cython.double, current=cython.double, goal=cython.double)
+cpdef void reluctance(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
+
+@cython.locals(winding=cython.Py_ssize_t, speed=cython.double, cycles=cython.double, moved=cython.bint)
 cpdef bint step(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
 
 @cython.locals(winding=cython.Py_ssize_t, level=cython.double)

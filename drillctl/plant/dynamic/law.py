@@ -9,12 +9,12 @@ So every statement means the same in C, without contraction.
 Each axis is a row of ``rows``, a flat sequence of floats; row n begins at ``n * ROW``, and a function is told where, as
 ``at``. The columns of a row:
 
-    CURRENTS       4 half windings [A], in the order of WINDING_DEGREES
+    CURRENTS       of up to MOST windings [A], in the order of their degrees (machine/dynamics.py)
     SPEED          rad/s of the shaft
     CYCLES         electrical cycles
-    SUPPLY         4 currents [A] that the present image drives towards without back-EMF
-    OFF, NORMAL, FORCED   what SUPPLY is for a winding that is off, on 5 V, on 24 V
-    DECAY .. SUBSTEPS     as in coefficients.Coefficients
+    SUPPLY         the currents [A] that the present image drives towards without back-EMF
+    OFF, NORMAL, FORCED   what SUPPLY is for a winding that is off, on the normal supply, on the forcing one
+    DECAY .. KIND  as in coefficients.Coefficients
     FORWARD, BACKWARD     rad/s that friction and load take off in a substep, by direction
     RESTING        1 where a tick more would change nothing
     MOVED          1 where the last tick changed something
@@ -22,11 +22,12 @@ Each axis is a row of ``rows``, a flat sequence of floats; row n begins at ``n *
                    play in steps, and where the carriage is, in steps
     LOW, HIGH      the places between which (neither included) no sensor changes and no bit meets or leaves the board
     SCALE          steps of a millimetre
+    BEFORE         the currents before the present tick
 
-``wires`` has WIRES whole numbers for each axis: for each of its four half windings the bit of its 5 V wire, then for
-each the bits of the 24 V wires that feed it; behind them stands the last image. ``bit`` is the drill: the columns
-MOUNTED .. SAME, what ``run`` says of its last tick in LEFT and STILL, and from HOLE on a place in millimetres for each
-axis, where the present hole is.
+``wires`` has WIRES whole numbers for each axis: for each of MOST windings the bit that switches it on (0 where the
+motor has fewer), then for each the bits of the forcing wires that feed it; behind them stands the last image. ``bit``
+is the drill: the columns MOUNTED .. SAME, what ``run`` says of its last tick in LEFT and STILL, and from HOLE on, in
+millimetres, a place for each axis, where the present hole is.
 """
 
 from collections.abc import MutableSequence, Sequence
@@ -34,53 +35,25 @@ from collections.abc import MutableSequence, Sequence
 Rows = MutableSequence[float]
 
 CURRENTS = 0
-SPEED = 4
-CYCLES = 5
-SUPPLY = 6
-OFF = 10
-NORMAL = 11
-FORCED = 12
-DECAY = 13
-EMF = 14
-KEEP = 15
-PUSH = 16
-DETENT = 17
-STOP = 18
-GAIN = 19
-ADVANCE = 20
-SUBSTEPS = 21
-FORWARD = 22
-BACKWARD = 23
-RESTING = 24
-ZERO = 25
-COLUMNS = 26
-START = 27
-PITCH = 28
-PLAY = 29
-PLACE = 30
-LOW = 31
-HIGH = 32
-SCALE = 33
-MOVED = 34
-ROW = 35
+SPEED, CYCLES = 5, 6
+SUPPLY = 7
+OFF, NORMAL, FORCED = 12, 13, 14
+DECAY, EMF, KEEP, PUSH, DETENT, STOP, GAIN, ADVANCE, SUBSTEPS = 15, 16, 17, 18, 19, 20, 21, 22, 23
+LIMIT, SPACING, WINDINGS, KIND = 24, 25, 26, 27
+FORWARD, BACKWARD, RESTING = 28, 29, 30
+ZERO, COLUMNS, START, PITCH, PLAY, PLACE = 31, 32, 33, 34, 35, 36
+LOW, HIGH, SCALE, MOVED = 37, 38, 39, 40
+BEFORE = 41
+ROW = 46
 
-WINDINGS = 4
-WIRES = 8
+MOST = 5  # windings of a motor
+WIRES = 10
 
-MOUNTED = 0
-IN_BOARD = 1
-INVERTED = 2
-SURFACE = 3
-BOTTOM = 4
-BEGUN = 5
-WEAR = 6
-METRES = 7
-THRUST = 8
-GROWTH = 9
-LEVER = 10
-SAME = 11
-LEFT = 12
-STILL = 13
+UNIPOLAR, RELUCTANCE = 0, 1  # the kinds of motors
+
+MOUNTED, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN = 0, 1, 2, 3, 4, 5
+WEAR, METRES, THRUST, GROWTH, LEVER, SAME = 6, 7, 8, 9, 10, 11
+LEFT, STILL = 12, 13
 HOLE = 14
 
 TURN = 360.0
@@ -156,30 +129,75 @@ def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second
     rows[at + CYCLES] = cycles
 
 
+def reluctance(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> None:
+    """One tick of a motor of variable reluctance, its windings evenly apart. A chopper holds a current at LIMIT."""
+    decay = rows[at + DECAY]
+    emf = rows[at + EMF]
+    keep = rows[at + KEEP]
+    push = rows[at + PUSH]
+    limit = rows[at + LIMIT]
+    spacing = rows[at + SPACING]
+    forward = rows[at + FORWARD]
+    backward = rows[at + BACKWARD]
+    advance = rows[at + ADVANCE]
+    speed = rows[at + SPEED]
+    cycles = rows[at + CYCLES]
+    windings = int(rows[at + WINDINGS])
+    for _ in range(int(rows[at + SUBSTEPS])):
+        turned = cycles - cycles // 1.0
+        back = emf * speed
+        pull = 0.0
+        for winding in range(windings):
+            place = turned - winding * spacing
+            if place < 0.0:
+                place += 1.0
+            place *= SINES
+            entry = int(place)
+            part = place - entry
+            sin = sine[entry] + slope[entry] * part
+            current = rows[at + CURRENTS + winding]
+            goal = rows[at + SUPPLY + winding] + back * sin * current
+            current = goal + (current - goal) * decay
+            current = min(max(current, 0.0), limit)
+            rows[at + CURRENTS + winding] = current
+            pull += current * current * sin
+        speed = speed * keep - push * pull
+        if speed > forward:
+            speed -= forward
+        elif speed < -backward:
+            speed += backward
+        else:
+            speed = 0.0
+        cycles += advance * speed
+    rows[at + SPEED] = speed
+    rows[at + CYCLES] = cycles
+
+
 def step(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> bool:
     """One tick of a motor on its present supply; returns False where it rests and nothing was to be done."""
     if rows[at + RESTING] != 0.0:
         return False
-    a = rows[at + CURRENTS]
-    b = rows[at + CURRENTS + 1]
-    c = rows[at + CURRENTS + 2]
-    d = rows[at + CURRENTS + 3]
+    for winding in range(MOST):
+        rows[at + BEFORE + winding] = rows[at + CURRENTS + winding]
     speed = rows[at + SPEED]
     cycles = rows[at + CYCLES]
-    unipolar(rows, at, sine, slope)
+    if rows[at + KIND] == RELUCTANCE:
+        reluctance(rows, at, sine, slope)
+    else:
+        unipolar(rows, at, sine, slope)
     moved = speed != rows[at + SPEED] or cycles != rows[at + CYCLES]
-    moved = moved or a != rows[at + CURRENTS] or b != rows[at + CURRENTS + 1]
-    moved = moved or c != rows[at + CURRENTS + 2] or d != rows[at + CURRENTS + 3]
+    for winding in range(MOST):
+        moved = moved or rows[at + BEFORE + winding] != rows[at + CURRENTS + winding]
     rows[at + RESTING] = 0.0 if moved else 1.0
     return True
 
 
 def supply(rows: Rows, at: int, wires: MutableSequence[int], first: int, image: int) -> None:
     """Sets what an output image drives the currents of an axis towards; its wires begin at ``first``."""
-    for winding in range(WINDINGS):
+    for winding in range(MOST):
         if not image & wires[first + winding]:
             level = rows[at + OFF]
-        elif image & wires[first + WINDINGS + winding]:
+        elif image & wires[first + MOST + winding]:
             level = rows[at + FORCED]
         else:
             level = rows[at + NORMAL]

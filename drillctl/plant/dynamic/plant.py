@@ -28,8 +28,6 @@ class DynamicPlant(Plant):
     motors, belts   its rotors and carriages, with the types that they have here
     """
 
-    lanes = (*PLACE_LANES, *CURRENT_LANES)
-
     def __init__(self, machine: Machine, faults: Sequence[str] = (), seed: int = 0, kernel: Kernel = KERNEL):
         self.described = " ".join(("dynamic", *faults))
         self.seed = seed
@@ -42,6 +40,8 @@ class DynamicPlant(Plant):
             for table in machine.axes
         ]
         self.belts = [_belt(machine, index, known_faults, seed) for index in axes]
+        self._phases = max(len(motor.pulling()) for motor in self.motors)
+        self.lanes = (*PLACE_LANES, *CURRENT_LANES[: self._phases])
         self._rows = kernel.numbers([0.0] * law.ROW * len(axes))
         for index, (motor, belt) in enumerate(zip(self.motors, self.belts, strict=True)):
             motor.lie_in(self._rows, index * law.ROW)
@@ -128,12 +128,10 @@ class DynamicPlant(Plant):
         return belt.start + travelled * abs(belt.steps_per_column) - self.position_steps(axis)
 
     def lane_values(self, axis: int, travelled: int) -> tuple[int, ...]:
-        """Returns place, distance behind, and for each phase the current of one half winding less that of the other,
-        which pulls against it.
-        """
-        first, against_first, against_second, second = self.motors[axis].axis.currents  # as WINDING_DEGREES has them
-        pulling = round(1000 * (first - against_first)), round(1000 * (second - against_second))
-        return (*super().lane_values(axis, travelled), *pulling)
+        """Returns place, distance behind, and the current of each phase; 0 for a phase that the motor lacks."""
+        pulling = self.motors[axis].pulling()
+        missing = (0,) * (self._phases - len(pulling))
+        return (*super().lane_values(axis, travelled), *(round(1000 * each) for each in pulling), *missing)
 
 
 def _check_dynamics(machine: Machine) -> None:

@@ -17,7 +17,7 @@ from drillctl.plant.dynamic.rotor import DynamicRotor
 @dataclass(frozen=True, eq=False, slots=True)
 class Motion:
     """The motion of one motor, after each tick: columns (ticks,) from where the rotor's count is 0, speed (ticks,) in
-    rad/s of the shaft, currents (ticks, 4) in A, in the order of machine.dynamics.WINDING_DEGREES.
+    rad/s of the shaft, currents (ticks, windings) in A, in the order of Dynamics.degrees.
     """
 
     columns: NDArray[np.float64]
@@ -39,7 +39,7 @@ class MotionRecorder:
 
     def finish(self) -> Motion:
         """Returns everything that was sampled."""
-        rows = np.array(self._rows, np.float64).reshape(-1, 6)
+        rows = np.array(self._rows, np.float64).reshape(-1, 2 + len(self._motor.axis.currents))
         return Motion(rows[:, 0], rows[:, 1], rows[:, 2:])
 
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import Any
 
 from drillctl.machine import AxisTable
-from drillctl.machine.dynamics import WINDING_DEGREES
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import Supply, Wires, coefficients
@@ -51,9 +50,18 @@ class DynamicRotor(Rotor):
         rows_before[law.ZERO], rows_before[law.COLUMNS] = float(self.zero), float(self.columns_per_cycle)
         self.axis.move_to(rows, at)
 
+    def pulling(self) -> tuple[float, ...]:
+        """Returns the current of each phase, in A; of a unipolar one that of a half winding less its opponent's."""
+        currents = self.axis.currents
+        if self._dynamics.kind == "reluctance":
+            return currents
+        first, against_first, against_second, second = currents  # in the order of WINDING_DEGREES
+        return first - against_first, second - against_second
+
     def wires(self) -> tuple[int, ...]:
         """Returns its wires as law.py has them."""
-        return (*self._wires.on, *self._wires.forcing)
+        missing = (0,) * (law.MOST - len(self._wires.on))
+        return (*self._wires.on, *missing, *self._wires.forcing, *missing)
 
     def columns_lost(self, travelled: int) -> float:
         """Returns the columns by which the rotor is behind, rounded to whole electrical cycles."""
@@ -65,15 +73,14 @@ class DynamicRotor(Rotor):
 
 
 def wires_of(table: AxisTable) -> Wires:
-    """Returns which output bits the half windings of an axis with dynamics hang at."""
+    """Returns which output bits the windings of an axis with dynamics hang at."""
     assert table.dynamics is not None
     bits = {name: 1 << bit for name, bit in zip(table.phase.wire_names(), table.wire_bits, strict=True)}
     at = {degrees % FULL_TURN: name for name, degrees in table.motor.windings}
-    names = [at[degrees] for degrees in WINDING_DEGREES]
+    names = [at[degrees] for degrees in table.dynamics.degrees]
     feeds = [(bits[wire], fed) for wire, fed in table.dynamics.forcing if wire in bits]
-    first, second, third, fourth = (bits[name] for name in names)
     forced = (sum(bit for bit, fed in feeds if name in fed) for name in names)
-    return Wires((first, second, third, fourth), (next(forced), next(forced), next(forced), next(forced)))
+    return Wires(tuple(bits[name] for name in names), tuple(forced))
 
 
 def rest_cycles(table: AxisTable, columns: int) -> float:
