@@ -115,7 +115,7 @@ def _check_kind(source: Source, kind: str, fields: Mapping[str, object]) -> None
     for of, keys in OWN_KEYS.items():
         for key in keys:
             if of == kind and fields[key] is None:
-                raise source.error(Message("{key} is missing", key=key), key)
+                raise source.error(Message("{name} is missing", name=key), key)
             if of != kind and fields[key] is not None:
                 raise source.error(Message("{key} belongs to a {kind} motor", key=key, kind=of), key)
     if kind != "unipolar" and fields["forcing"]:
