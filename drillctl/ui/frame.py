@@ -149,15 +149,15 @@ class MainFrame(urwid.Frame[Any, Any, Any]):
             self._invalidate()
 
     def say(self, text: str) -> None:
-        """Shows a word in front of the next step, an empty text none; where both don't fit the word stands alone."""
+        """Shows a word in front of the next step, an empty text none; above it where both don't fit."""
         if text != self._said:
             self._said = text
             self._invalidate()
 
     def _fit_bottom(self, columns: int) -> None:
         said: Line = [("title", f" {self._said} ")] if self._said else []
-        both = [*said, *self._next]
-        self._step.set_text(both if not said or width_of(both) <= columns else said)
+        fits = width_of([*said, *self._next]) <= columns
+        self._step.set_text([*said, *([] if fits or not said else ["\n"]), *self._next])
 
     def render(self, size: Size, focus: bool = False) -> urwid.CompositeCanvas:
         """Fits the line on the machine first: where the position would not be seen, the screen's title is left out,

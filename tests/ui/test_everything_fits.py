@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import urwid
 
 from drillctl import console
 from drillctl.kmd import Fault
@@ -16,11 +17,14 @@ from drillctl.ui.frame import CONDITIONS, screen_keys
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.widgets.keys import EMERGENCY, FRAME_KEYS, STOP, Key
 from drillctl.ui.widgets.menus import plain_label
+from drillctl.ui.widgets.texts import Text, boxed
+from drillctl.ui.widgets.windows import Window
 from drillctl.viewmodel.console import MachineView
 from drillctl.viewmodel.fault_texts import FAULT_WORDS, fault_report
 from tests.support.labels import POLISH, menu
+from tests.ui.cuts import is_word_cut, noted
 from tests.ui.fake_console import BOARD, VIEW, FakeConsole, Program
-from tests.ui.whole import MACHINES, SCREENS, Whole, at_home
+from tests.ui.whole import MACHINES, SCREENS, Whole, at_home, show
 
 COLUMNS = 80
 FIELD = re.compile(r"\{(\w+)(?:![rs])?(:[^}]*)?\}")  # of a message: its name, and its format if it is a figure
@@ -123,6 +127,35 @@ def opened(name: str) -> Iterator[Whole]:
             yield program
     finally:
         program.console.close()
+
+
+@pytest.mark.parametrize("size", [(50, 15), (COLUMNS, 24)])
+def test_no_word_is_cut_on_any_screen(
+    language: str, size: tuple[int, int], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at_home(tmp_path, monkeypatch)
+    words.use(language)
+    with noted() as cuts:
+        program = Whole(size)
+        try:
+            for name in SCREENS:
+                show(program.app, name)
+                program.text()
+                program.press("enter")
+                program.text()
+                assert not [cut for cut in cuts.take() if is_word_cut(cut)], name
+                program.press("esc")
+        finally:
+            program.console.close()
+
+
+def test_a_cut_word_is_seen() -> None:
+    with noted() as cuts:
+        Text("a word that is cut", wrap="clip").render((9,))
+        boxed([["a line that is cut"]], 9, 1)
+        Window(urwid.SolidFill(), "a title that is cut")._border((9, 3))
+        Text("/home/a-file", wrap="ellipsis").render((9,))
+        assert [is_word_cut(cut) for cut in cuts.take()] == [True, True, True, False]
 
 
 def way(screen: str, method: str = "") -> tuple[str, ...]:

@@ -105,6 +105,14 @@ def test_a_position_that_was_not_known_is_not_told_as_lost() -> None:
     assert "position not known: initialise" in program.text() and "position lost" not in program.text()
 
 
+@pytest.mark.parametrize(("said", "rows"), [("short", 1), ("a word that is longer than what is left of the line", 2)])
+def test_a_word_that_is_said_leaves_the_next_step_where_it_can_be_read(said: str, rows: int) -> None:
+    program = Program(FakeConsole(now=replace(VIEW, position_known=False)), (80, 24))
+    program.app.say(said)
+    found = [row for row in program.text().splitlines() if said in row or " Next " in row]
+    assert len(found) == rows and said in found[0] and "open" in found[-1]
+
+
 def test_a_line_on_the_machine_that_is_cut_says_so() -> None:
     view = replace(VIEW, machine="a-machine-with-a-name-of-sixty-characters-as-nobody-has-it")
     program = Program(FakeConsole(now=view), (80, 24))

@@ -20,7 +20,7 @@ from drillctl.viewmodel.bench import CyclePath
 from drillctl.viewmodel.tables import FieldView
 
 NAME_COLUMNS, VOLTS_COLUMNS, BIT_COLUMNS, CELL_COLUMNS = 12, 7, 5, 3
-HEADING_ROWS = 2  # the columns' numbers above the wires, and an empty row
+HEADING_ROWS = 1  # the numbers of the columns
 
 
 class PhaseEditor(TableEditor):
