@@ -10,6 +10,7 @@ from random import Random
 
 import pytest
 
+from drillctl.execution.axis import Axis
 from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, interval_ticks
 from drillctl.kmd import Condition, Fault, Request
 from drillctl.machine import HomingStep, Library, Machine, shipped_tables, travel_ticks
@@ -19,7 +20,8 @@ from tests.support.bench import Bench
 
 SETTLED_S = 0.3  # by then a rotor that swings has come to rest
 DAILY, LONG = range(16), range(1_000)
-COSTLY = range(1, 16, 3)  # of the drum: a simulated second takes a tenth of one
+COSTLY = (0, 5, 10)  # of the drum, a seed for each stop: a simulated second takes a tenth of one
+FASTEST = (13, 14, 15)  # the gears from which a dead stop would lose steps, a seed for each stop
 SWITCHES = {"pause": "pause", "emergency_stop": "emergency_stop", "limit": "limits"}
 
 
@@ -62,9 +64,9 @@ MACHINES = {"drum": drum, "lab": lab}
 
 
 class Case:
-    """One stop of one machine: ``random`` draws all of it."""
+    """One stop of one machine: ``random`` draws all of it; ``fastest``: but it comes in the middle of a long stroke."""
 
-    def __init__(self, machine: Machine, seed: int):
+    def __init__(self, machine: Machine, seed: int, fastest: bool = False):
         self.random = Random(f"{machine.name} {seed}")
         self.swings = all(axis.dynamics for axis in machine.axes)
         self.b = Bench(machine, plant=PlantChoice(DYNAMIC if self.swings else IDEAL, seed=seed).build(machine)).ready()
@@ -74,10 +76,12 @@ class Case:
         own = sorted(set(table.ramp.interval))  # at an interval between them the lab's motors lose steps in any move
         fine = machine.tick_hz == drum().tick_hz
         floor_ticks = interval_ticks(gear, table, machine.tick_hz) if fine else own[gear % len(own)]
-        least = self.random.choice([2, self.b.m.axes[self.axis].strokes.ramped_from(1, floor_ticks) + 1])
+        long = self.b.m.axes[self.axis].strokes.ramped_from(1, floor_ticks) + 1
+        least = self.random.choice([long if fastest else 2, long])
         steps = self.random.choice([1, -1]) * (least + self.random.randrange(20))
         self.moves = f"KMD_PREDKOSC {floor_ticks}; KMD_RUCHd {table.name}={steps}; KMD_RUCHd {table.name}={-steps}"
-        self.ticks = self.random.randrange(travel_ticks(table.ramp, steps, floor_ticks, table.columns_per_step))
+        travel = travel_ticks(table.ramp, steps, floor_ticks, table.columns_per_step)
+        self.ticks = travel // 2 if fastest else self.random.randrange(travel)
 
     def begun(self) -> Bench:
         """The moves, up to the tick of the stop; nothing, if they are over by then."""
@@ -99,9 +103,9 @@ class Case:
         return not any(map(round, self.b.ticker.lost_steps()))
 
 
-def check_stop(machine: Machine, seed: int) -> None:
+def check_stop(machine: Machine, seed: int, fastest: bool = False) -> None:
     """A stop keeps the places true, and from it the machine goes on, or back to zero, to the step."""
-    case = Case(machine, seed)
+    case = Case(machine, seed, fastest)
     b, stop = case.begun(), list(SWITCHES)[seed % 3]
     case.press(stop)
     case.rest()
@@ -149,6 +153,24 @@ def test_a_dead_stop_that_loses_steps_says_so() -> None:
     assert (True, False) not in known, "a lost position was called known"
     assert {(True, True), (False, True)} <= set(known)
     assert not any(says for says, _ in (stopped_dead(lab(), seed, "drop") for seed in range(3)))
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("seed", FASTEST)
+def test_at_the_drums_top_speeds_the_ramp_keeps_places_true(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With braking replaced by a dead stop the same check fails."""
+    check_stop(drum(), seed, fastest=True)
+    monkeypatch.setattr(Axis, "ramp_down", Axis.stop_now)
+    monkeypatch.setattr(Axis, "hold", stop_dead)
+    with pytest.raises(AssertionError, match=f"seed {seed}: "):
+        check_stop(drum(), seed, fastest=True)
+
+
+def stop_dead(axis: Axis) -> None:
+    """Takes the place of a hold's ramp: all pulses stop in this tick, the target stays."""
+    target = axis.target
+    axis.stop_now()
+    axis.target = target
 
 
 @pytest.mark.long
