@@ -151,6 +151,8 @@ def test_a_refusal_is_told() -> None:
     hands.refusal = ("the machine is at work; hold or stop it first",)
     press(drawn, "down", " ")
     assert "refused: the machine is at work" in text_of(drawn)
+    rows = [row.decode() for row in drawn.render((40, 10)).text]
+    assert "refused: the machine is at work" in rows[-2] and "stop it first" in rows[-1]
 
 
 def test_a_click_sets_the_cursor_and_the_wheel_moves_it() -> None:

@@ -19,7 +19,6 @@ from drillctl.viewmodel.console import Console, MachineView
 from drillctl.viewmodel.signals import ManualControl, SignalView
 
 SWITCHES = N_("switches the output on or off, at rest; presses an input of the simulated machine")
-LEAST_FOOT_ROWS = 2  # what the cursor is on, and the last answer
 
 
 class Signals(urwid.Widget):
@@ -65,13 +64,14 @@ class Signals(urwid.Widget):
         assert len(size) == 2
         self._columns, rows = size
         about_it = folded([[("key", about(self._signals[self._cursor]))]], self._columns - 2)
-        room = max(1, rows - len(about_it) - LEAST_FOOT_ROWS + 1)
+        answer = folded([[self._answer_line()]], self._columns)
+        room = max(1, rows - len(about_it) - len(answer))
         lines = grid_lines(self._signals, self._cursor, self._columns)
         self._scroll(room, len(lines))
         shown = lines[self._top : self._top + room]
         image = [[], *image_lines(self._signals)]
         shown += image if len(shown) + len(image) <= room else []
-        foot = self._foot(about_it, len(lines), room)
+        foot = [*self._foot(about_it, len(lines), room), *answer]
         return boxed([*shown, *([[]] * (room - len(shown))), *foot], self._columns, rows)
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
@@ -152,12 +152,12 @@ class Signals(urwid.Widget):
         self._top = min(self._top, max(0, lines - room))
 
     def _foot(self, about_it: Sequence[Line], lines: int, room: int) -> list[Line]:
-        """What the cursor is on, what was answered, and how much there is above and below."""
+        """What the cursor is on, and how much there is above and below."""
         above, below = self._top, max(0, lines - self._top - room)
         more = _("lines above: {above}, below: {below}").format(above=above, below=below) if above or below else ""
         *before, last = [[("key", " "), *line, ("key", " ")] for line in about_it]
         ended: Line = [*last, " ", more]
-        return [*before, ended if width_of(ended) <= self._columns else last, [self._answer_line()]]
+        return [*before, ended if width_of(ended) <= self._columns else last]
 
     def _answer_line(self) -> tuple[str, str]:
         """The last answer, or the warning that a winding is in danger."""
