@@ -15,7 +15,9 @@ LABEL_COLUMNS = 8
 
 
 def list_lines(part: PartView | None, sentence: int, done: int, columns: int, rows: int) -> list[Line]:
-    """As many sentences as there are rows, those around the one in execution; in words too where all have room."""
+    """As many sentences as there are rows, those around the one in execution; in words too where all have room, and
+    without their cells where there is none for these.
+    """
     if part is None:
         advice = (_("No workpiece is called."), _("Type its number, 01 to 99,"), _("then P (PROG). L lists them."))
         return [[text] for text in advice[:rows]]
@@ -25,7 +27,8 @@ def list_lines(part: PartView | None, sentence: int, done: int, columns: int, ro
     told: list[Line] = [
         [*line, f"  {translated(part.sentences[index].words)}"] for index, line in zip(shown, lines, strict=True)
     ]
-    return told if max(map(width_of, told), default=0) <= columns else lines
+    without: list[Line] = [line[:1] for line in lines]
+    return next((each for each in (told, lines) if max(map(width_of, each), default=0) <= columns), without)
 
 
 def heading(part: PartView | None) -> Line:
@@ -66,7 +69,8 @@ def _sentence(number: int, one: SentenceView, sentence: int, done: int, part: Pa
     role = "accent" if number == sentence else "dark" if number <= done else "body"
     seconds = one.ticks / max(part.estimate.tick_hz, 1)
     move = f"{one.axis.upper()}{one.way_mm:+8.1f}"
-    return [(role, f"{mark}{number:4} {one.text} {move} {one.m_min:5.3g} {seconds:6.2f} s  {one.cell:04X}")]
+    figures = f"{mark}{number:4} {one.text} {move} {one.m_min:5.3g} {seconds:6.2f} s"
+    return [(role, figures), (role, f"  {one.cell:04X}")]
 
 
 def _labelled(label: str, text: str, columns: int) -> list[Line]:
