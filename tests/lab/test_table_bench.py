@@ -97,11 +97,17 @@ def test_a_ramp_that_starts_too_fast_loses_steps_where_a_state_is_held_for_half_
 
 
 def test_a_motor_without_dynamics_is_ideal_and_still_tells_a_wrong_table() -> None:
+    name = "uln2003-half-step"
+    sound = run(text_of("phase", name), "mega-28byj48", "phase", name)
+    assert [(each.motor, each.dynamic, each.lost) for each in sound.runs] == [(motor, False, 0) for motor in "xyz"]
+    off = "\n".join('pattern = "......"' if "pattern" in line else line for line in text_of("phase", name).split("\n"))
+    assert run(off, "mega-28byj48", "phase", name).lost
+
+
+def test_a_reluctance_motor_is_dynamic() -> None:
     name = "three-phase-six-beat"
     sound = run(text_of("phase", name), "boiler-drum", "phase", name)
-    assert [(each.motor, each.dynamic, each.lost) for each in sound.runs] == [("y", False, 0)]
-    off = "\n".join('pattern = "......"' if "pattern" in line else line for line in text_of("phase", name).split("\n"))
-    assert run(off, "boiler-drum", "phase", name).lost
+    assert [(each.motor, each.dynamic, each.lost) for each in sound.runs] == [("y", True, 0)]
 
 
 def test_a_table_that_no_motor_has_is_tried_on_one_that_fits_or_refused() -> None:
