@@ -45,7 +45,7 @@ MOVING = {
     "Drilling.dry_run", "Drilling.hold_or_resume", "Drilling.initialise", "Drilling.set_base", "JogControls.jog_on",
     "JogControls.jog_back", "Drilling._go_to", "QueueEditor.run_all", "QueueEditor.run_to_cursor",
     "QueueEditor.run_line", "QueueEditor.tick", "AlignmentScreen.go_there", "Signals.toggle",
-    "Panel.return_to_zero", "Panel.start", "Panel.resume",
+    "Drilling.return_to_zero", "Panel.return_to_zero", "Panel.start", "Panel.resume",
 }  # fmt: skip
 CARRIED_ON = "Jogging.carry_on"  # the one step that waits while a jog is on its way; it was asked for by a key
 ANSWERED = "Dialog._closed_by.<locals>.both"  # a button was pressed

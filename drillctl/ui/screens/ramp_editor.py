@@ -152,7 +152,7 @@ class RampEditor(TableEditor):
     def _profile(self, columns: int, rows: int) -> list[Line]:
         ticks = self._ramp.intervals
         if not ticks:
-            return [[("warning", _("no profile: a ramp is drawn when every move lands exactly"))]]
+            return folded([[("warning", _("no profile: a ramp is drawn when every move lands exactly"))]], columns)
         lasting = ngettext("{count} tick", "{count} ticks", sum(ticks)).format(count=sum(ticks))
         caption = ngettext(
             "speed of each step in a move of {count} step, {ticks}",
