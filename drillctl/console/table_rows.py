@@ -3,7 +3,7 @@
 Rule: functions of texts; comments and layout stay. A text that can't be read has no rows, and is left as it is.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from drillctl.machine import TableError, intervals
@@ -21,15 +21,14 @@ from drillctl.machine.ramp_file import is_computed, parse_ramp, proposals, ramp_
 from drillctl.machine.ramp_formula import MOST_STATES
 from drillctl.machine.source import Source
 from drillctl.machine.travel import stopping
-from drillctl.viewmodel.tables import Checked, PhaseRow, RampDrawing, StateRow, TableKind
+from drillctl.viewmodel.tables import PhaseRow, RampDrawing, StateRow
 
 
 class TableRows:
-    """The part of a TableEditing that changes rows of a text."""
+    """A RowEditing (viewmodel/tables.py). ``is_sound`` says whether the text of a ramp can be loaded."""
 
-    def check(self, kind: TableKind, text: str) -> Checked:
-        """Errors and warnings of a text."""
-        raise NotImplementedError  # by TableFiles, whose library has what a text refers to
+    def __init__(self, is_sound: Callable[[str], bool]):
+        self._is_sound = is_sound
 
     def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
         """The rows of a phase table, sound or not; none where they can't be read."""
@@ -77,7 +76,7 @@ class TableRows:
         if top >= MOST_STATES:
             return text
         tried = [with_states(text, *row) for row in proposals(rows[-1])]
-        return next((changed for changed in tried if not self.check("ramp", changed).problems), tried[0])
+        return next((changed for changed in tried if self._is_sound(changed)), tried[0])
 
 
 def source_of(text: str) -> Source:

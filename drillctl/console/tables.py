@@ -33,13 +33,14 @@ LONGEST_NAME = 40
 TABLES_OF_A_MOTOR = ("phase", "ramp")  # keys of an axis that name a table
 
 
-class TableFiles(TableRows):
+class TableFiles:
     """A TableEditing over ``library``; edits go to ``user_folder``, which is one of the library's folders. ``machine``
     returns the machine in use, None for none.
     """
 
     def __init__(self, library: Library, user_folder: Path, machine: Callable[[], Machine | None] = lambda: None):
         self._library, self._user_folder, self._machine = library, user_folder, machine
+        self.rows = TableRows(lambda text: not self.check("ramp", text).problems)
 
     def tables(self, kind: TableKind) -> list[TableEntry]:
         """All tables of a kind, by name: where each comes from, and whether the machine in use has it."""

@@ -98,8 +98,33 @@ class FieldView:
     locked: bool = False  # in the file, by whoever keeps it
 
 
+class RowEditing(Protocol):
+    """Phase tables and ramps as rows: read from a text, or changed in it."""
+
+    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
+        """The wires of a phase table; none for a text that is no phase table."""
+
+    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
+        """The text with these patterns; its wires are the same."""
+
+    def ramp(self, text: str) -> RampDrawing:
+        """The ramp of a text; no states for a text that is no ramp."""
+
+    def with_state(self, text: str, state: int, field: str, value: int) -> str:
+        """The text with one number of a state changed: accelerate, brake or interval."""
+
+    def with_top(self, text: str, higher: bool) -> str:
+        """The text with a pair of states more, numbers proposed, or with its outermost pair less; a ramp keeps three
+        states. The same text where that can't be.
+        """
+
+
 class TableEditing(Protocol):
     """Tables as screens edit them. What takes a text draws or changes that text; files change by save and reset."""
+
+    @property
+    def rows(self) -> RowEditing:
+        """What reads and changes single rows of a text."""
 
     def tables(self, kind: TableKind) -> Sequence[TableEntry]:
         """All tables of a kind, sorted by name."""
@@ -130,23 +155,6 @@ class TableEditing(Protocol):
 
     def copy(self, kind: TableKind, name: str, new_name: str) -> Problems:
         """Copies a table to one of the user's own, under a name that is free."""
-
-    def phase_rows(self, text: str) -> tuple[PhaseRow, ...]:
-        """The wires of a phase table; none for a text that is no phase table."""
-
-    def with_phase_rows(self, text: str, rows: Sequence[PhaseRow]) -> str:
-        """The text with these patterns; its wires are the same."""
-
-    def ramp(self, text: str) -> RampDrawing:
-        """The ramp of a text; no states for a text that is no ramp."""
-
-    def with_state(self, text: str, state: int, field: str, value: int) -> str:
-        """The text with one number of a state changed: accelerate, brake or interval."""
-
-    def with_top(self, text: str, higher: bool) -> str:
-        """The text with a pair of states more, numbers proposed, or with its outermost pair less; a ramp keeps three
-        states. The same text where that can't be.
-        """
 
     def fields(self, text: str) -> tuple[FieldView, ...]:
         """What can be configured in a machine's text; none for a text that is no machine."""

@@ -49,7 +49,7 @@ def test_every_shipped_table_is_found_and_sound(bench: TableFiles, kind: TableKi
 
 
 def test_an_edit_goes_to_the_users_folder_and_wins_and_can_be_taken_back(bench: TableFiles, user: Path) -> None:
-    text = bench.with_state(bench.read("ramp", "seven-state"), 0, "interval", 9)
+    text = bench.rows.with_state(bench.read("ramp", "seven-state"), 0, "interval", 9)
     assert bench.save("ramp", "seven-state", text) == ()
     assert (user / "ramp" / "seven-state.toml").read_text("utf-8") == text
     assert bench.read("ramp", "seven-state") == text and origin(bench, "ramp", "seven-state") == "yours"
@@ -79,7 +79,7 @@ def test_an_invalid_text_is_never_saved(
 
 
 def test_problems_say_the_line(bench: TableFiles) -> None:
-    text = bench.with_state(bench.read("ramp", "seven-state"), 2, "brake", 1)
+    text = bench.rows.with_state(bench.read("ramp", "seven-state"), 2, "brake", 1)
     (found,) = bench.check("ramp", text).problems
     assert found.line is not None and text.split("\n")[found.line - 1] == "brake = 1"
     assert found.message.startswith(f"{found.line}: state 2")
@@ -114,9 +114,9 @@ def test_elsewhere_the_projects_tables_come_first(monkeypatch: pytest.MonkeyPatc
 
 
 def test_a_dangerous_table_is_saved_with_its_warnings(bench: TableFiles) -> None:
-    rows = bench.phase_rows(bench.read("phase", "two-phase-forced"))
+    rows = bench.rows.phase_rows(bench.read("phase", "two-phase-forced"))
     dark = [replace(row, pattern=f".{row.pattern[1:]}") for row in rows]
-    text = bench.with_phase_rows(bench.read("phase", "two-phase-forced"), dark)
+    text = bench.rows.with_phase_rows(bench.read("phase", "two-phase-forced"), dark)
     checked = bench.check("phase", text)
     assert checked.problems == () and any("nothing pulls" in found.text for found in checked.warnings)
     assert bench.save("phase", "two-phase-forced", text) == ()
@@ -125,16 +125,16 @@ def test_a_dangerous_table_is_saved_with_its_warnings(bench: TableFiles) -> None
 def test_phase_rows_and_back_leave_the_text_as_it_was(bench: TableFiles) -> None:
     for entry in bench.tables("phase"):
         text = bench.read("phase", entry.name)
-        assert bench.with_phase_rows(text, bench.phase_rows(text)) == text
+        assert bench.rows.with_phase_rows(text, bench.rows.phase_rows(text)) == text
 
 
 def test_mirrored_forcing_opens_every_phase_in_both_directions(bench: TableFiles) -> None:
     """The paper's pulse closes a phase when the table is played backwards; mirrored, it comes first there too."""
     text = bench.read("phase", "two-phase-forced")
-    grid = PhaseGrid(bench.phase_rows(text)).mirrored()
-    edited = bench.with_phase_rows(text, grid.rows)
+    grid = PhaseGrid(bench.rows.phase_rows(text)).mirrored()
+    edited = bench.rows.with_phase_rows(text, grid.rows)
     assert bench.check("phase", edited) == Checked()
-    rows = {row.name: row.reverse or "" for row in bench.phase_rows(edited)}
+    rows = {row.name: row.reverse or "" for row in bench.rows.phase_rows(edited)}
     phases = list(zip(*(rows[name] for name in ("1a", "1b", "2a", "2b")), strict=True))
     forced = [column for column in range(12) if "x" in (rows["24a"][column], rows["24b"][column])]
     assert forced == [column for column in range(12) if phases[column] != phases[(column + 1) % 12]]
@@ -142,23 +142,23 @@ def test_mirrored_forcing_opens_every_phase_in_both_directions(bench: TableFiles
 
 def test_a_ramp_is_drawn_and_an_inexact_one_is_not(bench: TableFiles) -> None:
     text = bench.read("ramp", "seven-state")
-    told = bench.ramp(text)
+    told = bench.rows.ramp(text)
     assert told.intervals[:4] == (7, 4, 2, 1) and told.intervals[-3:] == (2, 4, 7)
     assert [(row.state, row.stop_steps, row.stop_ticks) for row in told.states][3:] == [
         (0, 0, 0), (1, 1, 4), (2, 2, 6), (3, 3, 7),
     ]  # fmt: skip
     for state in (3, 2, 1):
-        text = bench.with_state(text, state, "brake", 1)
-    inexact = bench.ramp(text)
+        text = bench.rows.with_state(text, state, "brake", 1)
+    inexact = bench.rows.ramp(text)
     assert inexact.intervals == () and inexact.states[-1].brake == 1 and inexact.states[-1].stop_steps is None
     assert "not landed on exactly" in bench.save("ramp", "seven-state", text)[0]
-    assert bench.ramp("nonsense").states == bench.ramp("name = 'x'").states == ()
+    assert bench.rows.ramp("nonsense").states == bench.rows.ramp("name = 'x'").states == ()
 
 
 @pytest.mark.parametrize(("field", "value"), [("interval", 0), ("interval", 9_999_999), ("brake", -4), ("brake", 5000)])
 def test_a_number_out_of_bounds_is_shown_that_it_may_be_put_right(bench: TableFiles, field: str, value: int) -> None:
-    text = bench.with_state(bench.read("ramp", "seven-state"), 2, field, value)
-    assert getattr(bench.ramp(text).states[5], field) == value and bench.check("ramp", text).problems
+    text = bench.rows.with_state(bench.read("ramp", "seven-state"), 2, field, value)
+    assert getattr(bench.rows.ramp(text).states[5], field) == value and bench.check("ramp", text).problems
     assert bench.save("ramp", "seven-state", text) != ()
 
 

@@ -159,6 +159,7 @@ class Tables:
         self.shipped: dict[str, str] = dict(shipped)
         self.own: dict[str, str] = {}
         self.in_use = True
+        self.rows = self  # its RowEditing too
 
     def tables(self, kind: TableKind) -> list[TableEntry]:
         return [TableEntry("one", "yours" if kind in self.own else "shipped", in_use=self.in_use)]

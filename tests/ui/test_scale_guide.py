@@ -228,10 +228,10 @@ def test_only_what_is_ones_own_and_was_never_shipped_is_deleted(tables: TableFil
 
 def test_a_higher_ramp_is_proposed_that_lands_and_three_states_stay(tables: TableFiles) -> None:
     text = tables.read("ramp", "seven-state")
-    higher = tables.with_top(text, higher=True)
-    assert tables.check("ramp", higher).problems == () and tables.ramp(higher).states[-1].state == 4
-    assert tables.with_top(higher, higher=False) == text
+    higher = tables.rows.with_top(text, higher=True)
+    assert tables.check("ramp", higher).problems == () and tables.rows.ramp(higher).states[-1].state == 4
+    assert tables.rows.with_top(higher, higher=False) == text
     for _ in range(5):
-        text = tables.with_top(text, higher=False)
-    assert [row.state for row in tables.ramp(text).states] == [-1, 0, 1]
-    assert tables.with_top("no ramp", higher=True) == "no ramp"
+        text = tables.rows.with_top(text, higher=False)
+    assert [row.state for row in tables.rows.ramp(text).states] == [-1, 0, 1]
+    assert tables.rows.with_top("no ramp", higher=True) == "no ramp"

@@ -128,7 +128,7 @@ class PhaseEditor(TableEditor):
     def _look(self) -> None:
         self._path = self._path_of(self.text)
         self._saved_path = self._path_of(self._saved)
-        self._grid = PhaseGrid(tuple(self._tables.phase_rows(self.text)))
+        self._grid = PhaseGrid(tuple(self._tables.rows.phase_rows(self.text)))
         machine = self._console.view().machine
         self._wires = WireBits(self._tables, self._tables.read("machines", machine), self._name)
         self._go(self._line, self._column)
@@ -154,7 +154,7 @@ class PhaseEditor(TableEditor):
     def _change(self, operation: Callable[[PhaseGrid], PhaseGrid]) -> None:
         changed = operation(self._grid)
         if changed != self._grid:
-            self.edit(self._tables.with_phase_rows(self.text, changed.rows))
+            self.edit(self._tables.rows.with_phase_rows(self.text, changed.rows))
 
     def _go(self, line: int, column: int) -> None:
         self._line = max(0, min(line, len(self._grid.lines) - 1))

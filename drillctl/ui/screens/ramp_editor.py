@@ -98,13 +98,13 @@ class RampEditor(TableEditor):
         return [[("dark", heading)], *states, [""], *profile]
 
     def _look(self) -> None:
-        self._ramp = self._tables.ramp(self.text)
+        self._ramp = self._tables.rows.ramp(self.text)
         self._line = max(0, min(self._line, len(self._ramp.states) - 1))  # undone, there may be fewer
         super()._look()
 
     def _reach(self, higher: bool) -> None:
         state = self._ramp.states[self._line].state if self._ramp.states else 0
-        self.edit(self._tables.with_top(self.text, higher))
+        self.edit(self._tables.rows.with_top(self.text, higher))
         states = [row.state for row in self._ramp.states]
         self._go(states.index(state) if state in states else 0 if state < 0 else len(states) - 1, self._field)
 
@@ -115,7 +115,7 @@ class RampEditor(TableEditor):
         self._typed = typed
         if typed.lstrip("-"):
             state = self._ramp.states[self._line].state
-            self.edit(self._tables.with_state(self.text, state, FIELDS[self._field], int(typed)))
+            self.edit(self._tables.rows.with_state(self.text, state, FIELDS[self._field], int(typed)))
         self._invalidate()
 
     def _go(self, line: int, field: int) -> None:
