@@ -3,7 +3,6 @@
     app.py     the loop of the program on the screen: the machine's news in, keys out
     first_keys.py  emergency stop, stop and copy, looked for before any widget sees a key
     frame.py   the menu bar, the line on the machine, the next step, the line of keys
-    help_actions.py  what the menu Help and its keys do: explain, find, copy
     explanations.py  what F1 says of each screen and its signs, before its keys
     next_step.py  what the machine waits for, with the keys of the screen on top
     preferences.py  the theme that was chosen, kept in the user's configuration

@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 import urwid
 
@@ -14,15 +15,18 @@ from drillctl.language.words import _, translated
 from drillctl.ui.alerts import Alerts
 from drillctl.ui.background import Background
 from drillctl.ui.dropping import Dropping
+from drillctl.ui.explanations import explanation_of
 from drillctl.ui.first_keys import RESIZE, FirstKeys, Pressed
 from drillctl.ui.frame import MainFrame, screen_keys
-from drillctl.ui.help_actions import HelpActions
-from drillctl.ui.layers import Layers
+from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
 from drillctl.ui.next_step import step_line
 from drillctl.ui.painter import Painter
+from drillctl.ui.palette import Action, actions
+from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
+from drillctl.ui.widgets.finder import Finder
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called, wheel_key
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
@@ -36,7 +40,7 @@ TURNING_S = 0.035  # of a beat that a machine gets which runs free and is at wor
 Maker = Callable[[Console, Shell], urwid.Widget]
 
 
-class App(HelpActions):
+class App(Boxes):
     """The shell of the screens. ``makers`` gives the screens that every machine has, by the names that the menus use;
     ``keep_theme`` is called with a theme that was chosen.
 
@@ -171,6 +175,32 @@ class App(HelpActions):
         """Opens the first menu of the bar."""
         self._menus.drop(0)
 
+    def help(self) -> None:
+        """Explains the screen on top, with its keys."""
+        self.explain(*explanation_of(self.screens[-1], self.press))
+
+    def find_action(self) -> None:
+        """Opens a box that finds any action by its words."""
+        found = actions(self.frame.bar.menus, self.screens[-1], [*self.screens, *self._made.values()])
+        lines = [action.found for action in found]
+        title = _("Find an action")
+        self.layers.push_finder(Finder(title, lines, lambda index: self._act(found[index]), self.layers.pop))
+
+    def copy_screen(self) -> None:
+        """Keeps the screen as a picture, in a new file of the current folder, and says its name."""
+        canvas = self.layers.render(self.loop.screen.get_cols_rows(), focus=True)
+        file, problems = keep_copy(canvas, self._theme, Path.cwd())
+        self.frame.say(" ".join(map(translated, problems)) or _("the screen is kept as {file}").format(file=file.name))
+
+    def notices(self) -> None:
+        """Shows all notices of the machine; the line on the machine has room for the last one only."""
+        notices = self._console.view().notices
+        self.message(_("Notices"), [translated(notice) for notice in notices] or [_("There are no notices.")])
+
+    def about(self) -> None:
+        """Says what the program is."""
+        self.message(_("About"), [_("drillctl drives and simulates stepper-motor drilling machines.")])
+
     def leave(self) -> None:
         """Ends the program; asks first if the machine is at work or something is not saved."""
         view = self._console.view()
@@ -239,6 +269,15 @@ class App(HelpActions):
 
     def _choose(self, item: Item) -> None:
         self._perform(self.show(item.screen) if item.screen else self, item)
+
+    def _act(self, action: Action) -> None:
+        """Does what was found: chooses a menu's entry, or presses a screen's key with that screen on top."""
+        if isinstance(action.does, Item):
+            self._choose(action.does)
+            return
+        if action.screen is not None:
+            self.open(action.screen)
+        self._perform(action.screen or self, action.does)
 
     def _perform(self, target: object, does: Item | Key) -> None:
         """Calls the method of an entry or a key; only opens the screen for an entry without one."""

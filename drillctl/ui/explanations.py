@@ -4,10 +4,18 @@ Rule: ten lines at most, none longer than a dialog is wide; every sign that a sc
 the keys, in SIGNS. By a screen's title.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
-from drillctl.language.words import N_
+import urwid
+
+from drillctl.language.words import N_, _
+from drillctl.ui.frame import screen_keys
 from drillctl.ui.models.fault_effects import PLANTS_IN_WORDS
+from drillctl.ui.widgets.dialogs import nothing
+from drillctl.ui.widgets.keys import FRAME_KEYS, help_lines
+
+Link = tuple[str, Callable[[], object]]  # a line, and what a click on it does
 
 EXPLAINED: Mapping[str, tuple[str, ...]] = {
     "Drilling": (
@@ -167,3 +175,16 @@ SIGNS: Mapping[str, tuple[str, ...]] = {
         N_("Lost: steps that the simulated rotors did not follow, by axis."),
     ),
 }
+
+
+def explanation_of(
+    screen: urwid.Widget, press: Callable[[str], object]
+) -> tuple[str, Sequence[str], Sequence[Link], Sequence[str]]:
+    """Returns what F1 shows of a screen: title, explanation, its keys, and the rest of its signs. A click on a key's
+    line calls ``press`` with urwid's name of the key.
+    """
+    keys = [*screen_keys(screen), *FRAME_KEYS]
+    acts = [partial(press, key.names[0]) if key.names else nothing for key in keys]
+    title = getattr(screen, "title", "")
+    first, last = ([*map(_, table.get(title, ()))] for table in (EXPLAINED, SIGNS))
+    return _(title) or _("Keys"), first, [*zip(help_lines(keys), acts, strict=True)], last
