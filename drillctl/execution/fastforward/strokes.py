@@ -140,7 +140,7 @@ class Recording:
             self._touches.append((tick, tuple(places[head] for head in self._strokes.heads)))
 
     def note_quiet(self, quiet: Quiet) -> None:
-        """After a stretch."""
+        """Notes a stretch that was foreseen (quiet.py): what each axis put out, and where its columns changed."""
         first, ticks = self._ticks, quiet.ticks
         self._see(first, self._m.inputs)
         self._ticks += ticks

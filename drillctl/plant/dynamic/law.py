@@ -130,7 +130,10 @@ def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second
 
 
 def reluctance(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> None:
-    """One tick of a motor of variable reluctance, its windings evenly apart. A chopper holds a current at LIMIT."""
+    """One tick of a motor of variable reluctance, its windings evenly apart. A chopper holds a current at LIMIT.
+
+    Friction is written out as in ``unipolar``: a function of its own would cost the plain form a call a substep.
+    """
     decay = rows[at + DECAY]
     emf = rows[at + EMF]
     keep = rows[at + KEEP]
