@@ -9,6 +9,7 @@
     background.py  work that may take seconds, done beside the screen
     painter.py  the terminal: of each row only the part that has changed is written
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
+    made_screens.py  the screens by name, each made when it is first wanted
     machines.py  which screens and menus a machine has: a row for each family of machines
 
     pcb_drill/ the screens and menus of the PCB drill: Drilling, Files, placing by measured holes

@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import urwid
@@ -20,6 +21,7 @@ from drillctl.ui.first_keys import RESIZE, FirstKeys, Pressed
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
+from drillctl.ui.made_screens import MadeScreens
 from drillctl.ui.next_step import step_line
 from drillctl.ui.painter import Painter
 from drillctl.ui.palette import Action, actions
@@ -56,8 +58,9 @@ class App(Boxes):
     ):  # fmt: skip
         borders.use(plain)
         self._theme, self._keep_theme = theme, keep_theme
-        self._console, self._plain, self._makers = console, plain, makers or {}
-        self._made: dict[str, urwid.Widget] = {}
+        self._console, self._plain = console, plain
+        self._made = MadeScreens({name: partial(maker, console, self) for name, maker in (makers or {}).items()})
+        self.screens = []
         self._at_work = False
         self._next_beat: object = None
         self.frame = MainFrame(self.press)
@@ -87,6 +90,9 @@ class App(Boxes):
         while time.monotonic() < until_s and self._console.turn():
             pass
         view = self._console.view()
+        if (family := screens_of(view)) is not self._family:  # by the menu, or by a table that was put in force
+            self._use(family)
+            self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)
         self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
         step = self._family.next_step(self._console, view)
@@ -149,7 +155,7 @@ class App(Boxes):
 
     def show(self, name: str) -> urwid.Widget | None:
         """Opens a screen by its name in the menus; None, and a message, where it is not to be had."""
-        screen = self._screen(name)
+        screen = self._made.named(name)
         if screen is None:
             self.message(_("Not here"), [_("This screen is not part of this program.")])
         else:
@@ -181,7 +187,7 @@ class App(Boxes):
 
     def find_action(self) -> None:
         """Opens a box that finds any action by its words."""
-        found = actions(self.frame.bar.menus, self.screens[-1], [*self.screens, *self._made.values()])
+        found = actions(self.frame.bar.menus, self.screens[-1], [*self.screens, *self._made])
         lines = [action.found for action in found]
         title = _("Find an action")
         self.layers.push_finder(Finder(title, lines, lambda index: self._act(found[index]), self.layers.pop))
@@ -205,7 +211,7 @@ class App(Boxes):
         """Ends the program; asks first if the machine is at work or something is not saved."""
         view = self._console.view()
         reasons = [_("The machine is at work. Stop it and leave?")] if view.moving or view.at_work else []
-        lost = {_(getattr(screen, "title", "")) for screen in [*self.screens, *self._made.values()] if unsaved(screen)}
+        lost = {_(getattr(screen, "title", "")) for screen in [*self.screens, *self._made] if unsaved(screen)}
         if lost:
             reasons.append(_("Not saved: {screens}. Leave without saving?").format(screens=", ".join(sorted(lost))))
         if reasons:
@@ -230,17 +236,16 @@ class App(Boxes):
         if problems := self._console.choose_machine(name):
             self.message(_("Refused"), [translated(problem) for problem in problems])
             return
-        family = screens_of(self._console.view())
-        if family is not self._family:
-            self._use(family)
         self._refresh_top()
 
     def _use(self, family: MachineScreens) -> None:
-        """Takes the menus and the first screen of a family of machines; the screens of the one before are closed."""
+        """Takes the menus and the first screen of a family of machines; closes the screens of the family before."""
         self._family = family
-        self._made = {name: screen for name, screen in self._made.items() if name in self._makers}
-        self._first = self._made[family.first] = family.makers[family.first](self._console, self, self._plain)
-        self.screens = [self._first]
+        self._made.use({name: partial(make, self._console, self, self._plain) for name, make in family.makers.items()})
+        kept = [screen for screen in self.screens if screen in self._made]
+        first = self._made.named(family.first)
+        assert first is not None, "a family has its first screen"
+        self._first, self.screens = first, [first, *kept]
         self.frame.bar.show(family.menus)
 
     def _beat(self, loop: urwid.MainLoop, _data: object = None) -> None:
@@ -254,14 +259,6 @@ class App(Boxes):
         """Brings the next beat forward: what a key has asked for is seen as soon as while the machine is at work."""
         if self._next_beat is not None and self.loop.remove_alarm(self._next_beat):
             self._next_beat = self.loop.set_alarm_in(BEAT_S, self._beat)
-
-    def _screen(self, name: str) -> urwid.Widget | None:
-        if name not in self._made:
-            if name in self._makers:
-                self._made[name] = self._makers[name](self._console, self)
-            elif name in self._family.makers:
-                self._made[name] = self._family.makers[name](self._console, self, self._plain)
-        return self._made.get(name)
 
     def _refresh_top(self) -> None:
         self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)

@@ -14,6 +14,7 @@ from drillctl.ui.screens.shell import MachineScreens
 from drillctl.viewmodel.console import MachineView
 from tests.test_rooms import PACKAGE, imported_modules
 from tests.ui.fake_console import VIEW, FakeConsole, Program
+from tests.ui.whole import Whole, at_home
 
 UI = PACKAGE / "ui"
 SHARED = ("screens", "models", "widgets", "terminal")
@@ -103,3 +104,23 @@ def test_a_machine_of_another_family_brings_its_own_screens_and_menus(
     program.app.take_machine("pcb-drill")
     assert "Drilling" in program.text().splitlines()[0]
     assert "????" not in program.text()
+
+
+def test_the_screens_follow_a_machine_that_came_by_another_way_than_the_menu(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A table put in force loads the machine of its file; what every machine has stays open."""
+    at_home(tmp_path, monkeypatch)
+    whole = Whole()
+    try:
+        whole.app.take_machine("boiler-drum")
+        assert type(whole.app.screens[-1]).__name__ == "Panel"
+        signals = whole.app.show("signals")
+        assert whole.console.choose_machine("pcb-drill") == ()
+        whole.go_on(1)
+        assert whole.app.screens[-1] is signals
+        whole.press("esc")
+        assert [type(screen).__name__ for screen in whole.app.screens] == ["Drilling"]
+        assert "Drilling" in whole.text()
+    finally:
+        whole.console.close()
