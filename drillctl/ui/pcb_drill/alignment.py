@@ -16,8 +16,9 @@ from drillctl.ui.pcb_drill.measuring import LEAST_HOLES, Measuring, PlaceMm
 from drillctl.ui.screens.jog_controls import JOG_KEYS, JogControls
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.dialogs import Answered
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
-from drillctl.ui.widgets.texts import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed, width_of
 from drillctl.viewmodel.console import AxisView, BoardView, Console, MachineView
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 
@@ -66,8 +67,11 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
     def refresh(self, view: MachineView) -> None:
         """Draws the holes, the verdict and the position anew."""
-        lines = measuring_lines(self.measuring, self._at, base_mm(view.axes))
-        self._paper.show([*lines, [], _here(view), self._bottom()])
+        wide, narrow = (
+            [*measuring_lines(self.measuring, self._at, base_mm(view.axes), with_file), [], _here(view), self._bottom()]
+            for with_file in (True, False)
+        )
+        self._paper.show(wide, narrow)
 
     def go(self, by: int) -> None:
         """Moves the cursor by so many holes; after the last comes the first."""
@@ -163,19 +167,23 @@ class AlignmentScreen(JogControls, urwid.WidgetWrap[urwid.Widget]):
 
 
 class _Paper(urwid.Widget):
-    """A box of lines that is redrawn when they change."""
+    """A box of lines that is redrawn when they change: wide ones, or narrow ones where those have no room."""
 
     _sizing = frozenset([urwid.Sizing.BOX])
-    _lines: list[Line] = []
+    _wide: list[Line] = []
+    _narrow: list[Line] = []
 
-    def show(self, lines: list[Line]) -> None:
-        if lines != self._lines:
-            self._lines = lines
+    def show(self, wide: list[Line], narrow: list[Line]) -> None:
+        if wide != self._wide:
+            self._wide, self._narrow = wide, narrow
             self._invalidate()
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         assert len(size) == 2
-        return boxed(self._lines, *size)
+        columns, _rows = size
+        lines = self._wide if columns >= WIDTH else self._narrow
+        fitting = [row for line in lines for row in ([line] if width_of(line) <= columns else folded([line], columns))]
+        return boxed(fitting, *size)
 
 
 def base_mm(axes: tuple[AxisView, ...]) -> PlaceMm:
@@ -184,19 +192,23 @@ def base_mm(axes: tuple[AxisView, ...]) -> PlaceMm:
     return x, y
 
 
-def measuring_lines(measuring: Measuring, at: int, base: PlaceMm) -> list[Line]:
-    """A line for each hole, that of index ``at`` marked; then what they say together."""
-    header = f"  {_('hole'):>6}  {_('in the file, mm'):>21}  {_('found, mm'):>21}  {_('off by'):>9}"
-    rows = [_row(measuring, index, index == at, base) for index in range(len(measuring.spots))]
+def measuring_lines(measuring: Measuring, at: int, base: PlaceMm, with_file: bool) -> list[Line]:
+    """A line for each hole, that of index ``at`` marked; then what they say together. ``with_file``: with the places
+    that the file has.
+    """
+    in_file = f"{_('in the file, mm'):>21}  " if with_file else ""
+    header = f"  {_('hole'):>6}  {in_file}{_('found, mm'):>21}  {_('off by'):>9}"
+    rows = [_row(measuring, index, index == at, base, with_file) for index in range(len(measuring.spots))]
     return [[("title", header)], *rows, [], *_verdict(measuring)]
 
 
-def _row(measuring: Measuring, index: int, marked: bool, base: PlaceMm) -> Line:
+def _row(measuring: Measuring, index: int, marked: bool, base: PlaceMm, with_file: bool) -> Line:
     spot, off_mm = measuring.spots[index], measuring.residual_mm(index)
     found = "-" if spot.found_mm is None else f"X{spot.found_mm[0] - base[0]:.3f} Y{spot.found_mm[1] - base[1]:.3f}"
-    in_file = f"X{spot.file_mm[0]:.3f} Y{spot.file_mm[1]:.3f}"
+    place = f"X{spot.file_mm[0]:.3f} Y{spot.file_mm[1]:.3f}"
+    in_file = f"{place:>21}  " if with_file else ""
     off = "" if off_mm is None else f"{off_mm:.3f} mm"
-    line = f"{'>' if marked else ' '} {spot.number:>6}  {in_file:>21}  {found:>21}  {off:>9}"
+    line = f"{'>' if marked else ' '} {spot.number:>6}  {in_file}{found:>21}  {off:>9}"
     return [("focus" if marked else "body", line)]
 
 

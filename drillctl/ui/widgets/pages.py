@@ -4,6 +4,8 @@ from collections.abc import Iterable, Sequence
 
 from drillctl.ui.widgets.texts import Line, width_of
 
+MARK_COLUMNS = len(" 2/3 Tab")  # that a line leaves free which may be the first of a page
+
 
 def apart(blocks: Iterable[list[Line]]) -> list[list[Line]]:
     """Blocks with an empty line after each."""
