@@ -21,9 +21,10 @@ from drillctl.ui.pcb_drill.rulers import (
     left_ruler,
     ruler_below,
     scale_bar,
+    zoom_told,
 )  # fmt: skip
 from drillctl.ui.widgets.folding import folded
-from drillctl.ui.widgets.texts import Line, Size, boxed
+from drillctl.ui.widgets.texts import Line, Size, boxed, width_of
 from drillctl.viewmodel.console import BoardView
 
 STEP = 2.0  # of a key or of the wheel
@@ -133,7 +134,7 @@ class BoardPicture(urwid.Widget):
         sheet = (columns - RULER_COLUMNS, rows - RULER_ROWS - SCALE_ROWS) if ruled else (columns, rows - SCALE_ROWS)
         drawn = self._still(board, *sheet).with_head(self._head)
         assert self._map is not None
-        below: list[Line] = [[*scale_bar(self._map, self._plain), *self._told(board)]]
+        below = [self._below(board, self._map, columns)]
         if not ruled:
             return [*drawn, *below]
         left = left_ruler(self._map, self._plain)
@@ -150,6 +151,12 @@ class BoardPicture(urwid.Widget):
         if self._layers is None:
             self._layers = Layers.of(board, placed, self._work, self._tool, self._plain, self._numbers)
         return self._layers
+
+    def _below(self, board: BoardView, placed: BoardMap, columns: int) -> Line:
+        """Scale bar, zoom and the hole that was clicked; without zoom, then without bar, where they have no room."""
+        bar, told = scale_bar(placed, self._plain), self._told(board)
+        ways = ([*bar, *zoom_told(placed), *told], [*bar, *told], told or bar)
+        return next((line for line in ways if width_of(line) <= columns), ways[-1])
 
     def _told(self, board: BoardView) -> Line:
         """The hole that was clicked: its number in drilling order, its tool, its place."""

@@ -5,7 +5,7 @@ Rule: a function of the machine's view and the job's progress; nothing is told b
 
 from drillctl.language.words import _, ngettext
 from drillctl.ui.pcb_drill.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
-from drillctl.ui.widgets.pages import MARK_COLUMNS, apart, numbered_pages
+from drillctl.ui.widgets.pages import apart, numbered_pages
 from drillctl.ui.widgets.text_graphics import gauge, large
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView
@@ -19,8 +19,7 @@ def machine_pages(
     view: MachineView, progress: Progress | None, board: BoardView | None, columns: int, rows: int, plain: bool = False
 ) -> list[list[Line]]:
     """The pages of a window of ``columns`` and ``rows``, at least one; the motors are not on them."""
-    room = columns - MARK_COLUMNS
-    lamp_lines = [*lamps(_("Sensors"), view.sensors, room), *lamps(_("Outputs"), view.outputs, room)]
+    lamp_lines = [*lamps(_("Sensors"), view.sensors, columns), *lamps(_("Outputs"), view.outputs, columns)]
     job = [*_job(view, progress, board, columns, plain), *_commands(view)]
     places = [line for axis in view.axes[:3] for line in _place(axis, plain)]
     further = [line for axis in view.axes[3:] for line in _place(axis, plain)]

@@ -49,14 +49,18 @@ def ruler_below(placed: BoardMap, plain: bool) -> list[Line]:
 
 
 def scale_bar(placed: BoardMap, plain: bool) -> Line:
-    """A bar with its length in mm, and the zoom where there is one."""
+    """A bar with its length in mm."""
     across = CELL_DOTS[1]
     length_mm = round_mm(BAR_COLUMNS * across / placed.dots_per_mm)
     columns = max(round(length_mm * placed.dots_per_mm / across), 2)
     _left, _below, first, last = MARKS[plain]
     bar = first + _lines(plain).across * (columns - 2) + last
-    zoom = "" if placed.zoom == 1 else "  " + _("zoom {zoom:g}").format(zoom=round(placed.zoom, 1))
-    return [("border", f" {bar}"), ("dark", f" {length_mm:g} mm{zoom}")]
+    return [("border", f" {bar}"), ("dark", f" {length_mm:g} mm")]
+
+
+def zoom_told(placed: BoardMap) -> Line:
+    """The zoom in words; nothing where the whole board is seen."""
+    return [] if placed.zoom == 1 else [("dark", "  " + _("zoom {zoom:g}").format(zoom=round(placed.zoom, 1)))]
 
 
 def _lines(plain: bool) -> borders.Lines:

@@ -12,7 +12,7 @@ import urwid
 from drillctl.language.words import _
 from drillctl.ui.pcb_drill.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
 from drillctl.ui.screens.machine_lines import phase_line, phase_table
-from drillctl.ui.widgets.pages import MARK_COLUMNS, numbered_pages
+from drillctl.ui.widgets.pages import numbered_pages
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView
 from drillctl.viewmodel.records import Progress
@@ -76,8 +76,7 @@ def side_pages(
     job, places = _job_lines(view, progress, board), _place_lines(view)
     phases: list[Line] = [[("title", _("Phases"))], *map(phase_line, view.axes)]
     tables = [phase_table(axis) for axis in view.axes]
-    room = columns - MARK_COLUMNS
-    sensors, outputs = lamps(_("Sensors"), view.sensors, room), lamps(_("Outputs"), view.outputs, room)
+    sensors, outputs = lamps(_("Sensors"), view.sensors, columns), lamps(_("Outputs"), view.outputs, columns)
     whole = [*job, *places, *(line for table in tables for line in table), *tick_lines(view), *sensors, *outputs]
     if len(whole) <= rows:
         return [whole]

@@ -4,8 +4,6 @@ from collections.abc import Iterable, Sequence
 
 from drillctl.ui.widgets.texts import Line, width_of
 
-MARK_COLUMNS = len(" 2/3 Tab")  # that a line leaves free which may be the first of a page
-
 
 def apart(blocks: Iterable[list[Line]]) -> list[list[Line]]:
     """Blocks with an empty line after each."""
@@ -13,11 +11,19 @@ def apart(blocks: Iterable[list[Line]]) -> list[list[Line]]:
 
 
 def numbered_pages(blocks: Sequence[list[Line]], columns: int, rows: int) -> list[list[Line]]:
-    """Blocks on pages, each with its number where they are more than one."""
+    """Blocks on pages, each with its number where they are more than one: at the right of its first line, or, where
+    a first line has no room for it, in a line of its own on every page.
+    """
     pages = _paged(blocks, rows)
     if len(pages) == 1:
         return pages
-    return [_numbered(page, f"{number}/{len(pages)} Tab", columns) for number, page in enumerate(pages, start=1)]
+    if rows > 1 and any(width_of(page[0]) + len(_mark(pages, 1)) >= columns for page in pages):
+        pages = [[[], *page] for page in _paged(blocks, rows - 1)]
+    return [_numbered(page, _mark(pages, number), columns) for number, page in enumerate(pages, start=1)]
+
+
+def _mark(pages: Sequence[list[Line]], number: int) -> str:
+    return f"{number}/{len(pages)} Tab"
 
 
 def _paged(blocks: Sequence[list[Line]], rows: int) -> list[list[Line]]:
