@@ -11,6 +11,7 @@ import msgspec
 from drillctl.language import Counted, Message, known_words, nearest
 from drillctl.machine.inputs import sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
+from drillctl.machine.parameter_file import check_parameters, read_parameters
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
 from drillctl.machine.reactions import only_zero_after, reactions
@@ -36,7 +37,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     drill = raw.drill or DrillPart(axes=[names[-1]])
     drill_axes = _indexes(source, drill.axes, names, "drill", "axes")
     _check_depth(source, drill, [axes[index] for index in drill_axes])
-    return Machine(
+    machine = Machine(
         name=raw.name,
         description=raw.description,
         tick_hz=raw.tick_hz,
@@ -56,7 +57,10 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         reactions=reactions(source, raw, homing),
         only_zero_after=only_zero_after(source, raw),
         return_interval=raw.return_interval,
+        parameters=read_parameters(source, raw),
     )
+    check_parameters(source, machine)
+    return machine
 
 
 def _check_names(source: Source, raw: MachineFile) -> None:

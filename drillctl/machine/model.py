@@ -11,6 +11,7 @@ from pathlib import Path
 
 from drillctl.machine.dynamics import Dynamics
 from drillctl.machine.motor import Motor
+from drillctl.machine.parameters import Parameters
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
 from drillctl.ports import CARD_BITS
@@ -139,6 +140,7 @@ class Machine:
     reactions: tuple[FaultReaction, ...] = field(default=(), repr=False)
     only_zero_after: tuple[str, ...] = field(default=(), repr=False)  # faults after which only KMD_POWROT is taken
     return_interval: int = field(default=0, repr=False)  # the least ticks between steps of KMD_POWROT
+    parameters: Parameters | None = field(default=None, repr=False)  # None: the machine has none
 
     @property
     def file(self) -> str:
@@ -208,5 +210,5 @@ class Machine:
     def _unusual(self) -> str:
         """What decides a run and came later than the first digests, where it is not as it was before."""
         strokes = (f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
-        later = (*self.inputs, *self.reactions, self.only_zero_after, self.return_interval)
+        later = (*self.inputs, *self.reactions, self.only_zero_after, self.return_interval, self.parameters)
         return "".join((*strokes, *(f"{value!r}\n" for value in later if value)))

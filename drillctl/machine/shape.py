@@ -127,3 +127,4 @@ class MachineFile(Strict, frozen=True):
     homing: list[HomingRow] = []
     drill: DrillPart | None = None
     plant: PlantPart = PlantPart()
+    parameters: dict[str, Any] | None = None  # checked by parameter_file.py

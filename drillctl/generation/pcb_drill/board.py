@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drillctl.generation.entered import check_entered
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup
@@ -22,9 +23,12 @@ if TYPE_CHECKING:
 
 
 def load_board(path: Path, machine: Machine, setup: JobSetup, settings: WorkSettings, waits: Waits) -> Job:
-    """A drill file as a job, read, placed and ordered by its options. Raises JobError or PlacingError."""
+    """A drill file as a job, read, placed and ordered by its options. Raises JobError or PlacingError, and
+    JobError for a machine whose parameters are not all entered.
+    """
     from drillctl.generation.drillfile import DrillFileError, read
 
+    check_entered(machine)
     try:
         advance = waits(reading(path.name))
         found = read(path, fmt=setup.options.format, after_end=setup.options.after_end, advance=advance)
