@@ -45,6 +45,8 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     drilling.add_argument("--drills", type=Path, metavar="FILE", help="file of the drills at hand")
     drilling.add_argument("--peck", type=float, metavar="MM", help="drill in pecks of MM, retracting between them")
     drilling.add_argument("--spot", type=float, metavar="MM", help="first spot every hole of a tool, MM deep")
+    of_several = "spindles that drill, on a machine with several; default: all"
+    drilling.add_argument("--spindles", type=_spindles, metavar="N,N", default=(), help=of_several)
     add_reading(drilling)
     add_store(verb)
 
@@ -96,6 +98,7 @@ def _job_options(arguments: argparse.Namespace) -> "JobOptions":
         spot_mm=arguments.spot,
         after_end=arguments.after_end,
         store=_absolute(arguments.store),
+        spindles=arguments.spindles,
     )
 
 
@@ -160,6 +163,13 @@ def _numbers(text: str) -> frozenset[int]:
     return frozenset(int(part.upper().removeprefix("T")) for part in text.split(","))
 
 
+def _spindles(text: str) -> tuple[int, ...]:
+    numbers = sorted({int(part) for part in text.split(",")})
+    if numbers[0] < 1:
+        raise argparse.ArgumentTypeError("spindles are counted from 1")
+    return tuple(numbers)
+
+
 def _panel(text: str) -> tuple[int, int, float, float]:
     size, _, pitch = text.partition(":")
     columns, cross, rows = size.partition("x")
@@ -169,3 +179,4 @@ def _panel(text: str) -> tuple[int, int, float, float]:
 
 
 _pair.__name__, _numbers.__name__, _panel.__name__ = "X,Y", "list of tool numbers", "panel"
+_spindles.__name__ = "list of spindles"

@@ -198,17 +198,20 @@ def add_results(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
 
 
-def write_holes(done: "JobResult", output: "Output | None") -> None:
+def write_holes(done: "JobResult", machine: "Machine", output: "Output | None") -> None:
     """Writes the holes CSV (docs/SPEC.md, section 3), where ``--holes`` was given."""
     if output is not None:
-        output.write(lambda file: file.writelines(_holes_csv(done)))
+        output.write(lambda file: file.writelines(_holes_csv(done, len(machine.drill_axes))))
 
 
-def _holes_csv(done: "JobResult") -> "Iterator[str]":
-    yield "tool,diameter_mm,x_mm,y_mm\n"
+def _holes_csv(done: "JobResult", spindles: int) -> "Iterator[str]":
+    """Yields the lines; the column ``spindle`` is left out where the machine has one."""
+    several = spindles > 1
+    yield f"tool,diameter_mm,x_mm,y_mm{',spindle' if several else ''}\n"
     for hole in done.holes:
         diameter = "" if hole.diameter_mm is None else f"{hole.diameter_mm:.4f}"
-        yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}\n"
+        by = f",{hole.spindle}" if several else ""
+        yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}{by}\n"
 
 
 def report_outcome(done: "JobResult", as_json: bool, problems: Sequence[str] = ()) -> int:

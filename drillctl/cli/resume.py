@@ -43,7 +43,7 @@ def call(arguments: argparse.Namespace) -> int:
     with reserved((arguments.holes,), (Path(account.head.job), *session.files)) as (holes,):
         _tell(account, session)
         done = operating.operated(session, arguments)
-        problems = unwritten(lambda: options.write_holes(done, holes))
+        problems = unwritten(lambda: options.write_holes(done, session.job.machine, holes))
     return options.report_outcome(done, arguments.json, problems)
 
 

@@ -73,7 +73,7 @@ def call(arguments: argparse.Namespace) -> int:
         problems = unwritten(
             lambda: _write_trace(job, done, trace),
             lambda: _write_vcd(job, done, vcd),
-            lambda: options.write_holes(done, holes),
+            lambda: options.write_holes(done, machine, holes),
         )
     return options.report_outcome(done, arguments.json, problems)
 

@@ -5,7 +5,7 @@
     order/        in which order the holes of a tool are drilled
     worklist.py   tool groups and holes in steps; refuses what the machine can't reach
     sequences.py  what a sequence of KMD commands means: a hole, a tool change
-    pcb_drill/    a board's program, hole by hole
+    pcb_drill/    a board's program, hole by hole               spindles.py   which of several spindles drill
     job.py        what is run: a program with its names and holes
     readers.py    the readers of jobs, by what they recognise           queues.py  ``.kmd`` queues
     job_setup.py  options, machine and base of a job, as a journal keeps them    work_settings.py  what is made of them

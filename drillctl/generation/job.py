@@ -1,6 +1,7 @@
 """A job: what is run on a machine, with all that is needed to tell a person about it. Made by readers.py."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,34 +18,49 @@ UNMOVED = Affine.of(np.eye(2))
 
 @dataclass(frozen=True)
 class MadeHole:
-    """One hole as the plant made it, in the file's coordinates; tool and diameter as far as they are known."""
+    """One hole as the plant made it, in the coordinates of the file; tool and diameter as far as they are known.
+    ``spindle`` is the number, from 1, of the drilling axis that made it.
+    """
 
     tool: int
     diameter_mm: float | None
     x_mm: float
     y_mm: float
+    spindle: int = 1
 
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """A program (dtype kmd.RECORD) with its source. ``work`` is None for a queue written by hand."""
+    """A program (dtype kmd.RECORD) with its source. ``work`` is None for a queue written by hand; ``programmed`` makes
+    the program of another work list in the same way.
+    """
 
     name: str
     program: NDArray[np.void]
     machine: Machine
     work: WorkList | None = None
     warnings: tuple[Message, ...] = ()
+    programmed: Callable[[WorkList], NDArray[np.void]] | None = None
 
     @property
     def holes_total(self) -> int:
         """Holes of the work list; a queue written by hand has no list."""
         return 0 if self.work is None else len(self.work.steps)
 
-    def made_hole(self, tool: int, tag: int, places: tuple[float, ...]) -> MadeHole:
-        """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis."""
+    def without_holes(self, done: set[int]) -> "Job":
+        """What is left of a board when these holes, by number, are drilled: initialised anew, from the same base."""
+        assert self.work is not None and self.programmed is not None
+        work = self.work.without(done)
+        return replace(self, work=work, program=self.programmed(work))
+
+    def made_hole(self, tool: int, tag: int, places: tuple[float, ...], head: int) -> MadeHole:
+        """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis,
+        ``head`` is the axis of the bit.
+        """
         group, placed = self._hole(tag)
         x_mm, y_mm = placed.inverse().apply_one(self._place_mm("x", places), self._place_mm("y", places))
-        return MadeHole(group.number if group else tool, group.diameter_mm if group else None, x_mm, y_mm)
+        number, diameter_mm = (group.number, group.diameter_mm) if group else (tool, None)
+        return MadeHole(number, diameter_mm, x_mm, y_mm, 1 + self.machine.drill_axes.index(head))
 
     def _place_mm(self, name: str, places: tuple[float, ...]) -> float:
         """From machine zero; 0 on a machine without such an axis, which a queue may run on."""

@@ -106,6 +106,7 @@ class JobSetup(msgspec.Struct, frozen=True):
             spot_mm=options.spot_mm,
             base_steps=self.base,
             store=Path(options.store) if options.store else None,
+            spindles=options.spindles,
             order_seconds=options.order_seconds,
             order_steps=options.order_steps,
         )

@@ -21,6 +21,7 @@ class WorkSettings:
 
     base_steps  the working base that the job is drilled from: X and Y from machine zero
     store       the file of the RAM in which workpieces are looked up; None: the machine's own
+    spindles    the spindles that drill, by number from 1; none named: all
 
     order_seconds, order_steps  for how long 'optimised' may look for a shorter way; None: to the end of its search
 
@@ -35,6 +36,7 @@ class WorkSettings:
     spot_mm: float | None = None
     base_steps: tuple[int, int] = (0, 0)
     store: Path | None = None
+    spindles: tuple[int, ...] = ()
     order_seconds: float | None = None
     order_steps: int | None = None
 

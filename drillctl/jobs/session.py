@@ -18,7 +18,6 @@ from drillctl.files.scratch import KEPT_IN_FOLDERS, Folder, sweep
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup
-from drillctl.generation.pcb_drill.board import without_holes
 from drillctl.generation.readers import load_job
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
@@ -123,7 +122,7 @@ def rest_of(journal: Path, account: Account, machine: Machine, waits: Waits = un
                 "all holes of {file} are drilled ({total}); nothing is left", total=job.holes_total, file=file.name
             ).at(journal)
         )
-    return RemainingJob(setup, job, without_holes(job, account.done, setup))
+    return RemainingJob(setup, job, job.without_holes(account.done))
 
 
 def default_journal(file: Path) -> Path:

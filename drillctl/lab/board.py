@@ -51,7 +51,7 @@ class Board:
     machine: Machine = field(repr=False)
     axes: tuple[int, ...]
     programs: Mapping[int, Program] = field(repr=False)
-    places: Mapping[int, Place] = field(repr=False)
+    places: Mapping[tuple[int, int], Place] = field(repr=False)
     digest: str
 
     @classmethod
@@ -69,7 +69,7 @@ class Board:
         content = hashlib.sha256(repr(described).encode())
         for rate, program in sorted(programs.items()):
             content.update(b"%d" % rate + program.tobytes())
-        places = {touch.tag: touch.places for touch in ideal.touches}
+        places = {(touch.tag, touch.axis): touch.places for touch in ideal.touches}
         return cls(name, machine, tuple(axes), programs, places, content.hexdigest()[:16])
 
     def on(
@@ -105,9 +105,9 @@ class Board:
         plane = plane_of(self.machine)
         scale = np.array([self.machine.axes[axis].steps_per_mm for axis in plane])
         off = [
-            [touch.places[axis] - self.places[touch.tag][axis] for axis in plane]
+            [touch.places[axis] - self.places[touch.tag, touch.axis][axis] for axis in plane]
             for touch in touches
-            if touch.tag in self.places
+            if (touch.tag, touch.axis) in self.places
         ]
         return float(np.hypot(*(np.array(off).reshape(-1, len(plane)) / scale).T).max(initial=0.0)) if off else 0.0
 

@@ -24,7 +24,7 @@ class Plant:
     lanes      the signals that a trace has of each axis: some of those above
     described  the plant in a word or some, for a trace's header; ``seed`` is that of its random numbers
     inputs     the input image, 1 where a sensor's wire is high
-    touches    how often the first head's bit has met the board, coming down
+    touches    how often a head's bit has met its board, coming down; ``met``: the same by axis
     effects    what the carriages act on beside their sensors, by name (effects.py)
     """
 
@@ -39,14 +39,14 @@ class Plant:
         self.image = 0
         self._together = _lines([sensor for carriage in self.carriages for sensor in carriage.sensors])
         self.inputs = sum(1 << line.bit for line in machine.inputs if line.active_level == 0)  # nothing is pressed
-        self.touches = 0
+        self.touches, self.met = 0, [0] * len(self.rotors)
         self.effects = effects
         self._effects_on = [[each for each in effects.values() if each.axis == n] for n in range(len(self.rotors))]
         for index in range(len(self.rotors)):
             self._carry(index)
         for sensors in self._together.values():
             self._answer(sensors[0])
-        self.touches = 0  # a bit that starts in the board has not come down to it
+        self.touches, self.met = 0, [0] * len(self.rotors)  # a bit that starts in the board has not come down to it
 
     def drive(self, image: int) -> None:
         """Takes the output image of one tick. To be called once a tick, whether it changed or not."""
@@ -96,7 +96,9 @@ class Plant:
             if sensor.moved_to(steps):
                 self._answer(sensor)
         for effect in self._effects_on[index]:
-            self.touches += effect.moved_to(steps)
+            if effect.moved_to(steps):
+                self.touches += 1
+                self.met[index] += 1
 
 
 def _lines(sensors: Sequence[Switch]) -> Mapping[int, Sequence[Switch]]:

@@ -1,6 +1,7 @@
 """What carriages act on beside their sensors: the table ``EFFECTS`` names each thing and says how a machine gets it."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from math import inf
 from typing import Protocol
 
@@ -25,7 +26,7 @@ class Effect(Protocol):
 
 
 class Board:
-    """The board under the first head; ``state`` is whether the bit is in it."""
+    """The board under a head; ``state`` is whether the bit is in it."""
 
     def __init__(self, axis: int, surface: int):
         self.axis, self.surface = axis, surface
@@ -41,13 +42,20 @@ class Board:
         return (self.surface, inf) if self.state else (-inf, self.surface)
 
 
-def _board(machine: Machine) -> Board | None:
-    head = machine.drill_axes[0]
+def _board(machine: Machine, number: int) -> Board | None:
+    """Returns the board under a head, by its number from 1."""
+    if number > len(machine.drill_axes):
+        return None
+    head = machine.drill_axes[number - 1]
     surface = machine.board_surface[head]
     return None if surface is None else Board(head, surface)
 
 
-EFFECTS: Mapping[str, Callable[[Machine], Effect | None]] = {"board": _board}
+MOST_HEADS = 8
+EFFECTS: Mapping[str, Callable[[Machine], Effect | None]] = {
+    "board": partial(_board, number=1),
+    **{f"board {number}": partial(_board, number=number) for number in range(2, MOST_HEADS + 1)},
+}
 
 
 def effects_of(machine: Machine) -> dict[str, Effect]:

@@ -4,6 +4,7 @@ Rule: a rotor that follows its phase table rests where the column's equilibrium 
 table that a rotor could not follow nothing is forecast. execution/fastforward knows it as its PlantFacts.
 """
 
+from collections.abc import Sequence
 from itertools import product
 from typing import Any
 
@@ -73,10 +74,12 @@ class PlantForecast:
         lanes = carriage.start + columns * scale, lost * scale / abs(scale)
         return [np.rint(lane).astype(np.int64) for lane in lanes]
 
-    def settle(self, image: int, touches: int) -> None:
-        """Sets the output image at the end; meanwhile the bit has met the board so many times more."""
+    def settle(self, image: int, met: Sequence[int]) -> None:
+        """Sets the output image at the end; meanwhile the bits of these axes have met their boards."""
         self._plant.image = image
-        self._plant.touches += touches
+        self._plant.touches += len(met)
+        for axis in met:
+            self._plant.met[axis] += 1
         for rotor in self._plant.rotors:
             rotor.see(image & rotor.mask)
 

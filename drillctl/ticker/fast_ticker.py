@@ -20,7 +20,7 @@ from drillctl.plant.forecast import PlantForecast
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.ticker.sampler import Sampler, signals
 from drillctl.ticker.tape_recorder import TapeRecorder
-from drillctl.ticker.ticker import NEVER, Ticker
+from drillctl.ticker.ticker import NEVER, Ticker, axes_met
 from drillctl.trace import Recorder, Segments, Trace
 from drillctl.trace.tapes import Images, Tape, images
 
@@ -135,11 +135,11 @@ class FastTicker(Ticker):
         if self.sampler is not None:
             images = None if self.taped else self._images(batch, tapes)
             self.sampler.sample_batch(batch, images, first, self.forecast)
-        touches = batch.touches()
-        for touch in touches:
+        for touch in batch.touches:
             self.touch(*touch)
-        self._touches += len(touches)
         self.engine.leave(batch)
+        assert self.plant is not None
+        self._touches, self._met = self.plant.touches, self.plant.met.copy()
         if self.sampler is not None and isinstance(self.sampler.recorder, TapeRecorder):
             self.sampler.recorder.lay(first, tapes, self.controller.tick, self.controller.image)
 
@@ -159,7 +159,7 @@ class FastTicker(Ticker):
         recording = self.engine.recording(command)
         going_on = True
         while going_on:
-            touches, first = self._touches, m.tick
+            met, first = self._met, m.tick
             quiet = foresee_quiet(m, self.forecast, before - first) if self.in_batches else None
             if quiet is not None:
                 self._pass_quiet(quiet)
@@ -168,7 +168,8 @@ class FastTicker(Ticker):
             if recording is not None and quiet is not None:
                 recording.note_quiet(quiet)
             elif recording is not None:
-                recording.note(self.places() if self._touches != touches else None, m.tick - first)
+                now_met = axes_met(met, self._met)
+                recording.note(now_met, self.places() if now_met else (), m.tick - first)
             going_on = self._goes_on() and m.tick < before
         if recording is not None and self._undisturbed() and not m.busy:
             recording.end()

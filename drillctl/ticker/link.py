@@ -24,11 +24,14 @@ MOMENT_TICKS = 250  # some ten milliseconds: requests wait no longer
 
 
 class Touch(NamedTuple):
-    """The plant saw the bit meet the board: tool, tag of the hole, place in steps from machine zero by axis."""
+    """The plant saw a bit meet its board: tool, tag of the hole, place in steps from machine zero by axis; the axis of
+    the bit.
+    """
 
     tool: int
     tag: int
     places: tuple[float, ...]
+    axis: int
 
 
 class Link(Protocol):

@@ -138,8 +138,8 @@ class PacedLink:
         found = []
         with suppress(BlockingIOError):
             while data := os.read(self._touched, TOUCH.size):
-                tool, tag, axes, *places = TOUCH.unpack(data)
-                found.append(Touch(tool, tag, tuple(places[:axes])))
+                tool, tag, axis, axes, *places = TOUCH.unpack(data)
+                found.append(Touch(tool, tag, tuple(places[:axes]), axis))
         return found
 
     def lost(self) -> int:

@@ -3,7 +3,7 @@
 Rule: no decision about motion is taken here; layer 3 (execution) takes them all within ``tick``.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -39,8 +39,8 @@ class Ticker:
     plant    what stands behind a simulated card; None on a real port
     traced   the run is recorded; ``derived``: with columns, positions, states and what the plant has
     keeper   takes the record in place of a Recorder made here
-    touched  grows by a hole when the plant's bit first meets the board there: (tool, tag of the hole, place in steps
-             from machine zero by axis, lost steps taken off)
+    touched  grows by a hole when a bit of the plant first meets its board there: (tool, tag of the hole, place in
+             steps from machine zero by axis, lost steps taken off, the axis of the bit)
     """
 
     machine: Machine
@@ -60,9 +60,9 @@ class Ticker:
         self._lateness = 0, 0
         self._behind: list[int] = []
         self._status_bytes = record.view(np.uint8).data
-        self.touched: list[tuple[int, int, tuple[float, ...]]] = []
-        self._touches = 0
-        self._tags: set[int] = set()
+        self.touched: list[tuple[int, int, tuple[float, ...], int]] = []
+        self._touches, self._met = 0, [0] * len(self.machine.axes)
+        self._tags: set[tuple[int, int]] = set()
         self.sampler = Sampler(self.controller, self.plant, self.derived, self.keeper) if self.traced else None
 
     @classmethod
@@ -90,11 +90,12 @@ class Ticker:
         return m.tick - first
 
     def note_touch(self) -> None:
-        """Counts a hole if the bit has just met the board. Needs a plant."""
+        """Counts a hole for each bit that has just met its board. Needs a plant."""
         assert self.plant is not None
         if self.plant.touches != self._touches:
-            self._touches = self.plant.touches
-            self.touch(self.controller.tool, self.controller.hole_begun, self.places())
+            before, self._touches, self._met = self._met, self.plant.touches, self.plant.met.copy()
+            for axis in axes_met(before, self._met):
+                self.touch(self.controller.tool, self.controller.hole_begun, self.places(), axis)
 
     def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:
         """Like ``run``, as far as the gate lets; while it is shut only the inputs are read."""
@@ -184,11 +185,11 @@ class Ticker:
             return None
         return self.sampler.recorder.finish(self.controller.tick, header)
 
-    def touch(self, tool: int, tag: int, places: tuple[float, ...]) -> None:
-        """Counts a hole as the bit meets the board; one that is met again (pecks) counts once."""
-        if tag == 0 or tag not in self._tags:
-            self._tags.add(tag)
-            self.touched.append((tool, tag, places))
+    def touch(self, tool: int, tag: int, places: tuple[float, ...], axis: int) -> None:
+        """Counts a hole as the bit of an axis meets its board; one that it meets again (pecks) counts once."""
+        if tag == 0 or (tag, axis) not in self._tags:
+            self._tags.add((tag, axis))
+            self.touched.append((tool, tag, places, axis))
 
     def lost_steps(self) -> tuple[float, ...]:
         """How far each axis of the plant is behind the controller, in steps. Needs a plant."""
@@ -200,3 +201,8 @@ class Ticker:
         assert self.plant is not None
         axes = enumerate(self.controller.axes)
         return tuple(axis.position - self.plant.behind_steps(i, axis.travelled) for i, axis in axes)
+
+
+def axes_met(before: Sequence[int], now: Sequence[int]) -> list[int]:
+    """Returns the axes whose bits have met their boards between two values of ``Plant.met``."""
+    return [axis for axis, (old, new) in enumerate(zip(before, now, strict=True)) if old != new]

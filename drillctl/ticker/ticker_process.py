@@ -34,7 +34,7 @@ DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
 SLICE_NS = 60_000_000  # a slice of ticks takes no longer, so that heartbeat and status go on
 LOOK_NS = 20_000_000  # at rest the sensors are read so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
-TOUCH = struct.Struct(f"<iiq{MOST_AXES}d")  # tool, tag, axes, places; below PIPE_BUF, so written whole
+TOUCH = struct.Struct(f"<iiii{MOST_AXES}d")  # tool, tag, axis, axes, places; below PIPE_BUF, so written whole
 IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
 
 
@@ -170,9 +170,9 @@ class TickerProcess:
         self._tell_touches()
 
     def _tell_touches(self) -> None:
-        for tool, tag, places in self.ticker.touched:
+        for tool, tag, places, axis in self.ticker.touched:
             padded = (*places, *[0.0] * (MOST_AXES - len(places)))
-            os.write(self.touch_end, TOUCH.pack(tool, tag, len(places), *padded))
+            os.write(self.touch_end, TOUCH.pack(tool, tag, axis, len(places), *padded))
         self.ticker.touched.clear()
 
     def _desk_is_lost(self) -> bool:

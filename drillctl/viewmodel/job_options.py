@@ -49,6 +49,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     drills             the file of the drills at hand
     after_end          what becomes of holes behind the end of the program (M30)
     store              the file of a store of workpieces, instead of the machine's own RAM
+    spindles           the spindles that drill, by number from 1; none named: all
     """
 
     format: str | None = None
@@ -67,6 +68,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     spot_mm: float | None = None
     after_end: AfterEnd = "refuse"
     store: FilePath | None = None
+    spindles: tuple[Annotated[int, msgspec.Meta(ge=1, le=10)], ...] = ()
 
     @property
     def measured(self) -> tuple[MeasuredHole, ...]:

@@ -16,7 +16,7 @@ from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf
 
 # A file that a verb is given (a screen has the store of its machine); a bound for scripts that can't wait, and what a
 # journal keeps of it.
-VERBS_ONLY = {"store", "order_seconds", "order_steps"}
+VERBS_ONLY = {"store", "order_seconds", "order_steps", "spindles"}
 HOLES = (MeasuredHole(0.0, 1.0, 2.0, 3.0), MeasuredHole(4.0, 5.0, 6.0, 7.0))
 EVERYTHING = JobOptions(
     format="mm,decimal", origin="file", mirror="x", rotate_deg=90.0, offset_mm=(1.0, -2.0), order="nearest",

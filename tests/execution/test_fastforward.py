@@ -113,7 +113,7 @@ def test_a_board_is_foreseen_but_for_its_first_strokes(name: str) -> None:
     ticked = [batch for batch in fast.batches() if batch is None]
     moves_the_head_too = len(machine.axes) == 2
     assert len(ticked) <= (1 + 2 * len(HOLES) if moves_the_head_too else 5)
-    assert len(fast.touched) == len(HOLES)
+    assert len(fast.touched) == len(HOLES) * len(fast.machine.drill_axes)
     check(machine, BOARD, {}, 10**9)
 
 

@@ -101,7 +101,7 @@ def test_a_panel_repeats_the_board_tool_by_tool() -> None:
     assert work.hits.board.tolist() == [0, 0, 0, 1, 1, 1, 0, 1]
     job = Job("b", board_program(work, PCB, WorkSettings()), PCB, work)
     shift_steps = round(30 / 25.4 * 1200)
-    made = job.made_hole(0, 4, (float(shift_steps), 0.0, 0.0))
+    made = job.made_hole(0, 4, (float(shift_steps), 0.0, 0.0), 2)
     assert (made.x_mm, made.y_mm) == pytest.approx((10.0, 10.0), abs=0.011)
 
 

@@ -17,7 +17,7 @@ from drillctl.execution.fastforward.strokes import COUNTERS, POSITION, REMEMBERE
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.trace.tapes import PERIOD, Count, ImagePool, Tape
 
-Touch = tuple[int, int, tuple[float, ...]]  # tool, tag of the hole begun, places of all axes in steps
+Touch = tuple[int, int, tuple[float, ...], int]  # tool, tag of the hole begun, places of all axes in steps, the head
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,19 +124,20 @@ class Batch:
         order = inside[np.argsort(ticks[inside], kind="stable")]
         return ticks[order], seen[order]
 
+    @cached_property
     def touches(self) -> list[Touch]:
-        """Where the bit met the board, in order."""
+        """Where a bit met its board, in order."""
         found: list[tuple[int, Touch]] = []
         for number, kind in enumerate(self.stroked.kinds):
             rows = self.stroked.rows[self.stroked.which == number]
-            for offset, head_places in kind.touches:
+            for offset, met, head_places in kind.touches:
                 begins, tools, holes = (each[rows].tolist() for each in (self.starts, self.tools, self.holes))
                 places = [j.position[rows].astype(float) if j is not None else None for j in self.axis_batches]
                 for head, place in zip(self.stroked.heads, head_places, strict=True):
                     places[head] = np.full(len(rows), place)
                 by_row = zip(*(each.tolist() for each in places if each is not None), strict=True)
                 touched = zip(begins, tools, holes, by_row, strict=True)
-                found += [(begin + offset, (tool, hole, where)) for begin, tool, hole, where in touched]
+                found += [(begin + offset, (tool, hole, where, met)) for begin, tool, hole, where in touched]
         found.sort(key=lambda touch: touch[0])
         return [touch for _, touch in found]
 

@@ -68,7 +68,7 @@ class Engine:
                     self._world.follow(index, _travel(self._m.axes[index]))
         batch.stroked.leave(self._m, self._world, len(batch.commands) - 1)
         self._leave_controller(batch)
-        self._world.settle(self._m.image, len(batch.touches()))
+        self._world.settle(self._m.image, [head for *_, head in batch.touches])
 
     def _leave_controller(self, batch: Batch) -> None:
         m, last = self._m, batch.commands[-1]

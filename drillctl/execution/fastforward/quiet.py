@@ -68,7 +68,7 @@ def leave_quiet(m: Controller, world: PlantFacts, quiet: Quiet) -> None:
     for index, motion in enumerate(quiet.motion):
         if motion is not None:
             world.follow(index, _travel(m.axes[index]))
-    world.settle(m.image, 0)
+    world.settle(m.image, ())
 
 
 def _motion(axis: Axis, course: Course, ticks: int) -> Count:

@@ -36,7 +36,7 @@ class Stroke:
 
     shown    by head, the images that it puts out, and the ticks of each, (k,)
     inputs   (tick, the heads' sensors as latched), changes only, from tick 0 to the first tick after the stroke
-    touches  (tick, place of each head in steps) where the bit met the board
+    touches  (tick, axis of the head, place of each head in steps) where a bit met its board
     motions  by head: tick and MOTION, changes only, (k, 4)
     grown    by head, what it adds to the COUNTERS
     last     by head, its AxisMotion in the last tick, in which its forcing may still be on, and its bits then
@@ -46,7 +46,7 @@ class Stroke:
     ticks: int
     shown: tuple[tuple[Images, Count], ...]
     inputs: tuple[tuple[int, int], ...]
-    touches: tuple[tuple[int, tuple[float, ...]], ...]
+    touches: tuple[tuple[int, int, tuple[float, ...]], ...]
     motions: tuple[Count, ...]
     grown: tuple[tuple[int, ...], ...]
     last: tuple[tuple[int, int], ...]
@@ -121,12 +121,14 @@ class Recording:
         self._ticks = 0
         self._shown: list[list[tuple[ArrayLike, ArrayLike]]] = [[] for _ in self._axes]  # by head: images, their ticks
         self._inputs: list[tuple[int, int]] = []
-        self._touches: list[tuple[int, tuple[float, ...]]] = []
+        self._touches: list[tuple[int, int, tuple[float, ...]]] = []
         self._motions: list[list[ArrayLike]] = [[] for _ in self._axes]
         self._at = [self._start.motion(number) for number in range(len(self._axes))]
 
-    def note(self, places: tuple[float, ...] | None, ticks: int = 1) -> None:
-        """After a tick, or several alike: ``places`` are all axes', where the bit has just met the board."""
+    def note(self, met: Sequence[int], places: tuple[float, ...], ticks: int = 1) -> None:
+        """After a tick, or several alike: the axes whose bits have ``met`` their boards in it, and then the places of
+        all axes.
+        """
         tick = self._ticks
         self._ticks += ticks
         self._see(tick, self._m.inputs)
@@ -136,8 +138,8 @@ class Recording:
             if at != self._at[number]:
                 self._at[number] = at
                 self._motions[number].append([(tick, *at)])
-        if places is not None:
-            self._touches.append((tick, tuple(places[head] for head in self._strokes.heads)))
+        for axis_met in met:
+            self._touches.append((tick, axis_met, tuple(places[head] for head in self._strokes.heads)))
 
     def note_quiet(self, quiet: Quiet) -> None:
         """Notes a stretch that was foreseen (quiet.py): what each axis put out, and where its columns changed."""

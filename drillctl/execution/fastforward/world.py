@@ -3,6 +3,7 @@
 Rule: execution sees no plant; whoever builds the engine hands it one that answers to this. plant/forecast.py does.
 """
 
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 
@@ -30,5 +31,5 @@ class PlantFacts(Protocol):
     def recall(self, axis: int, memory: Any) -> None:
         """Puts an axis's part of the plant back to what ``memory`` returned."""
 
-    def settle(self, image: int, touches: int) -> None:
-        """Takes the output image after the last tick; the bit has met the board so many times more."""
+    def settle(self, image: int, met: Sequence[int]) -> None:
+        """Takes the output image after the last tick; meanwhile the bits of these axes have met their boards."""

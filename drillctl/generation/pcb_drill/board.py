@@ -4,14 +4,16 @@ Rule: whatever is wrong with the file is found here, before a queue or a port ex
 """
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from drillctl.generation.entered import check_entered
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.program import board_program
+from drillctl.generation.sequences import Records
 from drillctl.generation.waits import ORDERING, Waits, reading
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import WorkList, build
@@ -22,9 +24,23 @@ if TYPE_CHECKING:
     from drillctl.generation.drillfile import DrillFile, DrillFileError
 
 
-def load_board(path: Path, machine: Machine, setup: JobSetup, settings: WorkSettings, waits: Waits) -> Job:
-    """A drill file as a job, read, placed and ordered by its options. Raises JobError or PlacingError, and
-    JobError for a machine whose parameters are not all entered.
+class ProgramMaker(Protocol):
+    """What makes the program of a work list: one for each family of machines."""
+
+    def __call__(self, work: WorkList, machine: Machine, settings: WorkSettings) -> Records:
+        """Returns the program, dtype RECORD. Raises JobError."""
+
+
+def load_board(
+    path: Path,
+    machine: Machine,
+    setup: JobSetup,
+    settings: WorkSettings,
+    waits: Waits,
+    program_of: ProgramMaker = board_program,
+) -> Job:
+    """A drill file as a job, read, placed and ordered by its options; ``program_of`` makes its program. Raises
+    JobError or PlacingError, and JobError for a machine whose parameters are not all entered.
     """
     from drillctl.generation.drillfile import DrillFileError, read
 
@@ -35,16 +51,10 @@ def load_board(path: Path, machine: Machine, setup: JobSetup, settings: WorkSett
     except DrillFileError as error:
         raise refusal(path, error) from error
     drill_file = replace(found, name=str(path))
+    programmed = partial(program_of, machine=machine, settings=settings)
     work = build(drill_file, settings, machine, waits(ORDERING))
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work), *_order_warnings(path, settings, work))
-    return Job(path.name, board_program(work, machine, settings), machine, work, warnings)
-
-
-def without_holes(job: Job, done: set[int], setup: JobSetup) -> Job:
-    """What is left of a board when these holes, by number, are drilled: initialised anew, from the same base."""
-    assert job.work is not None
-    work = job.work.without(done)
-    return replace(job, work=work, program=board_program(work, job.machine, setup.work_settings(job.machine)))
+    return Job(path.name, programmed(work), machine, work, warnings, programmed)
 
 
 def refusal(path: Path, error: "DrillFileError") -> JobError:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
 from drillctl.generation.sequences import Records, numbered, record
+from drillctl.generation.spindles import heads_of
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import Group, WorkList, approaches, backlash_of, positioning_axes
 from drillctl.kmd import RECORD, Op
@@ -17,36 +18,39 @@ from drillctl.machine import Machine
 
 
 def board_program(work: WorkList, machine: Machine, settings: WorkSettings) -> Records:
-    """The program of a job, dtype RECORD; at the end the head is up and back at the working base."""
+    """The program of a job, dtype RECORD; at the end the head is up and back at the working base. Spindles that were
+    not chosen stay up. Raises JobError for one that the machine does not have.
+    """
     spindle = dict(machine.outputs).get("spindle")
-    drill = drill_stroke(machine, settings.peck_mm)
-    passes = [drill] if settings.spot_mm is None else [spot_stroke(machine, settings.spot_mm), drill]
-    parts = [record(Op.INICJALIZACJA), *_base(settings, machine)]
+    heads = heads_of(machine, settings.spindles)
+    drill = drill_stroke(machine, settings.peck_mm, heads)
+    passes = [drill] if settings.spot_mm is None else [spot_stroke(machine, settings.spot_mm, heads), drill]
+    parts = [record(Op.INICJALIZACJA), *go_to_base(settings, machine)]
     here = np.zeros(2, np.int64)
     for group in work.groups:
-        parts += [*_switch(spindle, 0), record(Op.NARZEDZIE, [group.number])]  # hands are at the chuck meanwhile
-        parts += [*_switch(spindle, 1), *_spin_up(machine, spindle)]
+        parts += [*switch(spindle, 0), record(Op.NARZEDZIE, [group.number])]  # hands are at the chuck meanwhile
+        parts += [*switch(spindle, 1), *spin_up(machine, spindle)]
         for stroke in passes:
-            parts.append(_holes(work, group, stroke, here, machine))
+            parts.append(holes_of(work, group, stroke, here, machine))
             here = work.steps[group.stop - 1]
-    parts += [*_switch(spindle, 0), _gotos(np.zeros((1, 2), np.int64), machine), record(Op.KONIEC)]
+    parts += [*switch(spindle, 0), gotos(np.zeros((1, 2), np.int64), machine), record(Op.KONIEC)]
     return numbered(parts)
 
 
-def _base(settings: WorkSettings, machine: Machine) -> list[Records]:
+def go_to_base(settings: WorkSettings, machine: Machine) -> list[Records]:
     """Initialisation leaves the base at machine zero; one elsewhere is gone to and taken again."""
     if not any(settings.base_steps):
         return []
-    return [_gotos(np.array([settings.base_steps], np.int64), machine), record(Op.BAZA)]
+    return [gotos(np.array([settings.base_steps], np.int64), machine), record(Op.BAZA)]
 
 
-def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
+def holes_of(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
     """The holes of a tool: to each a go (two where backlash is taken up), then the stroke."""
     steps = work.steps[group.start : group.stop]
     before = approaches(steps, here, backlash_of(machine))
     blocks = np.zeros((len(steps), len(stroke) + 2), dtype=RECORD)
-    blocks[:, 0] = _gotos(before, machine)
-    blocks[:, 1] = _gotos(steps, machine)
+    blocks[:, 0] = gotos(before, machine)
+    blocks[:, 1] = gotos(steps, machine)
     blocks[:, 2:] = stroke
     blocks["tag"][:, 2:] = work.number[group.start : group.stop, None]
     kept = np.ones(blocks.shape, bool)
@@ -54,7 +58,8 @@ def _holes(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64
     return blocks[kept]
 
 
-def _gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
+def gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
+    """A move of X and Y to each of these places (n, 2), in steps from the working base."""
     x, y = positioning_axes(machine)
     records = np.zeros(len(steps), dtype=RECORD)
     records["opcode"] = Op.GOTO_X_Y
@@ -64,10 +69,12 @@ def _gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
     return records
 
 
-def _spin_up(machine: Machine, spindle: int | None) -> list[Records]:
+def spin_up(machine: Machine, spindle: int | None) -> list[Records]:
+    """The wait until the spindle turns; nothing where it has no output, or needs no time."""
     ticks = round(machine.configuration.spin_up_s * machine.tick_hz)
     return [] if spindle is None or not ticks else [record(Op.CZEKAJ, [ticks])]
 
 
-def _switch(bit: int | None, level: int) -> list[Records]:
+def switch(bit: int | None, level: int) -> list[Records]:
+    """An output, by its bit, switched to a level; nothing where the machine has none."""
     return [] if bit is None else [record(Op.WYJSCIE, [bit, level])]

@@ -19,12 +19,13 @@ MOST_PECKS = 100
 CHIP_CLEARANCE_MM = 0.5  # how far above the board the bit is drawn to throw its chips
 
 
-def drill_stroke(machine: Machine, peck_mm: float | None) -> Records:
-    """Down to the lower sensor and up; in pecks, with the bit drawn out of the board between them."""
-    down, up = record(Op.WIERTLO_DOL), record(Op.WIERTLO_GORA)
+def drill_stroke(machine: Machine, peck_mm: float | None, heads: tuple[int, ...]) -> Records:
+    """These heads down to the lower sensor and up; in pecks, with the bit drawn out of the board between them."""
+    axes = mask_of(machine, heads)
+    down, up = record(Op.WIERTLO_DOL, axes=axes), record(Op.WIERTLO_GORA, axes=axes)
     if peck_mm is None:
         return np.concatenate([down, up])
-    deepest_mm = min(_depth_mm(machine, axis) for axis in machine.drill_axes)
+    deepest_mm = min(_depth_mm(machine, axis) for axis in heads)
     pecks = math.ceil(deepest_mm / peck_mm) - 1
     if pecks > MOST_PECKS:
         raise JobError(
@@ -35,20 +36,27 @@ def drill_stroke(machine: Machine, peck_mm: float | None) -> Records:
                 most=MOST_PECKS,
             )
         )
-    drawn = head_move(machine, -CHIP_CLEARANCE_MM)
-    pecked = [part for n in range(1, pecks + 1) for part in (head_move(machine, n * peck_mm), drawn)]
+    drawn = head_move(machine, -CHIP_CLEARANCE_MM, heads)
+    pecked = [part for n in range(1, pecks + 1) for part in (head_move(machine, n * peck_mm, heads), drawn)]
     return np.concatenate([*pecked, down, up])
 
 
-def spot_stroke(machine: Machine, spot_mm: float) -> Records:
-    """A mark so deep, and up."""
-    return np.concatenate([head_move(machine, spot_mm), record(Op.WIERTLO_GORA)])
+def spot_stroke(machine: Machine, spot_mm: float, heads: tuple[int, ...]) -> Records:
+    """A mark so deep by each of these heads, and up."""
+    return np.concatenate(
+        [head_move(machine, spot_mm, heads), record(Op.WIERTLO_GORA, axes=mask_of(machine, heads))]
+    )
 
 
-def head_move(machine: Machine, depth_mm: float) -> Records:
-    """The heads to a depth below the board's surface (negative: above it)."""
+def mask_of(machine: Machine, heads: tuple[int, ...]) -> int:
+    """The axis mask of a command for these heads: 0, its own choice, for all that the machine has."""
+    return 0 if heads == machine.drill_axes else sum(1 << axis for axis in heads)
+
+
+def head_move(machine: Machine, depth_mm: float, heads: tuple[int, ...]) -> Records:
+    """These heads to a depth below the board's surface (negative: above it)."""
     args = [0] * len(machine.axes)
-    for axis in machine.drill_axes:
+    for axis in heads:
         table = machine.axes[axis]
         steps = _surface(machine, axis) + round(depth_mm * table.steps_per_mm)
         lowest, deepest = 0, _bottom(machine, axis)
@@ -62,8 +70,7 @@ def head_move(machine: Machine, depth_mm: float) -> Records:
                 )
             )
         args[axis] = max(steps, lowest)
-    mask = sum(1 << axis for axis in machine.drill_axes)
-    return record(Op.RUCH, args, mask, Flag.ABSOLUTE)
+    return record(Op.RUCH, args, sum(1 << axis for axis in heads), Flag.ABSOLUTE)
 
 
 def _depth_mm(machine: Machine, axis: int) -> float:
