@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from drillctl.console.boards import Boards
+from drillctl.console.glance import holes_of
 from drillctl.console.job_request import align
 from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
@@ -29,7 +30,7 @@ from drillctl.language import Message
 from drillctl.machine import Library, Machine
 from drillctl.ticker.launch import RunSettings
 from drillctl.ticker.link import Link
-from drillctl.viewmodel.console import BoardView, MachineView, Problems, Watch
+from drillctl.viewmodel.console import BoardView, HolesView, MachineView, Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Progress
@@ -157,6 +158,10 @@ class MachineConsole:
         if self.at_work:
             return (BUSY,)
         return self._boards.load(Path(file), options, self.machine, self._base.xy, watch)
+
+    def glance(self, file: str, options: JobOptions) -> HolesView | None:
+        """The holes of a small drill file, for a picture of it before it is loaded."""
+        return holes_of(Path(file), options)
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:
         """Fits a placing to measured holes, as ``--align`` does."""

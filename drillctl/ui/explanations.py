@@ -43,6 +43,7 @@ EXPLAINED: Mapping[str, tuple[str, ...]] = {
     ),
     "Files": (
         N_("Left, the drill files of a folder; right, what the chosen one says."),
+        N_("A file of up to 64 KiB is drawn before it is loaded."),
         N_("Enter loads a file; Esc goes back to the machine, where S drills it."),
         N_("The format of the numbers is recognised, and the reason is shown."),
         N_("Every change of placing or order reads the file anew."),

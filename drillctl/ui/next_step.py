@@ -16,7 +16,8 @@ FIELD = re.compile(r"\{(\w+)\}")
 
 
 def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: bool = False) -> Line:
-    """A Step as marked text. An action that the screen has no key for is named by its letters in the menus.
+    """A Step as marked text. An action that the screen has no key for is named by its letters in the menus; a screen
+    that the action leads to says by ``keys_here`` which method of its own goes on with it.
 
     ``typing``: a text field has the cursor, so that a letter is none of the keys.
     """
@@ -33,6 +34,7 @@ def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: b
 
 def _key(name: str, method: str, screen: urwid.Widget, menus: Sequence[Item], typing: bool) -> str:
     wanted = method or name
+    wanted = getattr(screen, "keys_here", {}).get(wanted, wanted)
     if wanted == STOP.method:
         return "Ctrl-X" if typing else STOP.printed
     own = next((key for key in screen_keys(screen) if key.method == wanted), None)

@@ -93,17 +93,23 @@ class ToolView:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class BoardView:
-    """The board that is loaded, in drilling order: xy_mm (n, 2) from the working base, file_xy_mm (n, 2) as its file
-    has them, tool (n,) index into tools. ``format`` is how its digits are read, ``dialect`` what such a file is called.
+class HolesView:
+    """Holes as a picture shows them: xy_mm (n, 2) from the working base, tool (n,) index into tools."""
+
+    xy_mm: NDArray[np.float64]
+    tool: NDArray[np.int64]
+    tools: tuple[ToolView, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BoardView(HolesView):
+    """The board that is loaded, in drilling order: file_xy_mm (n, 2) are its holes as its file has them. ``format`` is
+    how its digits are read, ``dialect`` what such a file is called.
     """
 
     name: str
     file: str
-    xy_mm: NDArray[np.float64]
     file_xy_mm: NDArray[np.float64]
-    tool: NDArray[np.int64]
-    tools: tuple[ToolView, ...]
     format: Message
     dialect: str
     confidence: float
@@ -147,6 +153,11 @@ class Console(Protocol):
     def load(self, file: str, options: JobOptions, watch: Watch) -> Problems:
         """Reads a drill file and plans it; ``watch`` is called with how far that is, maybe from another thread, and may
         raise. Refused with its reasons. The board loaded before stays in both cases.
+        """
+
+    def glance(self, file: str, options: JobOptions) -> HolesView | None:
+        """The holes of a drill file that is read within a tenth of a second, placed as ``load`` would place a single
+        board, in the order of the file; None for any other file. Changes nothing.
         """
 
     def align(self, measured: tuple[MeasuredHole, ...], face_down: bool) -> tuple[AlignmentReport | None, Problems]:

@@ -7,7 +7,7 @@ import numpy as np
 import urwid
 
 from drillctl.ui.app import App
-from drillctl.viewmodel.console import AxisView, BoardView, MachineView, Problems, ToolView, Watch
+from drillctl.viewmodel.console import AxisView, BoardView, HolesView, MachineView, Problems, ToolView, Watch
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
@@ -58,6 +58,7 @@ class FakeConsole:
     asked: list[tuple[object, ...]] = field(default_factory=list)
     recent_jobs: list[RecentJob] = field(default_factory=list)
     unfinished_jobs: list[UnfinishedJob] = field(default_factory=list)
+    glanced: list[tuple[str, JobOptions]] = field(default_factory=list)
 
     def turn(self) -> bool:
         """Nothing is new."""
@@ -82,6 +83,11 @@ class FakeConsole:
         if not self.answer:
             self.loaded = replace(BOARD, file=file)
         return self._keep("load", file, asked)
+
+    def glance(self, file: str, options: JobOptions) -> HolesView | None:
+        """Files of this name are drawn before they are loaded."""
+        self.glanced.append((file, options))
+        return BOARD if file.endswith("seen.drl") else None
 
     def choose_machine(self, name: str) -> Problems:
         return self._keep("choose_machine", name)

@@ -190,3 +190,21 @@ def test_a_large_window_has_options_by_their_keys_and_a_small_one_above_the_fact
     assert len(picture) >= 24 and any("█" in row and "T1" in row for row in large)
     small = opened(size=(80, 24)).text()
     assert "Behind M30: refuse holes" in small and "4 holes, 40.00 x 20.00 mm" in small
+
+
+def test_a_file_is_drawn_before_it_is_loaded_and_read_only_when_it_is_shown(folder: Path) -> None:
+    (folder / "seen.drl").write_text("M48\nMETRIC\n")
+    program = Program(FakeConsole(), (160, 50))
+    program.press("f")
+    program.text()
+    program.console.glanced.clear()
+    program.app.loop.process_input(["down", "down"])  # with no picture between
+    assert program.console.glanced == []
+    text = program.text()
+    assert program.console.glanced == [(str(folder / "seen.drl"), JobOptions())]
+    assert "seen.drl: 4 holes, 40.00 x 20.00 mm; Enter loads it" in text and "METRIC" in text and " 5 mm" in text
+    assert "no board: Enter opens one, E shows the examples" in text
+    program.text()
+    assert len(program.console.glanced) == 1 and program.console.loaded is None
+    program.press("up")
+    assert " 5 mm" not in program.text() and "No board is loaded." in program.text()

@@ -12,7 +12,7 @@ from drillctl.language.words import N_, _, ngettext, translated
 from drillctl.ui.pcb_drill.typed import BY_OPTION
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.text_graphics import bar
-from drillctl.viewmodel.console import BoardView
+from drillctl.viewmodel.console import BoardView, HolesView
 from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.records import ToolEstimate
 
@@ -179,7 +179,17 @@ def loaded_line(board: BoardView) -> str:
     )  # fmt: skip
 
 
-def _size_mm(board: BoardView) -> tuple[float, float]:
+def glance_line(name: str, holes: HolesView) -> str:
+    """A file that is not loaded, in a line: holes, size, and the key that loads it."""
+    count, (width_mm, height_mm) = len(holes.xy_mm), _size_mm(holes)
+    return ngettext(
+        "{name}: {count} hole, {width:.2f} x {height:.2f} mm; Enter loads it",
+        "{name}: {count} holes, {width:.2f} x {height:.2f} mm; Enter loads it",
+        count,
+    ).format(name=name, count=count, width=width_mm, height=height_mm)
+
+
+def _size_mm(board: HolesView) -> tuple[float, float]:
     """Width and height of what is drilled."""
     width_mm, height_mm = np.ptp(board.xy_mm, axis=0).tolist() if len(board.xy_mm) else (0.0, 0.0)
     return width_mm, height_mm

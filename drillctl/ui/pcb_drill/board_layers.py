@@ -16,7 +16,7 @@ from drillctl.ui.models.board_map import BoardMap, Dots, Places
 from drillctl.ui.models.board_work import Work
 from drillctl.ui.widgets.dots import BRAILLE, braille_cells
 from drillctl.ui.widgets.texts import Line
-from drillctl.viewmodel.console import BoardView
+from drillctl.viewmodel.console import HolesView
 
 PlaceMm = tuple[float, float]
 ROUTE_HOLES = 60  # of the way to go so many holes are joined: more of them would hide the board
@@ -70,7 +70,7 @@ class Layers:
     lines: list[Line] = field(default_factory=list)
 
     @classmethod
-    def of(cls, board: BoardView, placed: BoardMap, work: Work, tool: int, plain: bool, numbers: bool) -> "Layers":
+    def of(cls, board: HolesView, placed: BoardMap, work: Work, tool: int, plain: bool, numbers: bool) -> "Layers":
         """Lays a board down. ``tool``: the number of the one in the spindle; ``numbers``: holes to do show theirs."""
         shape = placed.rows, placed.columns
         layers = cls(
@@ -93,7 +93,7 @@ class Layers:
         touched = set(np.flatnonzero((over.states != self.states).any(axis=1)).tolist())
         return [over._line(row) if row in touched else line for row, line in enumerate(self.lines)]
 
-    def _holes(self, board: BoardView, work: Work, tool: int, numbers: bool) -> None:
+    def _holes(self, board: HolesView, work: Work, tool: int, numbers: bool) -> None:
         """The holes: those to do as large as they are, the others as a sign where none to do is in their cell."""
         indices = np.arange(len(board.xy_mm))
         to_do = indices >= work.done

@@ -25,7 +25,7 @@ from drillctl.ui.pcb_drill.rulers import (
 )  # fmt: skip
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.texts import Line, Size, boxed, width_of
-from drillctl.viewmodel.console import BoardView
+from drillctl.viewmodel.console import HolesView
 
 STEP = 2.0  # of a key or of the wheel
 WHEEL = {4: STEP, 5: 1 / STEP}  # buttons of the mouse
@@ -41,7 +41,7 @@ class BoardPicture(urwid.Widget):
     def __init__(self, plain: bool = False, hint: Sequence[str] = (N_("No board is loaded."),)):
         super().__init__()
         self._plain, self._hint = plain, hint
-        self._board: BoardView | None = None
+        self._board: HolesView | None = None
         self._work, self._tool, self._head = Work(), 0, Head()
         self._trail: deque[PlaceMm] = deque(maxlen=TRAIL)
         self._numbers = False
@@ -51,7 +51,7 @@ class BoardPicture(urwid.Widget):
         self._pressed: tuple[int, int] | None = None
 
     def show(
-        self, board: BoardView | None, work: Work = NOTHING_DONE, tool: int = 0, head_mm: PlaceMm | None = None,
+        self, board: HolesView | None, work: Work = NOTHING_DONE, tool: int = 0, head_mm: PlaceMm | None = None,
         real_mm: PlaceMm | None = None, moving: bool = True,
     ) -> None:  # fmt: skip
         """Draws a board as far as it is; ``tool``: the number of the one in the spindle. Only if something is new. The
@@ -141,7 +141,7 @@ class BoardPicture(urwid.Widget):
         sides: list[Line] = [[mark, *line] for mark, line in zip(left, drawn, strict=True)]
         return [*sides, *ruler_below(self._map, self._plain), *below]
 
-    def _still(self, board: BoardView, columns: int, rows: int) -> Layers:
+    def _still(self, board: HolesView, columns: int, rows: int) -> Layers:
         """The layers that do not move, laid anew only where board, work, place or size has changed."""
         placed = self._map
         assert placed is not None, "show makes one for every board with holes"
@@ -152,13 +152,13 @@ class BoardPicture(urwid.Widget):
             self._layers = Layers.of(board, placed, self._work, self._tool, self._plain, self._numbers)
         return self._layers
 
-    def _below(self, board: BoardView, placed: BoardMap, columns: int) -> Line:
+    def _below(self, board: HolesView, placed: BoardMap, columns: int) -> Line:
         """Scale bar, zoom and the hole that was clicked; without zoom, then without bar, where they have no room."""
         bar, told = scale_bar(placed, self._plain), self._told(board)
         ways = ([*bar, *zoom_told(placed), *told], [*bar, *told], told or bar)
         return next((line for line in ways if width_of(line) <= columns), ways[-1])
 
-    def _told(self, board: BoardView) -> Line:
+    def _told(self, board: HolesView) -> Line:
         """The hole that was clicked: its number in drilling order, its tool, its place."""
         if self._chosen is None:
             return []

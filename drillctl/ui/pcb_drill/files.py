@@ -37,6 +37,7 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
     """Browser at the left; at the right what the cursor stands on: the first lines of a file, or the board loaded."""
 
     title = N_("Files")
+    keys_here = {"files": "choose"}  # who is to open a board, and is here already, presses Enter
     keys = (
         Key(("enter",), "Enter", "choose", N_("opens a folder, or loads a file"), N_("Load")),
         Key(("/",), "/", "filter", N_("which files are listed: part of a name, or with *"), N_("Filter")),
@@ -62,7 +63,7 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
         self._options, self._loaded = JobOptions(), Path()
         self._history = History(self._options)  # of the options of the file at hand
         self._browser = Browser(folder or Path.cwd(), self.load, self._look_at)
-        self._layout = FilesLayout(self._browser, self.keys, plain)
+        self._layout = FilesLayout(self._browser, self.keys, plain, console.glance)
         super().__init__(self._layout)
         self._look_at(self._browser.current)
 

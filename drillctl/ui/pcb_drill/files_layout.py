@@ -1,23 +1,24 @@
 """Where the parts of the Files screen stand: the list at the left, picture and facts at the right.
 
 Rule: the facts have the rows that they need, the picture the rest. A large terminal has the options below the list,
-each behind the key that changes it; a smaller one has them above the facts.
+each behind the key that changes it; a smaller one has them above the facts. A file that is not loaded is read for its
+picture when the screen is drawn, and not before: a cursor that runs down the list reads nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import urwid
 
 from drillctl.language.words import N_, _
-from drillctl.ui.pcb_drill.board_facts import board_lines, is_warning, option_lines, placing_lines
+from drillctl.ui.pcb_drill.board_facts import board_lines, glance_line, is_warning, option_lines, placing_lines
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.browser import Browser, preview
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.panel import titled
 from drillctl.ui.widgets.texts import Icon, Size, Text, boxed
-from drillctl.viewmodel.console import BoardView
+from drillctl.viewmodel.console import BoardView, HolesView
 from drillctl.viewmodel.job_options import JobOptions
 
 LARGE = (140, 32)  # columns and rows of a screen that has the options below the list
@@ -26,6 +27,7 @@ MOST_OF_FACTS = 0.6  # of the rows, beside a picture
 LIST_WEIGHT, BOARD_WEIGHT = 2, 3
 PLACING, SAID = N_("Placing and drilling"), N_("What the file says")
 HINT = (N_("No board is loaded."), N_("Enter loads the file at the cursor."))
+Glance = Callable[[str, JobOptions], HolesView | None]
 
 
 class Rule(urwid.Widget):
@@ -48,10 +50,14 @@ class Rule(urwid.Widget):
 
 
 class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
-    """The parts side by side. ``keys``: the screen's, of which the options name theirs."""
+    """The parts side by side. ``keys``: the screen's, of which the options name theirs; ``glance``: the holes of a file
+    that is not loaded.
+    """
 
-    def __init__(self, browser: Browser, keys: Sequence[Key], plain: bool):
-        self._keys, self._plain = keys, plain
+    def __init__(self, browser: Browser, keys: Sequence[Key], plain: bool, glance: Glance):
+        self._keys, self._plain, self._glance = keys, plain, glance
+        self._holes: HolesView | None = None
+        self._unseen = False  # whether the file was not glanced at yet
         self._options, self._path, self._large = JobOptions(), Path(), False
         self._board: BoardView | None = None
         self._rows: urwid.SimpleFocusListWalker[urwid.AttrMap[Icon]] = urwid.SimpleFocusListWalker([])
@@ -71,6 +77,7 @@ class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
         """Shows a board, or the first lines of the file that the cursor is on."""
         self._where.set_text(str(folder))
         self._path, self._board, self._options = path, board, options
+        self._holes, self._unseen = board, board is None
         self._picture.show(board)
         self._fill()
 
@@ -85,8 +92,18 @@ class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws the parts, each in the rows that it has at this size."""
         assert len(size) == 2
+        if self._unseen:
+            self._look()
         self._lay_out(*size)
         return super().render(size, focus)
+
+    def _look(self) -> None:
+        """Draws the file at the cursor, where it is a drill file and short."""
+        self._unseen = False
+        self._holes = self._glance(str(self._path), self._options)
+        if self._holes is not None:
+            self._picture.show(self._holes)
+            self._fill()
 
     def _lay_out(self, columns: int, rows: int) -> None:
         large = columns >= LARGE[0] and rows >= LARGE[1]
@@ -97,7 +114,7 @@ class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
             self._facts.header = Rule(SAID) if large else None
             self._fill()
         wanted = self._rows_of_facts(self._sides.column_widths((columns, rows))[1])
-        most = int(rows * MOST_OF_FACTS) if self._board else rows - LEAST_PICTURE
+        most = int(rows * MOST_OF_FACTS) if self._holes else rows - LEAST_PICTURE
         self._right.contents[1] = (self._facts, self._right.options("given", max(1, min(wanted, most))))
 
     def _rows_of_facts(self, columns: int) -> int:
@@ -105,11 +122,16 @@ class FilesLayout(urwid.WidgetWrap[urwid.Widget]):
 
     def _fill(self) -> None:
         """Writes options and facts anew, as a large or a smaller terminal has them."""
-        lines = board_lines(self._board, self._large, self._plain) if self._board else preview(self._path)
+        lines = board_lines(self._board, self._large, self._plain) if self._board else self._first_lines()
         options = [] if self._large else [*option_lines(self._options), ""]
         self._placing.set_text([f"{line}\n" for line in placing_lines(self._options, self._keys)])
         self._rows[:] = [_row(line) for line in [*options, *lines]]
         self._rows.set_focus(0)
+
+    def _first_lines(self) -> list[str]:
+        """Of a file that is not loaded: what Enter would load, and its first lines."""
+        seen = [glance_line(self._path.name, self._holes), ""] if self._holes else []
+        return [*seen, *preview(self._path)]
 
 
 def _row(line: str) -> urwid.AttrMap[Icon]:
