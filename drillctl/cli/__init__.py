@@ -10,7 +10,7 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
     latency.py    how punctual ticks are               screen.py    the screen; drillctl without a verb
     scope.py      a trace on the screen                plot.py      pictures of a run
     sweep.py      thousands of variants of a machine   tune.py      the fastest ramp that loses no steps
-    store.py      stores of workpieces by number
+    store.py      stores of workpieces by number     parameters.py parameters of a machine, listed and set
 
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
 tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), board_trials.py
@@ -28,6 +28,7 @@ from drillctl.cli import (
     estimate,
     inspect,
     latency,
+    parameters,
     plot,
     ports,
     replay,
@@ -48,7 +49,8 @@ from drillctl.jobs.interrupts import caught, exit_code, leave
 
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (
-    run, resume, estimate, inspect, convert, store, replay, tables, ports, latency, screen, scope, plot, sweep, tune
+    run, resume, estimate, inspect, convert, store, replay, tables, parameters, ports, latency, screen, scope, plot,
+    sweep, tune,
 )  # fmt: skip
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (

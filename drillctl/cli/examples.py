@@ -34,6 +34,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl replay board.trace",
         "drillctl replay board.trace --same-tables --engine tick",
     ),
+    "parameters": (
+        "drillctl parameters list system machining",
+        "drillctl parameters help axis.x.s_share",
+    ),
     "machines": (
         "drillctl machines",
         "drillctl machines --json",

@@ -11,6 +11,10 @@ from drillctl.cli.examples import EXAMPLES
 
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = ("drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "ports", "plot")
+QUICK = (
+    "drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "parameters", "ports",
+    "plot",
+)  # fmt: skip
 BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune"}  # a terminal, a cut-off job, or seconds of work
 
 
