@@ -8,6 +8,7 @@
     preferences.py  the theme that was chosen, kept in the user's configuration
     background.py  work that may take seconds, done beside the screen
     painter.py  the terminal: of each row only the part that has changed is written
+    canvas_rows.py  the rows of a frame; parts that have not changed give those of the frame before
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
     made_screens.py  the screens by name, each made when it is first wanted
     machines.py  which screens and menus a machine has: a row for each family of machines

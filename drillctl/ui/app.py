@@ -66,7 +66,7 @@ class App(Boxes):
         self.frame = MainFrame(self.press)
         self._use(screens_of(console.view()))
         terminal = terminal or _terminal()
-        super().__init__(Layers(urwid.AttrMap(self.frame, "body"), terminal.get_cols_rows), self.frame.say)
+        super().__init__(Layers(self.frame, terminal.get_cols_rows), self.frame.say)
         self._menus = Dropping(self.frame.bar, self.layers, self._choose)
         self._alerts = Alerts(console, self.layers, lambda: self._family.initialise)
         self._background = Background(self.layers, self.frame.say)

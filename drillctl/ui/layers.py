@@ -6,6 +6,7 @@ changes.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import urwid
 
@@ -68,8 +69,8 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
     def typing(self) -> bool:
         """Whether a text field has the cursor."""
         widget: urwid.Widget | None = self
-        while widget is not None and not isinstance(widget, urwid.Edit):
-            widget = _within(widget)
+        while widget is not None and (inside := _place_of_inside(type(widget))):
+            widget = getattr(widget, inside, None)
         found = isinstance(self.top, Finder) and not isinstance(self.original_widget, TooSmall)
         return widget is not None or found
 
@@ -116,13 +117,14 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         self.restack()
 
 
-def _within(widget: urwid.Widget) -> urwid.Widget | None:
-    """The widget inside another one that has the focus; None at the innermost."""
-    if isinstance(widget, urwid.WidgetWrap):
-        return widget._w
-    if isinstance(widget, urwid.WidgetDecoration):
-        return widget.original_widget
-    return getattr(widget, "focus", None)
+@cache  # asked at every beat, and urwid's classes are slow to ask
+def _place_of_inside(kind: type[urwid.Widget]) -> str:
+    """Under which name a widget of this kind has the one inside it that has the focus; empty for a text field."""
+    if issubclass(kind, urwid.Edit):
+        return ""
+    if issubclass(kind, urwid.WidgetWrap):
+        return "_w"
+    return "original_widget" if issubclass(kind, urwid.WidgetDecoration) else "focus"
 
 
 def _placed(box: PullDown, below: urwid.Widget, left: int, top: int, columns: int, rows: int) -> urwid.Widget:

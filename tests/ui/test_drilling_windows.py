@@ -9,7 +9,7 @@ import pytest
 from drillctl.language import words
 from drillctl.ui.models.speeds import Speeds
 from drillctl.ui.pcb_drill.machine_window import machine_pages
-from drillctl.ui.pcb_drill.motor_strip import motor_pages
+from drillctl.ui.pcb_drill.motor_strip import Motors
 from drillctl.ui.pcb_drill.tool_list import tool_lines
 from drillctl.ui.widgets.text_graphics import LIGHT, PLAIN, bar, gauge, large, strip
 from drillctl.ui.widgets.texts import Line
@@ -96,7 +96,7 @@ def test_many_axes_stand_on_further_pages() -> None:
     many = replace(VIEW, axes=tuple(replace(VIEW.axes[0], name=f"a{n}") for n in range(8)), lost_steps=None)
     pages = machine_pages(many, HALF, BOARD, 48, 25)
     assert len(pages) > 1 and all(any(f"A{n}" in "\n".join(texts(page)) for page in pages) for n in range(8))
-    motors = motor_pages(many, Speeds(), 108, 11)
+    motors = Motors().pages(many, Speeds(), 108, 11)
     assert len(motors) == 3 and "A7" in "\n".join(texts(motors[-1]))
 
 
@@ -110,13 +110,13 @@ def test_tools_are_told_with_their_holes_their_time_and_a_mark_on_the_one_that_i
 def test_a_motor_shows_column_forcing_ramp_and_the_rotor_where_it_is() -> None:
     axis = replace(VIEW.axes[0], wires=(("1a", "xxx...", True), ("24a", "X.....", False)), column=1, state=-1)
     view = replace(VIEW, axes=(axis,), lost_steps=(0,))
-    (page,) = motor_pages(view, Speeds(), 108, 11)
+    (page,) = Motors().pages(view, Speeds(), 108, 11)
     text = "\n".join(texts(page))
     assert "[1a]" in text and "[x]xx..." in text and "|X|....." in text and "█████▌" in text and "Rotor" not in text
     behind = replace(view, axes=(replace(axis, behind_steps=2.25),))
-    assert "....●.|......" in texts(motor_pages(behind, Speeds(), 108, 11)[0])[-1]
+    assert "....●.|......" in texts(Motors().pages(behind, Speeds(), 108, 11)[0])[-1]
     lost = replace(view, axes=(replace(axis, behind_steps=12.0),), lost_steps=(12,))
-    row = texts(motor_pages(lost, Speeds(), 108, 11, plain=True)[0])[-1]
+    row = texts(Motors(plain=True).pages(lost, Speeds(), 108, 11)[0])[-1]
     assert "o.....|......" in row and "-12.00, 12 lost" in row
 
 

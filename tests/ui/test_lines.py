@@ -1,11 +1,13 @@
 """Lines of marked text on a canvas: the same that urwid's own text widget makes of them, clipped and padded."""
 
+from collections.abc import Iterable
+
 import pytest
 import urwid
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drillctl.ui.widgets.texts import Line, boxed
+from drillctl.ui.widgets.texts import Line, Run, boxed
 
 WORDS = st.text("ab ⠁─żł", max_size=12)
 LINES = st.lists(st.lists(st.one_of(WORDS, st.tuples(st.sampled_from(["good", "key"]), WORDS)), max_size=5), max_size=8)
@@ -39,9 +41,15 @@ def test_what_is_twice_as_wide_and_cut_leaves_a_gap() -> None:
 
 
 @given(lines=LINES, part=st.tuples(st.integers(0, 9), st.integers(0, 3), st.integers(1, 10), st.integers(1, 3)))
-def test_a_part_of_a_box_in_other_looks_is_as_urwid_would_cut_it(lines: list[Line], part: tuple[int, ...]) -> None:
+def test_a_part_of_a_box_in_other_looks_is_cut_out_of_the_whole(lines: list[Line], part: tuple[int, ...]) -> None:
     looks = {None: "body", "good": "focus"}
-    box = boxed(lines, 20, 6)
-    for trimmed in (part, (0, *part[1:2], 20, *part[3:])):
-        by_its_base = urwid.TextCanvas.content(box, *trimmed, looks)
-        assert list(box.content(*trimmed, looks)) == list(by_its_base)
+    whole = letters(by_urwid(lines, 20, 6).content())
+    for left, top, columns, rows in (part, (0, part[1], 20, part[3])):
+        cut = letters(boxed(lines, 20, 6).content(left, top, columns, rows, looks))
+        expected = [row[left : left + columns] for row in whole[top : top + rows]]
+        assert cut == [[(looks.get(name, name), letter) for name, letter in row] for row in expected]
+
+
+def letters(rows: Iterable[list[Run]]) -> list[list[tuple[object, str]]]:
+    """Attribute and letter of each place, row by row; a letter of these texts takes one column."""
+    return [[(name, letter) for name, _charset, text in row for letter in text.decode()] for row in rows]

@@ -68,6 +68,7 @@ class Layers:
     states: NDArray[np.int64]
     signs: NDArray[np.str_]
     lines: list[Line] = field(default_factory=list)
+    _newest: "Layers | None" = None  # with the head over them, as they were drawn last
 
     @classmethod
     def of(cls, board: HolesView, placed: BoardMap, work: Work, tool: int, plain: bool, numbers: bool) -> "Layers":
@@ -85,13 +86,23 @@ class Layers:
         return layers
 
     def with_head(self, head: Head) -> list[Line]:
-        """The lines of all cells with the head over them; only rows that it touches are made anew."""
+        """The lines of all cells with the head over them; only rows that changed since the last call are made anew."""
         over = Layers(self.placed, self.plain, self.dots.copy(), self.states.copy(), self.signs.copy())
         over._lay("trail", self.placed.path(np.array(head.trail_mm), every=1) if head.trail_mm else None)
         over._put("real", _cell(self.placed, head.real_mm))
         over._put("head", _cell(self.placed, head.thought_mm))
-        touched = set(np.flatnonzero((over.states != self.states).any(axis=1)).tolist())
-        return [over._line(row) if row in touched else line for row, line in enumerate(self.lines)]
+        before = self._newest or self
+        changed = over._unlike(before)
+        over.lines = [over._line(row) if other else before.lines[row] for row, other in enumerate(changed)]
+        self._newest = over
+        return over.lines
+
+    def _unlike(self, other: "Layers") -> list[bool]:
+        """For each row whether something in it is not as in other layers of the same sheet."""
+        dots = (self.dots != other.dots).reshape(self.placed.rows, -1).any(axis=1)
+        cells = ((self.states != other.states) | (self.signs != other.signs)).any(axis=1)
+        unlike: list[bool] = (dots | cells).tolist()
+        return unlike
 
     def _holes(self, board: HolesView, work: Work, tool: int, numbers: bool) -> None:
         """The holes: those to do as large as they are, the others as a sign where none to do is in their cell."""

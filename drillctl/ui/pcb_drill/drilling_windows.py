@@ -15,7 +15,7 @@ from drillctl.ui.models.speeds import Speeds
 from drillctl.ui.pcb_drill.board_layers import PlaceMm
 from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.machine_window import machine_pages
-from drillctl.ui.pcb_drill.motor_strip import motor_pages
+from drillctl.ui.pcb_drill.motor_strip import Motors
 from drillctl.ui.pcb_drill.side_window import SideWindow, side_pages
 from drillctl.ui.pcb_drill.tool_list import tool_lines
 from drillctl.ui.screens.event_list import EventList
@@ -56,6 +56,7 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
         self._machine = SideWindow(side_pages)
         self._motors, self._tools = SideWindow(self._motor_pages), SideWindow(self._tool_pages)
         self._events, self._work, self._speeds = EventList(), BoardWork(), Speeds()
+        self._motor_lines = Motors(plain)
         self._parts = {
             "board": Window(self.picture, _("Board")),
             "machine": Window(self._machine, _("Machine")),
@@ -75,8 +76,8 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
         timeless = replace(view, tick=0)  # the windows show no tick, and must not be drawn anew for one
         self._machine.show(timeless, progress, board)
         work = self._work.see(view, board, progress)
-        self._motors.show(timeless, progress, board)
-        if self._speeds.see(view):
+        faster = self._speeds.see(view)
+        if not self._motors.show(timeless, progress, board) and faster:
             self._motors.draw_anew()
         self._tools.show(timeless, progress, board)
         self._events.see(view)
@@ -112,7 +113,7 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
         return [(self._parts[name], options("given", rows) if rows else options()) for name, rows in parts]
 
     def _motor_pages(self, view: MachineView, _progress: object, _board: object, columns: int, rows: int) -> Paged:
-        return motor_pages(view, self._speeds, columns, rows, self._plain)
+        return self._motor_lines.pages(view, self._speeds, columns, rows)
 
     def _tool_pages(
         self, view: MachineView, _progress: object, board: BoardView | None, columns: int, _rows: int

@@ -5,6 +5,7 @@ pulses are capital X, so that nothing is told by colour alone. Motors for which 
 """
 
 from itertools import zip_longest
+from typing import NamedTuple
 
 from drillctl.language.words import _, ngettext
 from drillctl.ui.models.speeds import Speeds
@@ -20,23 +21,45 @@ REACH_STEPS = 6  # of the scale that the rotor is shown on, to either side
 MARK, PLAIN_MARK = "●", "o"
 
 
-def motor_pages(
-    view: MachineView, speeds: Speeds, columns: int, rows: int, plain: bool = False
-) -> list[list[Line]]:
-    """The pages of a window of ``columns`` and ``rows``, at least one."""
-    lost = view.lost_steps or (0,) * len(view.axes)
-    blocks = [_block(axis, steps, speeds, plain) for axis, steps in zip(view.axes, lost, strict=False)]
-    widest = max((width_of(line) + 1 for block in blocks for line in block), default=1)
-    beside = max(min(columns // max(BLOCK_COLUMNS, widest), len(blocks)), 1)
-    below = max(rows // max(max(map(len, blocks), default=1), 1), 1)
-    bands = [_side_by_side(blocks[i : i + beside], columns // beside) for i in range(0, len(blocks), beside)]
-    return [[line for band in bands[i : i + below] for line in band] for i in range(0, len(bands), below)] or [[]]
+class Motors:
+    """The lines of each motor; they are made anew only where something in them has changed."""
+
+    def __init__(self, plain: bool = False):
+        self._plain = plain
+        self._kept: dict[str, tuple[tuple[object, ...], Block]] = {}
+
+    def pages(self, view: MachineView, speeds: Speeds, columns: int, rows: int) -> list[list[Line]]:
+        """The pages of a window of ``columns`` and ``rows``, at least one."""
+        lost = view.lost_steps or (0,) * len(view.axes)
+        blocks = [self._block(axis, steps, speeds) for axis, steps in zip(view.axes, lost, strict=False)]
+        widest = max((width + 1 for block in blocks for width in block.widths), default=1)
+        beside = max(min(columns // max(BLOCK_COLUMNS, widest), len(blocks)), 1)
+        below = max(rows // max(max((len(block.lines) for block in blocks), default=1), 1), 1)
+        bands = [_side_by_side(blocks[i : i + beside], columns // beside) for i in range(0, len(blocks), beside)]
+        return [[line for band in bands[i : i + below] for line in band] for i in range(0, len(bands), below)] or [[]]
+
+    def _block(self, axis: AxisView, lost: int, speeds: Speeds) -> "Block":
+        values = [*speeds.of.get(axis.name, ())]
+        most = max(values, default=0.0)
+        newest = values[-BAR_COLUMNS:]
+        shown = axis.wires, axis.column, axis.state, axis.top_state, axis.behind_steps, lost, most, newest
+        kept = self._kept.get(axis.name)
+        if kept is None or kept[0] != shown:
+            lines = _lines(axis, lost, values, most, self._plain)
+            kept = self._kept[axis.name] = shown, Block(lines, [*map(width_of, lines)])
+        return kept[1]
 
 
-def _block(axis: AxisView, lost: int, speeds: Speeds, plain: bool) -> list[Line]:
+class Block(NamedTuple):
+    """The lines of a motor, and how many columns each takes."""
+
+    lines: list[Line]
+    widths: list[int]
+
+
+def _lines(axis: AxisView, lost: int, values: list[float], most: float, plain: bool) -> list[Line]:
     ramp = bar(abs(axis.state) / axis.top_state if axis.top_state else 0.0, BAR_COLUMNS, plain)
-    speed, values = speeds.now(axis.name), list(speeds.of.get(axis.name, ()))
-    curve = strip(values, max(values, default=0.0), BAR_COLUMNS, plain)
+    curve, speed = strip(values, most, BAR_COLUMNS, plain), values[-1] if values else 0.0
     return [
         *phase_table(axis),
         [("title", f"{_('Ramp'):{LABEL_COLUMNS}}"), ("good", ramp)],
@@ -58,10 +81,11 @@ def _rotor(axis: AxisView, lost: int, plain: bool) -> list[Line]:
     return [[("title", f"{_('Rotor'):{LABEL_COLUMNS}}"), (role, "".join(scale)), f" {off:+.2f}{lost_text}"]]
 
 
-def _side_by_side(blocks: list[list[Line]], columns: int) -> list[Line]:
-    rows = zip_longest(*blocks, fillvalue=[])
-    return [[part for line in row for part in _padded(line, columns)] for row in rows]
+def _side_by_side(blocks: list[Block], columns: int) -> list[Line]:
+    blank: Line = [" " * columns]
+    rows = zip_longest(*(_padded(block, columns) for block in blocks), fillvalue=blank)
+    return [[part for line in row for part in line] for row in rows]
 
 
-def _padded(line: Line, columns: int) -> Line:
-    return [*line, " " * max(columns - width_of(line), 0)]
+def _padded(block: Block, columns: int) -> list[Line]:
+    return [[*line, " " * max(columns - width, 0)] for line, width in zip(block.lines, block.widths, strict=True)]

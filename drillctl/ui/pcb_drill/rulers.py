@@ -1,6 +1,7 @@
 """What stands around the picture of a board: rulers in mm at its left and below it, and a bar that shows the scale."""
 
 import math
+from functools import lru_cache
 
 from drillctl.language.words import _
 from drillctl.ui.models.board_map import BoardMap, marks_mm, round_mm
@@ -12,6 +13,7 @@ RULER_COLUMNS, RULER_ROWS, SCALE_ROWS = 6, 2, 1
 LEAST_WITH_RULERS = (48, 16)  # columns and rows of a picture that has room for them
 MARK_DOTS = 20  # at least, from a mark of a ruler to the next
 BAR_COLUMNS = 6  # at least, of the bar that shows the scale
+KEPT = 4  # rulers: the picture is drawn anew at every step of the head, and its map is the same until it is zoomed
 MARKS = {False: ("┤", "┴", "├", "┤"), True: ("+", "+", "|", "|")}  # by plain: left, below, both ends of the bar
 
 
@@ -20,6 +22,7 @@ def has_rulers(columns: int, rows: int) -> bool:
     return columns >= LEAST_WITH_RULERS[0] and rows >= LEAST_WITH_RULERS[1]
 
 
+@lru_cache(KEPT)
 def left_ruler(placed: BoardMap, plain: bool) -> list[tuple[str, str]]:
     """For each row of the sheet its piece of the ruler, RULER_COLUMNS wide."""
     step_mm = round_mm(MARK_DOTS / placed.dots_per_mm)
@@ -30,6 +33,7 @@ def left_ruler(placed: BoardMap, plain: bool) -> list[tuple[str, str]]:
     return [("border", marked.get(row, blank)) for row in range(placed.rows)]
 
 
+@lru_cache(KEPT)
 def ruler_below(placed: BoardMap, plain: bool) -> list[Line]:
     """The two lines below the sheet, which begin below the left ruler: the marks, and their places in mm."""
     step_mm = round_mm(MARK_DOTS / placed.dots_per_mm)

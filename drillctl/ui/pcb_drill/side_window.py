@@ -41,11 +41,13 @@ class SideWindow(urwid.Widget):
         self._page += 1
         self.draw_anew()
 
-    def show(self, view: MachineView, progress: Progress | None, board: BoardView | None) -> None:
-        """Takes a new view of machine, job and board."""
-        if (view, progress, board) != self._shown:
-            self._shown = (view, progress, board)
-            self.draw_anew()
+    def show(self, view: MachineView, progress: Progress | None, board: BoardView | None) -> bool:
+        """Takes a view of machine, job and board; returns whether it is another one than before, and then drawn."""
+        if (view, progress, board) == self._shown:
+            return False
+        self._shown = (view, progress, board)
+        self.draw_anew()
+        return True
 
     def draw_anew(self) -> None:
         """Draws again if a line has changed. To be called where the pages take something from elsewhere than a view."""

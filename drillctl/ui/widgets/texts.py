@@ -6,7 +6,7 @@ these; tests/ui/test_hidden_characters.py holds that no screen makes urwid's own
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, TypeVar
 
 import urwid
 
@@ -145,38 +145,37 @@ def boxed(lines: Sequence[Line], columns: int, rows: int) -> urwid.Canvas:
     return _Rows(drawn, columns)
 
 
-class _Rows(urwid.TextCanvas):
-    """Rows that are already cut into runs of one look: urwid's own canvas cuts them anew whenever it is drawn.
+class _Rows(urwid.Canvas):
+    """Rows that are already cut into runs of one look: urwid's own canvas cuts them anew whenever it is drawn."""
 
-    The rows with attributes mapped are kept too. They are the same objects in the next frame, so the painter sees by
-    their identity that nothing has changed.
-    """
+    def __init__(self, drawn: Sequence[Sequence[Run]], columns: int):
+        super().__init__()
+        self._drawn, self._columns = drawn, columns
 
-    def __init__(self, drawn: Sequence["_Row"], columns: int):
-        self._runs: list[Sequence[Run]] = [row.runs for row in drawn]
-        self._names = [*dict.fromkeys(name for runs in self._runs for name, _charset, _text in runs)]
-        self._looks: list[Hashable] = []
-        self._mapped = self._runs
-        attributes = [[*row.names] for row in drawn]  # of its own for each canvas
-        charsets = [[*row.sets] for row in drawn]
-        super().__init__([row.text for row in drawn], attributes, charsets, maxcol=columns, check_width=False)
+    def cols(self) -> int:
+        """How many columns it has."""
+        return self._columns
+
+    def rows(self) -> int:
+        """How many rows it has."""
+        return len(self._drawn)
 
     def content(
         self, trim_left: int = 0, trim_top: int = 0, cols: int = 0, rows: int = 0, attr: Looks | None = None
     ) -> Iterator[list[Run]]:
         """The rows of a part of the canvas as urwid wants them; ``attr`` maps names of attributes to others."""
-        if trim_left or cols not in (0, self.cols()):
-            yield from super().content(trim_left, trim_top, cols, rows, attr)
+        if trim_left or cols not in (0, self._columns):
+            yield from self._as_text().content(trim_left, trim_top, cols, rows, attr)
             return
-        for runs in (self._mapped_by(attr) if attr else self._runs)[trim_top : trim_top + rows if rows else None]:
-            yield [*runs]
+        for runs in self._drawn[trim_top : trim_top + rows if rows else None]:
+            yield [(attr.get(name, name), charset, text) for name, charset, text in runs] if attr else [*runs]
 
-    def _mapped_by(self, attr: Looks) -> list[Sequence[Run]]:
-        looks = [attr.get(name, name) for name in self._names]
-        if looks != self._looks:
-            self._looks, by_name = looks, dict(zip(self._names, looks, strict=True))
-            self._mapped = [[(by_name[name], charset, text) for name, charset, text in runs] for runs in self._runs]
-        return self._mapped
+    def _as_text(self) -> urwid.TextCanvas:
+        """The same as a canvas of urwid's own, which knows how a character is cut that takes two columns."""
+        texts = [b"".join(text for _name, _charset, text in runs) for runs in self._drawn]
+        names: list[Names] = [[(name, len(text)) for name, _charset, text in runs] for runs in self._drawn]
+        charsets: list[Charsets] = [[(charset, len(text)) for _name, charset, text in runs] for runs in self._drawn]
+        return urwid.TextCanvas(texts, names, charsets, maxcol=self._columns, check_width=False)
 
 
 def around(cursor: int, count: int, room: int) -> range:
@@ -204,33 +203,33 @@ def indices_packed(parts: Sequence[Line], columns: int) -> list[list[int]]:
     return lines
 
 
-class _Row(NamedTuple):
-    """A line as canvases have it: its bytes, how many of them are of each attribute and of each character set, and the
-    same as runs of one look.
-    """
-
-    text: bytes
-    names: Names
-    sets: Charsets
-    runs: Sequence[Run]
-
-
 @lru_cache(DRAWN)
-def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> _Row:
-    """A line for a canvas. Kept, as most lines are the same in the next frame; ``encoding`` is the one in force."""
-    text, room = b"", columns
-    attributes: Names = []
-    charsets: Charsets = []
+def _drawn(line: tuple[Part, ...], columns: int, encoding: str) -> Sequence[Run]:
+    """A line in runs, as a canvas has it. Kept, as most lines are the same in the next frame; ``encoding`` is the one
+    in force.
+    """
+    room = columns
+    runs: list[Run] = []
     for part in line:
         attribute, words = (None, part) if isinstance(part, str) else part
-        encoded, sets, width, whole = _encoded(words, min(room, _columns(words)), encoding)
-        text, room = text + encoded, room - width
-        attributes.append((attribute, len(encoded)))
-        charsets += sets
+        encoded, charsets, width, whole = _encoded(words, min(room, _columns(words)), encoding)
+        room -= width
+        begin = 0
+        for charset, length in charsets:
+            _join(runs, attribute, charset, encoded[begin : begin + length])
+            begin += length
         if not whole:
             break
-    text, names, sets = text + b" " * room, [*attributes, (None, room)], [*charsets, (None, room)]
-    return _Row(text, names, sets, tuple(_runs(text, names, sets)))
+    _join(runs, None, None, b" " * room)
+    return tuple(runs)
+
+
+def _join(runs: list[Run], name: Hashable, charset: Literal["0", "U"] | None, text: bytes) -> None:
+    """Adds a text, to the last run where it looks the same; no run is empty."""
+    if runs and runs[-1][:2] == (name, charset):
+        text = runs.pop()[2] + text
+    if text:
+        runs.append((name, charset, text))
 
 
 @lru_cache(DRAWN)
@@ -240,15 +239,6 @@ def _encoded(words: str, room: int, encoding: str) -> tuple[bytes, Charsets, int
     end, width = _fitting(words, room)
     encoded, sets = urwid.apply_target_encoding(words[:end])
     return encoded, sets, width, end == len(words)
-
-
-def _runs(text: bytes, names: Names, sets: Charsets) -> Iterator[Run]:
-    """The text in pieces of one attribute and one character set; none is empty."""
-    begin = 0
-    for (name, charset), length in urwid.util.rle_product(names, sets):
-        if length:
-            yield name, charset, text[begin : begin + length]
-        begin += length
 
 
 def _fitting(words: str, room: int) -> tuple[int, int]:

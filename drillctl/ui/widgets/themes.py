@@ -9,7 +9,8 @@ from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
 Depth = Literal[1, 16, 256, 16777216]
-Entry = tuple[str, str, str, str, str, str]  # as urwid wants it: name, the 16 colours, monochrome, many colours
+# As urwid wants it: name (None: of what has no role), the 16 colours, monochrome, many colours.
+Entry = tuple[str | None, str, str, str, str, str]
 Colours = Mapping[str, tuple[str, str]]
 
 
@@ -82,8 +83,11 @@ DEFAULT_THEME, MONO = "blue", "mono"
 
 
 def palette(theme: str) -> list[Entry]:
-    """The entries of a theme; ``mono`` has the settings of a terminal without colours as its foreground."""
-    return [_entry(name, role, THEMES[theme]) for name, role in ROLES.items()]
+    """The entries of a theme; ``mono`` has the settings of a terminal without colours as its foreground. What has no
+    role looks like ``body``: mapping every widget to it would cost a third of a frame (benchmarks/screen.py).
+    """
+    entries = [_entry(name, role, THEMES[theme]) for name, role in ROLES.items()]
+    return [_entry(None, ROLES["body"], THEMES[theme]), *entries]
 
 
 PAPER, INK = "#1b1f24", "#d5dae1"  # of a picture in a theme without colours
@@ -107,7 +111,7 @@ def depth_of(environment: Mapping[str, str]) -> Depth:
     return 256 if "256color" in terminal else 16
 
 
-def _entry(name: str, role: Role, colours: Colours) -> Entry:
+def _entry(name: str | None, role: Role, colours: Colours) -> Entry:
     if not colours:
         return name, role.mono, "default", role.mono, role.mono, "default"
     (basic, many), (ground, many_ground) = colours[role.foreground], colours[role.background]
