@@ -29,7 +29,7 @@ class Axis:
 
     __slots__ = (
         "base", "bits", "clear_mask", "column", "column_in_step", "columns_per_step", "count", "direction",
-        "direction_sign", "drive", "drive_patterns", "followers", "forcing", "halves", "high", "hold_bits",
+        "direction_sign", "drive", "drive_patterns", "followers", "forcing", "halt_mask", "halves", "high", "hold_bits",
         "hold_patterns", "interval", "least", "length", "limits", "low", "made", "met", "min_interval", "most",
         "motion", "position", "ramp", "ramped_from", "reach", "seek_mask", "span", "state", "strokes", "target",
         "travelled", "up", "wait", "wires",
@@ -59,7 +59,7 @@ class Axis:
         self.wait = self.interval[0]
         self.drive = table.motor.pulse is not None
         self.motion = REST
-        self.seek_mask = self.clear_mask = 0
+        self.seek_mask = self.clear_mask = self.halt_mask = 0  # the sensor whose edge brakes; whose going, coming halts
         self.met = 0  # the direction in which it was moving when a limit line that it shares with others came on
         self.bits = self.hold_bits = 0  # the column that is out, and the same without its forcing bits
         self.followers: Followers | None = None

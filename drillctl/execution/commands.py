@@ -75,7 +75,7 @@ def _set_targets(m: Controller, command: Command) -> int:
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1:
             axis.target = _target(axis, command, index)
-            axis.seek_mask = axis.clear_mask = 0
+            axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
     return Fault.NONE
 
 

@@ -45,6 +45,8 @@ class Controller:
     shared    input bits that several end sensors share; ``shared_on`` those that were on in the tick before
     reactions what this machine does on each fault
     zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
+    indexes   input bits of the encoders' indexes, by axis; 0 of an axis without one
+    homing_fault  why the current row of the homing table could not begin
     return_rows the axes of the return to zero, in the order in which they go
     switched  output bits that are no axis's: spindle and the like
     elapsed   ticks of the current command, hold not counted
@@ -81,14 +83,15 @@ class Controller:
         self.only_zero_after = frozenset(Fault[name] for name in machine.only_zero_after)
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
-        self.homes_by_sensor = any(step.do == "seek" for step in machine.homing)
+        self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
+        self.homes_by_sensor = machine.homes_by_sensor
         self.set_rate(machine.tick_hz)
 
         self.command = Command()
         self.enter(Stage.IDLE)
         self.busy = False
         self.elapsed = self.time_limit = 0
-        self.homing_row = self.return_row = 0
+        self.homing_row = self.homing_fault = self.return_row = 0
 
         self.tick = self.underruns = self.moving = self.running = self.served = self.gap = self.late = 0
         self.unseen = self.hot_until = self.cut_off = 0
@@ -118,6 +121,12 @@ class Controller:
 def _asking(machine: Machine, action: str) -> int:
     """Input bits that ask for an action."""
     return sum(1 << line.bit for line in machine.inputs if line.action == action)
+
+
+def _index_bit(machine: Machine, axis: int) -> int:
+    """The input bit of the index of an axis's encoder, 0 where it has none."""
+    index = machine.index_of(axis)
+    return 0 if index is None else 1 << index.bit
 
 
 def _pair(axis: Axis, shared: int) -> int:

@@ -43,7 +43,7 @@ def _drive_head(m: Controller, command: Command, direction: int) -> int:
             sensor = _head_sensor(m, axis, direction)
             if not sensor and not m.position_known:
                 return Fault.HOMING_REQUIRED
-            axis.seek_mask, axis.clear_mask = sensor, 0
+            axis.seek_mask, axis.clear_mask, axis.halt_mask = sensor, 0, 0
             if not m.sensors & sensor:
                 axis.set_target(_head_target(m, axis, direction, sensor), command.floor_ticks)
     return Fault.NONE

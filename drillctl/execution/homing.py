@@ -19,7 +19,7 @@ def begin_homing(m: Controller) -> None:
     """The first row starts; the position is unknown until the last has ended."""
     m.position_known = False
     m.homing_row = 0
-    _start_row(m)
+    m.homing_fault = _start_row(m)
 
 
 def carry_homing(m: Controller) -> int:
@@ -29,63 +29,103 @@ def carry_homing(m: Controller) -> int:
     """
     while m.homing_row < len(m.machine.homing):
         row = m.machine.homing[m.homing_row]
-        fault = _ENDED[row.do](m, row)
+        fault = m.homing_fault or _ENDED[row.do](m, row)
         if fault:
             return fault
         m.homing_row += 1
-        if _start_row(m):
+        m.homing_fault = _start_row(m)
+        if any(axis.counting for axis in m.axes):
             return GOES_ON
     for axis in m.axes:
         axis.base = 0
     return Fault.NONE
 
 
-def _start_row(m: Controller) -> bool:
-    """Starts the current row, if there is one; True when something moves."""
+def _start_row(m: Controller) -> int:
+    """Starts the current row, if there is one. Returns the fault of one that can't begin; nothing moves then."""
     if m.homing_row == len(m.machine.homing):
-        return False
+        return Fault.NONE
     row = m.machine.homing[m.homing_row]
-    started = _STARTED[row.do]
-    moving = False
+    if row.do == "index" and m.sensors & sum(m.indexes[index] for index in row.axes):
+        return Fault.HOMING_EARLY_INDEX
     for index in row.axes:
         axis = m.axes[index]
-        axis.seek_mask = axis.clear_mask = 0
-        started(m, axis, TOWARDS[row.end], row.limit_steps)
-        moving = moving or axis.counting
-    return moving
+        axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
+        _STARTED[row.do](m, index, row)
+    return Fault.NONE
 
 
-def _seek(m: Controller, axis: Axis, towards: int, limit: int) -> None:
+def _seek(m: Controller, index: int, row: HomingStep) -> None:
     """To the sensor, at most a tenth beyond the range; the edge brakes (guard)."""
+    axis, towards = m.axes[index], TOWARDS[row.end]
     if not m.sensors & axis.limits[towards]:
         axis.seek_mask = axis.limits[towards]
-        axis.set_target(axis.position + towards * (axis.span + axis.span // 10), 0)
+        axis.set_target(axis.position + towards * (axis.span + axis.span // 10), row.interval)
 
 
-def _leave(m: Controller, axis: Axis, towards: int, limit: int) -> None:
-    """Slowly off the sensor, the ramp capped at state 1; the first step with the sensor clear halts (guard)."""
+def _go_on(m: Controller, index: int, row: HomingStep) -> None:
+    """Slowly on to the sensor, where braking has not ended on it; the first step with the sensor on halts (guard)."""
+    axis, towards = m.axes[index], TOWARDS[row.end]
+    if not m.sensors & axis.limits[towards]:
+        axis.halt_mask = axis.limits[towards]
+        _creep(axis, towards, row)
+
+
+def _leave(m: Controller, index: int, row: HomingStep) -> None:
+    """Slowly off the sensor; the first step with the sensor clear halts (guard)."""
+    axis, towards = m.axes[index], TOWARDS[row.end]
     if m.sensors & axis.limits[towards]:
         axis.clear_mask = axis.limits[towards]
-        axis.set_target(axis.position - towards * limit, axis.interval[-towards])
+        _creep(axis, -towards, row)
 
 
-def _stay(m: Controller, axis: Axis, towards: int, limit: int) -> None:
+def _to_index(m: Controller, index: int, row: HomingStep) -> None:
+    """Slowly on, away from the end; the first step with the encoder's index on halts (guard)."""
+    axis = m.axes[index]
+    axis.halt_mask = m.indexes[index]
+    _creep(axis, -TOWARDS[row.end], row)
+
+
+def _move_off(m: Controller, index: int, row: HomingStep) -> None:
+    """Slowly on, away from the end, by all its steps."""
+    _creep(m.axes[index], -TOWARDS[row.end], row)
+
+
+def _stay(m: Controller, index: int, row: HomingStep) -> None:
     """Nothing moves in this row."""
 
 
+def _creep(axis: Axis, direction: int, row: HomingStep) -> None:
+    """At most the row's steps, the ramp capped at state 1: from there an axis stops dead without losing steps."""
+    axis.set_target(axis.position + direction * row.limit_steps, max(row.interval, axis.interval[direction]))
+
+
+def _on_sensors(m: Controller, row: HomingStep) -> list[bool]:
+    """Whether the sensor of each axis is on."""
+    return [bool(m.sensors & m.axes[index].limits[TOWARDS[row.end]]) for index in row.axes]
+
+
 def _reached(m: Controller, row: HomingStep) -> int:
-    reached = all(m.sensors & m.axes[index].limits[TOWARDS[row.end]] for index in row.axes)
-    missing = Fault.HEAD_NOT_UP if row.do == "raise" else Fault.HOMING_NOT_FOUND
-    return Fault.NONE if reached else missing
+    return Fault.NONE if all(_on_sensors(m, row)) else _MISSING[row.do]
 
 
 def _left(m: Controller, row: HomingStep) -> int:
-    stuck = any(m.sensors & m.axes[index].limits[TOWARDS[row.end]] for index in row.axes)
-    return Fault.HOMING_NOT_FOUND if stuck else Fault.NONE
+    return _STUCK[row.do] if any(_on_sensors(m, row)) else Fault.NONE
 
 
 def _left_at_zero(m: Controller, row: HomingStep) -> int:
     return _left(m, row) or _zeroed(m, row)
+
+
+def _found(m: Controller, row: HomingStep) -> int:
+    """The sensor of each axis has answered; an axis that braked may have left it again."""
+    return Fault.HOMING_NO_SWITCH if any(m.axes[index].seek_mask for index in row.axes) else Fault.NONE
+
+
+def _at_index(m: Controller, row: HomingStep) -> int:
+    """The index of each axis has come; a rotor that swings may have left it again."""
+    missing = any(m.axes[index].halt_mask for index in row.axes)
+    return Fault.HOMING_NO_INDEX if missing else _zeroed(m, row)
 
 
 def _zeroed(m: Controller, row: HomingStep) -> int:
@@ -94,17 +134,29 @@ def _zeroed(m: Controller, row: HomingStep) -> int:
     return Fault.NONE
 
 
-_STARTED: Mapping[str, Callable[[Controller, Axis, int, int], None]] = {
+_MISSING = {"raise": Fault.HEAD_NOT_UP, "seek": Fault.HOMING_NOT_FOUND, "slow": Fault.HOMING_OFF_SWITCH}
+_STUCK = {"release": Fault.HOMING_NOT_FOUND, "creep": Fault.HOMING_NOT_FOUND, "back": Fault.HOMING_ON_SWITCH}
+_STARTED: Mapping[str, Callable[[Controller, int, HomingStep], None]] = {
     "raise": _seek,
     "seek": _seek,
+    "fast": _seek,
+    "slow": _go_on,
     "release": _leave,
     "creep": _leave,
+    "back": _leave,
+    "index": _to_index,
+    "offset": _move_off,
     "zero": _stay,
 }
 _ENDED: Mapping[str, Callable[[Controller, HomingStep], int]] = {
     "raise": _reached,
     "seek": _reached,
+    "fast": _found,
+    "slow": _reached,
     "release": _left,
     "creep": _left_at_zero,
+    "back": _left,
+    "index": _at_index,
+    "offset": _zeroed,
     "zero": _zeroed,
 }

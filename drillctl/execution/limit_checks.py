@@ -37,9 +37,16 @@ def guard(m: Controller) -> None:
 
 
 def _watch(m: Controller, axis: Axis, sensors: int) -> int:
-    """Checks a moving axis: the sensor that it seeks or leaves, a limit ahead, the range. Returns a fault code."""
-    if axis.seek_mask and sensors & axis.seek_mask:
+    """Checks a moving axis: the sensor that it seeks or leaves, a limit ahead, the range. Returns a fault code. A mask
+    whose sensor has answered is 0 from then on.
+    """
+    if sensors & axis.seek_mask:
+        axis.seek_mask = 0
         axis.ramp_down()
+    elif sensors & axis.halt_mask:
+        if axis.column_in_step == 0:
+            axis.halt_mask = 0
+            axis.stop_now()
     elif axis.clear_mask:
         if axis.column_in_step == 0 and not sensors & axis.clear_mask:
             axis.stop_now()

@@ -31,7 +31,7 @@ def _send(m: Controller, command: Command) -> bool:
     """Sends the axes of the current row back; True where one of them is elsewhere."""
     moving = False
     for axis in m.return_rows[m.return_row]:
-        axis.seek_mask = axis.clear_mask = 0
+        axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
         axis.set_target(axis.up, max(command.floor_ticks, m.machine.return_interval))
         moving = moving or axis.counting
     return moving

@@ -33,7 +33,7 @@ def stop_job(m: Controller) -> None:
     """Ends the job and brakes all axes down their ramps; where they come to rest are their targets."""
     _end_job(m)
     for axis in m.axes:
-        axis.seek_mask = axis.clear_mask = 0
+        axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
         axis.ramp_down()
 
 
@@ -47,7 +47,7 @@ def drop_outputs(m: Controller) -> None:
     """Ends the job and takes the current off all phases, in this tick."""
     _end_job(m)
     for axis in m.axes:
-        axis.seek_mask = axis.clear_mask = 0
+        axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
         axis.release()
     _stand_still(m)
 
@@ -148,7 +148,7 @@ def _end_job(m: Controller) -> None:
 
 def _hold_current(m: Controller) -> None:
     for axis in m.axes:
-        axis.seek_mask = axis.clear_mask = 0
+        axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
         axis.stop_now()
     _stand_still(m)
 

@@ -43,6 +43,11 @@ class Fault(IntEnum):
     TICKER_LOST = 17
     PORT_SLOW = 18
     ONLY_ZERO = 19
+    HOMING_NO_SWITCH = 50
+    HOMING_OFF_SWITCH = 51
+    HOMING_ON_SWITCH = 52
+    HOMING_NO_INDEX = 53
+    HOMING_EARLY_INDEX = 54
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +79,11 @@ _ALL = (
     FaultSpec(Fault.TICKER_LOST, Reaction.DROP, False),
     FaultSpec(Fault.PORT_SLOW, Reaction.DROP, False),
     FaultSpec(Fault.ONLY_ZERO, Reaction.STOP, True),
+    FaultSpec(Fault.HOMING_NO_SWITCH, Reaction.STOP, False),
+    FaultSpec(Fault.HOMING_OFF_SWITCH, Reaction.STOP, False),
+    FaultSpec(Fault.HOMING_ON_SWITCH, Reaction.STOP, False),
+    FaultSpec(Fault.HOMING_NO_INDEX, Reaction.STOP, False),
+    FaultSpec(Fault.HOMING_EARLY_INDEX, Reaction.STOP, False),
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

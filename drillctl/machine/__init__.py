@@ -17,7 +17,7 @@ source.py    a TOML file that knows on which line a key stands (positions.py)   
 from drillctl.machine.dynamics import Dynamics
 from drillctl.machine.errors import TableError
 from drillctl.machine.library import Library, machine_hazards, shipped_tables
-from drillctl.machine.model import AxisTable, HomingStep, Machine, Sensor
+from drillctl.machine.model import AxisTable, EncoderIndex, HomingStep, Machine, Sensor
 from drillctl.machine.motor import Motor
 from drillctl.machine.parameters import ParameterRow, Parameters
 from drillctl.machine.phase import PhaseTable
@@ -25,7 +25,7 @@ from drillctl.machine.ramp import RampTable
 from drillctl.machine.travel import intervals, travel_table, travel_ticks
 
 __all__ = [
-    "AxisTable", "Dynamics", "HomingStep", "Library", "Machine", "Motor", "ParameterRow", "Parameters", "PhaseTable",
-    "RampTable", "Sensor", "TableError", "intervals", "machine_hazards", "shipped_tables", "travel_table",
+    "AxisTable", "Dynamics", "EncoderIndex", "HomingStep", "Library", "Machine", "Motor", "ParameterRow", "Parameters",
+    "PhaseTable", "RampTable", "Sensor", "TableError", "intervals", "machine_hazards", "shipped_tables", "travel_table",
     "travel_ticks",
 ]  # fmt: skip

@@ -9,14 +9,15 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from drillctl.language import Counted, Message, known_words, nearest
-from drillctl.machine.inputs import sensors_and_inputs
-from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, HomingStep, Machine, Sensor, Surroundings
+from drillctl.machine.homing import axes_named, homing_steps
+from drillctl.machine.inputs import encoder_indexes, sensors_and_inputs
+from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Surroundings
 from drillctl.machine.parameter_file import check_parameters, read_parameters
 from drillctl.machine.parts import Parts
 from drillctl.machine.phase import NAME
 from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
-from drillctl.machine.shape import Bit, DrillPart, HomingRow, MachineFile, Steps
+from drillctl.machine.shape import Bit, DrillPart, MachineFile, Steps
 from drillctl.machine.source import Source
 
 # Names that a trace gives to its own signals and scopes: an axis must not have the same name.
@@ -33,9 +34,10 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     _check_locked(source, raw)
     names = [axis.name for axis in axes]
     sensors, inputs = sensors_and_inputs(source, raw, axes)
-    homing = tuple(_homing(source, row, index, names, sensors) for index, row in enumerate(raw.homing))
+    indexes = encoder_indexes(source, raw, names)
+    homing = homing_steps(source, raw, names, sensors, indexes)
     drill = raw.drill or DrillPart(axes=[names[-1]])
-    drill_axes = _indexes(source, drill.axes, names, "drill", "axes")
+    drill_axes = axes_named(source, drill.axes, names, "drill", "axes")
     _check_depth(source, drill, [axes[index] for index in drill_axes])
     machine = Machine(
         name=raw.name,
@@ -54,6 +56,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         shipped=shipped,
         surroundings=Surroundings(raw.plant.scatter_mm, raw.plant.thrust_n, raw.plant.thrust_growth),
         inputs=inputs,
+        indexes=indexes,
         reactions=reactions(source, raw, homing),
         only_zero_after=only_zero_after(source, raw),
         return_interval=raw.return_interval,
@@ -65,22 +68,27 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
 
 def _check_names(source: Source, raw: MachineFile) -> None:
     sensors = [row.name for row in raw.sensor]
-    kinds = (("axis", [row.name for row in raw.axis]), ("sensor", sensors), ("input", [row.name for row in raw.input]))
+    inputs, indexes = ([row.name for row in rows] for rows in (raw.input, raw.index))
+    kinds = (("axis", [row.name for row in raw.axis]), ("sensor", sensors), ("input", inputs), ("index", indexes))
     for key, names in kinds:
         for index, name in enumerate(names):
             if name in names[:index]:
                 raise source.error(
                     Message("{kind} {name}: a second one of this name", kind=key, name=name), key, index, "name"
                 )
-    for index, row in enumerate(raw.axis):
-        if row.name in TRACE_NAMES:
+    for index, axis in enumerate(raw.axis):
+        if axis.name in TRACE_NAMES:
             raise source.error(
-                Message("axis {name}: traces use this name for their own", name=row.name), "axis", index, "name"
+                Message("axis {name}: traces use this name for their own", name=axis.name), "axis", index, "name"
             )
     for index, switch in enumerate(raw.input):
         if switch.name in sensors:
             reason = Message("input {name}: a sensor has this name already", name=switch.name)
             raise source.error(reason, "input", index, "name")
+    for number, row in enumerate(raw.index):
+        if row.name in (*sensors, *inputs):
+            reason = Message("index {name}: a sensor or an input has this name already", name=row.name)
+            raise source.error(reason, "index", number, "name")
     for name in raw.outputs:
         if not NAME.fullmatch(name):
             reason = Message("outputs: {name!r}: a name is letters, digits, - and _, no - or _ first", name=name)
@@ -190,37 +198,7 @@ def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -
             )
 
 
-def _homing(source: Source, row: HomingRow, index: int, names: list[str], sensors: tuple[Sensor, ...]) -> HomingStep:
-    axes = _indexes(source, row.axes, names, "homing", index, "axes")
-    sensed = {sensor.axis: sensor for sensor in sensors if sensor.end == row.end}
-    for axis in axes:
-        if row.do != "zero" and axis in sensed and sensed[axis].line:
-            reason = Message(
-                "homing: {what} needs a sensor with a bit of its own, and {sensor} shares input {line}",
-                what=row.do,
-                sensor=sensed[axis].name,
-                line=sensed[axis].line,
-            )
-            raise source.error(reason, "homing", index, "axes")
-        if row.do != "zero" and axis not in sensed:
-            reason = Message(
-                "homing: {what} needs a {end} sensor, and {axis} has none", what=row.do, end=row.end, axis=names[axis]
-            )
-            raise source.error(reason, "homing", index, "axes")
-    return HomingStep(row.do, axes, row.end, row.limit)
-
-
 def _surfaces(source: Source, surfaces: Mapping[str, object], names: list[str]) -> tuple[int | None, ...]:
-    _indexes(source, surfaces, names, "plant", "board_surface")
+    axes_named(source, surfaces, names, "plant", "board_surface")
     steps = source.numbers(surfaces, Steps, "plant", "board_surface")
     return tuple(steps.get(name) for name in names)
-
-
-def _indexes(source: Source, wanted: Iterable[str], names: list[str], *place: str | int) -> tuple[int, ...]:
-    for name in wanted:
-        if name not in names:
-            reason = Message("no axis is named {name!r}; {words}", name=name, words=known_words(name, names)).at(
-                place[0]
-            )
-            raise source.error(reason, *place)
-    return tuple(names.index(name) for name in wanted)

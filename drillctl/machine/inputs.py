@@ -1,4 +1,5 @@
-"""The input side of a machine's file: end sensors, inputs that belong to no axis, and the line that sensors may share.
+"""The input side of a machine's file: end sensors, encoder indexes, inputs that belong to no axis, and the line that
+sensors may share.
 
 Rule: a bit has one owner, a sensor or an ``[[input]]``; sensors that are wired together name the input as their line.
 """
@@ -6,7 +7,8 @@ Rule: a bit has one owner, a sensor or an ``[[input]]``; sensors that are wired 
 from collections.abc import Sequence
 
 from drillctl.language import Counted, Message, known_words
-from drillctl.machine.model import AxisTable, Input, Sensor
+from drillctl.machine.homing import axes_named
+from drillctl.machine.model import AxisTable, EncoderIndex, Input, Sensor
 from drillctl.machine.shape import InputRow, MachineFile
 from drillctl.machine.source import Source
 
@@ -17,14 +19,33 @@ def sensors_and_inputs(
     """Returns the sensors and the inputs of a machine's file. Raises TableError."""
     _check_bits(source, raw)
     sensors = tuple(_sensor(source, raw, index, axes) for index in range(len(raw.sensor)))
-    return sensors, tuple(Input(row.name, row.bit, row.active, row.action) for row in raw.input)
+    inputs = (Input(row.name, row.bit, row.active, row.action) for row in raw.input)
+    pulses = (Input(row.name, row.bit, row.active, "none") for row in raw.index)
+    return sensors, (*inputs, *pulses)
+
+
+def encoder_indexes(source: Source, raw: MachineFile, names: list[str]) -> tuple[EncoderIndex, ...]:
+    """Returns the encoder indexes of a machine's file; each is an input too. Raises TableError."""
+    found: list[EncoderIndex] = []
+    for number, row in enumerate(raw.index):
+        (axis,) = axes_named(source, [row.axis], names, "index", number, "axis")
+        if axis in [index.axis for index in found]:
+            reason = Message("index {name}: {axis} has an index already", name=row.name, axis=row.axis)
+            raise source.error(reason, "index", number, "axis")
+        if row.width >= row.turn:
+            fields = {"name": row.name, "width": row.width, "turn": row.turn}
+            reason = Message("index {name}: width {width} leaves no gap in a turn of {turn} steps", **fields)
+            raise source.error(reason, "index", number, "width")
+        found.append(EncoderIndex(row.name, row.bit, row.active, axis, row.turn, row.width, row.at))
+    return tuple(found)
 
 
 def _check_bits(source: Source, raw: MachineFile) -> None:
     taken: dict[int, str] = {}
     sensors = [("sensor", index, row.name, row.bit) for index, row in enumerate(raw.sensor)]
     inputs = [("input", index, row.name, row.bit) for index, row in enumerate(raw.input)]
-    for kind, index, name, bit in (*sensors, *inputs):
+    indexes = [("index", index, row.name, row.bit) for index, row in enumerate(raw.index)]
+    for kind, index, name, bit in (*sensors, *inputs, *indexes):
         if bit is None:
             continue
         if bit in taken:

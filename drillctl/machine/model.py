@@ -73,6 +73,21 @@ class Input:
 
 
 @dataclass(frozen=True, slots=True)
+class EncoderIndex:
+    """The index (Z pulse) of an axis's encoder: an input that is on for ``width_steps``, once in every ``turn_steps``.
+    At ``at_steps`` lies the middle of one pulse.
+    """
+
+    name: str
+    bit: int
+    active_level: int
+    axis: int
+    turn_steps: int
+    width_steps: int
+    at_steps: int
+
+
+@dataclass(frozen=True, slots=True)
 class FaultReaction:
     """What a machine does on a fault, by the fault's name, in place of what every machine does."""
 
@@ -83,12 +98,15 @@ class FaultReaction:
 
 @dataclass(frozen=True, slots=True)
 class HomingStep:
-    """One row of the homing table: what to do, with which axes (indexes), at which end, within how many steps."""
+    """One row of the homing table: what to do, with which axes (indexes), at which end, within how many steps, with
+    how many ticks at least between two steps (0: as fast as such a row goes).
+    """
 
-    do: str  # "raise", "release", "seek", "creep", "zero"
+    do: str  # one of machine/shape.py: HomingRow
     axes: tuple[int, ...]
     end: str
     limit_steps: int
+    interval: int = field(default=0, repr=False)  # in the digest where a row has it
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,6 +155,7 @@ class Machine:
     shipped: bool
     surroundings: Surroundings = field(default=Surroundings(), repr=False)  # the plant's: not in the digest
     inputs: tuple[Input, ...] = field(default=(), repr=False)  # these: in the digest where a machine has them
+    indexes: tuple[EncoderIndex, ...] = field(default=(), repr=False)
     reactions: tuple[FaultReaction, ...] = field(default=(), repr=False)
     only_zero_after: tuple[str, ...] = field(default=(), repr=False)  # faults after which only KMD_POWROT is taken
     return_interval: int = field(default=0, repr=False)  # the least ticks between steps of KMD_POWROT
@@ -171,6 +190,15 @@ class Machine:
     def sensor_at(self, axis: int, end: str) -> Sensor | None:
         """Returns the sensor at an end of an axis, or None where that end has none."""
         return next((s for s in self.sensors if s.axis == axis and s.end == end), None)
+
+    def index_of(self, axis: int) -> EncoderIndex | None:
+        """Returns the index of an axis's encoder, or None where it has none."""
+        return next((index for index in self.indexes if index.axis == axis), None)
+
+    @property
+    def homes_by_sensor(self) -> bool:
+        """Whether the homing table looks for zero, whatever place the machine is at."""
+        return any(step.do in ("seek", "fast") for step in self.homing)
 
     def reach(self, axis: int) -> tuple[int, int]:
         """Returns the positions that an axis can be sent to: its range, short of where its limit sensors answer."""
@@ -210,5 +238,7 @@ class Machine:
     def _unusual(self) -> str:
         """What decides a run and came later than the first digests, where it is not as it was before."""
         strokes = (f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
-        later = (*self.inputs, *self.reactions, self.only_zero_after, self.return_interval, self.parameters)
+        slow = tuple((number, step.interval) for number, step in enumerate(self.homing) if step.interval)
+        set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow)
+        later = (*self.inputs, *self.reactions, *self.indexes, *set_by_file)
         return "".join((*strokes, *(f"{value!r}\n" for value in later if value)))

@@ -11,6 +11,11 @@ from drillctl.machine.model import FaultReaction, HomingStep
 from drillctl.machine.shape import MachineFile
 from drillctl.machine.source import Source
 
+# The ways in which a homing table can fail.
+HOMING = (
+    "HOMING_NOT_FOUND", "HOMING_NO_SWITCH", "HOMING_OFF_SWITCH", "HOMING_ON_SWITCH", "HOMING_NO_INDEX",
+    "HOMING_EARLY_INDEX",
+)  # fmt: skip
 _HEAD = Message("the head is not where its steps have put it")
 _ENDS = Message("the fault ends the process that would brake")
 # Why a fault's reaction can't be chosen.
@@ -24,13 +29,13 @@ FIXED: Mapping[str, Message] = {
 # Why a position can't be kept after a fault, whatever the reaction.
 NOT_KEPT: Mapping[str, Message] = {
     "RANGE": Message("it is the count of steps that has left the range"),
-    "HOMING_NOT_FOUND": Message("the position is not known during initialisation"),
+    **dict.fromkeys(HOMING, Message("the position is not known during initialisation")),
     "DRILL_NOT_DOWN": _HEAD,
     "HEAD_NOT_UP": _HEAD,
 }
 # Why a machine can't go home by its sensors after a fault.
 NO_RETURN: Mapping[str, Message] = {
-    "HOMING_NOT_FOUND": Message("the return to zero has just failed"),
+    **dict.fromkeys(HOMING, Message("the return to zero has just failed")),
     "HEAD_NOT_UP": Message("the return to zero begins by raising the head"),
     "SENSOR_CONTRADICTION": Message("the return to zero needs sensors that can be trusted"),
 }
@@ -76,7 +81,7 @@ def _wrong(fault: str, do: str, position: str, homing: Sequence[HomingStep]) -> 
         return Message("it can't be chosen: {why}", why=FIXED[fault])
     if do == "return" and fault in NO_RETURN:
         return Message("the machine can't return: {why}", why=NO_RETURN[fault])
-    if do == "return" and not any(step.do == "seek" for step in homing):
+    if do == "return" and not any(step.do in ("seek", "fast") for step in homing):
         return Message("the machine can't return: its homing table seeks no sensor")
     if position == "kept" and do == "drop":
         return Message("the position can't be kept: a motor without current can be turned by hand")

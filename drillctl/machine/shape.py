@@ -63,6 +63,18 @@ class InputRow(Strict, frozen=True):
     action: Literal["none", "pause", "stop", "estop"] = "none"
 
 
+class IndexRow(Strict, frozen=True):
+    """``[[index]]``: the index (Z pulse) of an axis's encoder: on for ``width`` steps around ``at``, once a turn."""
+
+    name: Name
+    axis: str
+    bit: Bit
+    turn: Annotated[int, msgspec.Meta(ge=2, le=1_000_000)]
+    active: Level = 1
+    width: Positive = 1
+    at: Steps = 0
+
+
 class ReactionRow(Strict, frozen=True):
     """``[[reaction]]``: what the machine does on a fault, in place of what docs/FAULTS.md says."""
 
@@ -74,10 +86,11 @@ class ReactionRow(Strict, frozen=True):
 class HomingRow(Strict, frozen=True):
     """``[[homing]]``: one row of initialisation."""
 
-    do: Literal["raise", "release", "seek", "creep", "zero"]
+    do: Literal["raise", "release", "seek", "creep", "zero", "fast", "slow", "back", "index", "offset"]
     axes: Annotated[list[str], msgspec.Meta(min_length=1)]
     end: End = "min"
     limit: Positive = 60
+    interval: Annotated[int, msgspec.Meta(ge=0, le=1_000_000)] = 0
 
 
 class ConfigurationPart(Strict, frozen=True):
@@ -122,6 +135,7 @@ class MachineFile(Strict, frozen=True):
     configuration: ConfigurationPart = ConfigurationPart()
     sensor: list[SensorRow] = []
     input: list[InputRow] = []
+    index: list[IndexRow] = []
     reaction: list[ReactionRow] = []
     outputs: dict[str, Any] = {}  # of Bit
     homing: list[HomingRow] = []

@@ -76,12 +76,15 @@ class Plant:
         behind_columns = self.behind_steps(axis, travelled) / abs(self.carriages[axis].steps_per_column)
         return round(self.position_steps(axis)), round(behind_columns)
 
-    def quiet_steps(self, axis: int) -> tuple[float, float]:
+    def quiet_steps(self, axis: int, whatever_index: bool = False) -> tuple[float, float]:
         """Returns the places between which (neither included) no sensor of an axis changes, and nothing that it acts
-        on: no bit meets or leaves the board.
+        on: no bit meets or leaves the board. With ``whatever_index`` the index of its encoder may change.
         """
         bounds = [sensor.changes_at() for sensor in self.carriages[axis].sensors]
         bounds += [effect.changes_at() for effect in self._effects_on[axis]]
+        pulses = self.carriages[axis].pulses
+        if pulses is not None and not whatever_index:
+            bounds.append(pulses.changes_at(self.position_steps(axis)))
         return max((low for low, _ in bounds), default=-inf), min((high for _, high in bounds), default=inf)
 
     def _answer(self, sensor: Switch) -> None:
@@ -90,8 +93,15 @@ class Plant:
         level = max(levels) if sensor.active_level else min(levels)
         self.inputs = self.inputs | sensor.bit if level else self.inputs & ~sensor.bit
 
+    def turn_index(self, axis: int) -> None:
+        """Lets the index of an axis's encoder answer to where the axis is."""
+        pulses = self.carriages[axis].pulses
+        if pulses is not None:
+            self.inputs = self.inputs & ~pulses.bit | pulses.level(self.position_steps(axis))
+
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)
+        self.turn_index(index)
         for sensor in self.carriages[index].sensors:
             if sensor.moved_to(steps):
                 self._answer(sensor)

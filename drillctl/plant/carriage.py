@@ -5,8 +5,14 @@ Places are steps from machine zero as the machine's file means it.
 
 from collections.abc import Sequence
 from math import inf
+from typing import Any
 
-from drillctl.machine import AxisTable, Sensor
+import numpy as np
+from numpy.typing import NDArray
+
+from drillctl.machine import AxisTable, EncoderIndex, Sensor
+
+Places = NDArray[np.float64]
 
 
 class Switch:
@@ -48,13 +54,52 @@ class Switch:
         return self.reached
 
 
+class Pulses:
+    """The index of an axis's encoder, which is on once a turn. It follows from the place alone.
+
+    stuck   0 or 1: it is off or on, whatever the place
+    """
+
+    def __init__(self, index: EncoderIndex, stuck: float | None = None):
+        self.bit = 1 << index.bit
+        self._first = index.at_steps - index.width_steps / 2
+        self._turn, self._width = index.turn_steps, index.width_steps
+        self._active = index.active_level
+        self._stuck = None if stuck is None else bool(stuck)
+
+    def levels(self, steps: Places) -> NDArray[np.int64]:
+        """Returns the input bit as it stands at each of these places, (n,)."""
+        on = self._since_first(steps) < self._width if self._stuck is None else np.full(len(steps), self._stuck)
+        levels: NDArray[np.int64] = np.where(on == bool(self._active), self.bit, 0)
+        return levels
+
+    def level(self, steps: float) -> int:
+        """Returns the input bit as it stands at a place: 0 where its wire is low."""
+        on = self._since_first(steps) < self._width if self._stuck is None else self._stuck
+        return self.bit if on == bool(self._active) else 0
+
+    def changes_at(self, steps: float) -> tuple[float, float]:
+        """Returns the places around this one between which (neither included) it stays as it is."""
+        if self._stuck is not None:
+            return -inf, inf
+        begin = self._first + (steps - self._first) // self._turn * self._turn
+        end = begin + self._width
+        return (begin, end) if self._since_first(steps) < self._width else (end, begin + self._turn)
+
+    def _since_first(self, steps: Any) -> Any:
+        """Returns the steps since the last pulse began; of one place, or of each of an array."""
+        off = steps - self._first
+        return off - off // self._turn * self._turn
+
+
 class Carriage:
     """A carriage fixed to its rotor: it moves as far from its start as the rotor has turned."""
 
-    def __init__(self, table: AxisTable, sensors: Sequence[Switch]):
+    def __init__(self, table: AxisTable, sensors: Sequence[Switch], pulses: Pulses | None = None):
         self.start = table.start_steps
         self.steps_per_column = (-1 if table.invert else 1) / table.columns_per_step
         self.sensors = sensors
+        self.pulses = pulses
 
     def place(self, columns: float) -> float:
         """Returns where it is once the rotor has turned by so many columns."""

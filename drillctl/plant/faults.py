@@ -19,7 +19,9 @@ class PlantRefused(Refusal):
 
 @dataclass(frozen=True, slots=True)
 class FaultKind:
-    """What a fault's value means, and its bounds; ``part`` is what it belongs to: sensor, axis, or nothing."""
+    """What a fault's value means, and its bounds; ``part`` is what it belongs to: a sensor, the wire of a sensor or an
+    encoder's index, an axis, or nothing.
+    """
 
     part: str
     least: float
@@ -28,7 +30,7 @@ class FaultKind:
 
 
 FAULT_KINDS = {
-    "stuck": FaultKind("sensor", 0, 1, Message("answers never (0) or always (1)")),
+    "stuck": FaultKind("wire", 0, 1, Message("answers never (0) or always (1)")),
     "dirty": FaultKind("sensor", -20, 20, Message("answers N mm too late")),
     "bouncing": FaultKind("sensor", 1, 1000, Message("flutters for N ticks after each change")),
     "loose": FaultKind("axis", 0, 20, Message("mm of play in the belt")),
@@ -55,7 +57,9 @@ class Faults:
     """All faults of a machine. Raises PlantRefused for a fault that this machine can't have."""
 
     def __init__(self, texts: Iterable[str], machine: Machine):
-        parts = {"sensor": [sensor.name for sensor in machine.sensors], "axis": machine.axis_names, "": [""]}
+        sensors = [sensor.name for sensor in machine.sensors]
+        wires = [*sensors, *(index.name for index in machine.indexes)]
+        parts = {"sensor": sensors, "wire": wires, "axis": machine.axis_names, "": [""]}
         self._values: dict[tuple[str, str], float] = {}
         for fault in [parse_fault(text) for text in texts]:
             kind = FAULT_KINDS[fault.name].part

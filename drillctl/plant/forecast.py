@@ -39,7 +39,14 @@ class PlantForecast:
 
     def free(self, axis: int) -> tuple[float, float]:
         """Returns the travels between which (neither included) no sensor changes and no bit meets the board."""
-        low, high = self._plant.quiet_steps(axis)
+        return self._travels(axis, self._plant.quiet_steps(axis))
+
+    def free_of_switches(self, axis: int) -> tuple[float, float]:
+        """Returns the same, but that the index of the axis's encoder may change (``index_levels``)."""
+        return self._travels(axis, self._plant.quiet_steps(axis, whatever_index=True))
+
+    def _travels(self, axis: int, places: tuple[float, float]) -> tuple[float, float]:
+        low, high = places
         carriage, slack = self._plant.carriages[axis], self._follows[axis].slack_columns
         ends = sorted((steps - carriage.start) / carriage.steps_per_column for steps in (low, high))
         return ends[0] + slack, ends[1] - slack
@@ -47,6 +54,7 @@ class PlantForecast:
     def follow(self, axis: int, travel: int) -> None:
         """Moves the rotor to where so many columns put it."""
         self._plant.rotors[axis].degrees = self._follows[axis].degrees_at(travel)
+        self._plant.turn_index(axis)
 
     def memory(self, axis: int) -> Memory:
         """Returns all state of an axis's rotor and sensors."""
@@ -56,6 +64,19 @@ class PlantForecast:
         """Restores the state that ``memory`` returned."""
         self._plant.rotors[axis].degrees = memory[0]
         self._plant.recall(axis, memory[1:])
+
+    def index_mask(self, axis: int) -> int:
+        """Returns the input bit of the index of an axis's encoder, 0 where it has none."""
+        pulses = self._plant.carriages[axis].pulses
+        return 0 if pulses is None else pulses.bit
+
+    def index_levels(self, axis: int, travel: int, turns: Counts, column: Counts) -> Counts:
+        """Returns the input bit of an axis's index after each of n turns, (n,); otherwise as ``lanes``."""
+        rotor, carriage = self._plant.rotors[axis], self._plant.carriages[axis]
+        degrees = self._follows[axis].degrees_through(travel + np.cumsum(turns), turns, column)
+        columns = (degrees - rotor.zero) * rotor.columns_per_cycle / FULL_TURN
+        assert carriage.pulses is not None
+        return carriage.pulses.levels(carriage.start + columns * carriage.steps_per_column)
 
     def lanes(self, axis: int, travel: int, turns: Counts, column: Counts) -> list[Counts]:
         """Returns the plant's lanes (``IdealPlant.lanes``) of an axis after each of n turns, (n,) each.

@@ -5,7 +5,7 @@ Rule: it moves at once when its image changes. Speed, ramp and forcing make no d
 
 from drillctl.machine import Machine
 from drillctl.plant.base import Plant
-from drillctl.plant.carriage import Carriage, Switch
+from drillctl.plant.carriage import Carriage, Pulses, Switch
 from drillctl.plant.effects import effects_of
 from drillctl.plant.rotor import rotor_of
 
@@ -17,10 +17,7 @@ class IdealPlant(Plant):
 
     def __init__(self, machine: Machine):
         rotors = [rotor_of(table) for table in machine.axes]
-        carriages = [
-            Carriage(table, [Switch(sensor) for sensor in machine.sensors if sensor.axis == index])
-            for index, table in enumerate(machine.axes)
-        ]
+        carriages = [_carriage(machine, number) for number in range(len(machine.axes))]
         super().__init__(machine, rotors, carriages, effects_of(machine))
 
     def drive(self, image: int) -> None:
@@ -48,3 +45,10 @@ class IdealPlant(Plant):
         for sensor, reached in zip(self.carriages[axis].sensors, memory[len(effects) :], strict=True):
             if sensor.recall(reached):
                 self._answer(sensor)
+        self.turn_index(axis)
+
+
+def _carriage(machine: Machine, axis: int) -> Carriage:
+    switches = [Switch(sensor) for sensor in machine.sensors if sensor.axis == axis]
+    index = machine.index_of(axis)
+    return Carriage(machine.axes[axis], switches, None if index is None else Pulses(index))

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution import Controller
-from drillctl.execution.axis import Axis
 from drillctl.execution.fastforward import Batch
+from drillctl.execution.fastforward.axis_batch import turns_of
 from drillctl.execution.fastforward.quiet import Quiet
 from drillctl.kmd import Fault, Op, Request, RequestBit
 from drillctl.kmd.commands import BY_OP
@@ -35,7 +35,8 @@ REQUEST_WORDS = tuple(
     "+".join(name for bit, name in enumerate(_REQUESTS) if mask >> bit & 1) or "-"
     for mask in range(1 << len(_REQUESTS))
 )
-_FAULT_WORDS = tuple(Fault(code).name if code else "-" for code in range(len(Fault)))
+_FAULT_NAMES = {0: "-", **{fault.value: fault.name for fault in Fault if fault}}
+_FAULT_WORDS = tuple(_FAULT_NAMES.get(code, str(code)) for code in range(max(Fault) + 1))  # codes have gaps
 _COMMAND_WORDS = tuple(BY_OP[Op(op)].name if op else "-" for op in range(len(Op)))
 
 
@@ -125,7 +126,8 @@ class Sampler:
         for number, axis in enumerate(self._m.axes if self._derived else ()):
             motion = batch.motion(number)
             _, column, position, _ = motion
-            self._extend_axis(self._first_of(number), number, motion, _turns(axis, column, position), first, forecast)
+            turns = turns_of(axis, column, position, (axis.column, axis.position))
+            self._extend_axis(self._first_of(number), number, motion, turns, first, forecast)
 
     def _extend_axis(self, index: int, number: int, motion: NDArray[np.int64], turns: NDArray[np.int64], first: int,
                      forecast: PlantForecast) -> None:  # fmt: skip
@@ -152,19 +154,6 @@ class Sampler:
                 for value in self._plant.lane_values(number, axis.travelled):
                     put(index, tick, value)
                     index += 1
-
-
-def _turns(axis: Axis, column: NDArray[np.int64], position: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Returns the columns that an axis puts out in each row of its motion, as the wires have it: 1, 0 or -1, (n,). A
-    motion goes on to a whole step, so the next step made tells the direction.
-    """
-    steps = np.diff(position, prepend=axis.position)
-    made = np.flatnonzero(steps)
-    if not len(made):
-        return np.zeros(len(column), np.int64)
-    put_out = np.diff(column, prepend=axis.column) != 0 if axis.length > 1 else steps != 0
-    following = np.minimum(np.cumsum(steps != 0) - (steps != 0), len(made) - 1)
-    return put_out * np.sign(steps[made[following]]) * axis.direction_sign
 
 
 def signals(machine: Machine, plant_lanes: Sequence[str], derived: bool) -> list[Signal]:

@@ -118,6 +118,26 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("a command came that is not the return to zero, the only one allowed after a limit or emergency stop"),
         Message("acknowledge, and return to zero (KMD_POWROT) before anything else"),
     ),
+    Fault.HOMING_NO_SWITCH: FaultWords(
+        Message("initialisation went the whole range and a tenth more, and the origin switch did not answer"),
+        Message("check the switch, its wiring and its polarity, and that the carriage moves freely"),
+    ),
+    Fault.HOMING_OFF_SWITCH: FaultWords(
+        Message("during initialisation an axis did not come to rest on its origin switch"),
+        Message("look for a switch that bounces, or a cam shorter than the braking way, then initialise again"),
+    ),
+    Fault.HOMING_ON_SWITCH: FaultWords(
+        Message("the origin switch was still on after the most way back that its homing row allows"),
+        Message("check whether the switch is stuck, or raise the limit of the row in the machine's file"),
+    ),
+    Fault.HOMING_NO_INDEX: FaultWords(
+        Message("the encoder's index did not come within the most way that its homing row allows"),
+        Message("check the encoder's cable; the limit of the row must be longer than a turn of the encoder"),
+    ),
+    Fault.HOMING_EARLY_INDEX: FaultWords(
+        Message("the encoder's index was on already where the axis had just left its origin switch"),
+        Message("check whether the index is stuck; move the switch by half a turn, so that the index comes later"),
+    ),
 }
 
 

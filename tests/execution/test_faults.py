@@ -6,7 +6,10 @@ from dataclasses import replace
 import pytest
 
 from drillctl.execution.conditions import raise_fault
+from drillctl.execution.motion import STOPPING
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
+from drillctl.machine import EncoderIndex, HomingStep
+from drillctl.machine.model import Input
 from tests.support.bench import Bench, shipped
 
 REST_COLUMNS = 3  # the paper's rotor rests every third column
@@ -102,6 +105,34 @@ def long_gap() -> Bench:
     return b
 
 
+def homing_by_index(row: int, wire: str, level: int) -> Callable[[], Bench]:
+    """A homing table for X that ends on an encoder's index, and from one of its rows on a wire that is stuck."""
+
+    def provoke() -> Bench:
+        machine = shipped("pcb-drill")
+        index = EncoderIndex("x_index", 20, 1, axis=0, turn_steps=40, width_steps=4, at_steps=2)
+        rows = [("raise", 2), ("fast", 0), ("slow", 0), ("back", 0), ("index", 0), ("seek", 1), ("creep", 1)]
+        homing = tuple(HomingStep(do, (axis,), "min", 40 if do == "slow" else 90) for do, axis in rows)
+        x_min, *others = machine.sensors  # away from the index
+        sensors = (replace(x_min, edge_steps=-10, hysteresis_steps=4), *others)
+        inputs = (Input(index.name, index.bit, index.active_level, "none"),)
+        axes = (replace(machine.axes[0], start_steps=50, high_steps=100), *machine.axes[1:])  # a short search
+        machine = replace(machine, axes=axes, sensors=sensors, homing=homing, indexes=(index,), inputs=inputs)
+        b = Bench(machine).ready()
+        b.queue("KMD_GOTO_X_Y 90 0; KMD_INICJALIZACJA").until(lambda: b.m.homing_row == row and not b.m.position_known)
+        setattr(b.card, "stuck_high" if level else "stuck_low", b.input_bit(wire))
+        return b
+
+    return provoke
+
+
+def off_the_switch() -> Bench:
+    b = homing_by_index(1, "x_index", 0)()
+    b.until(lambda: b.m.axes[0].motion == STOPPING)
+    b.card.stuck_low = b.input_bit("x_min")
+    return b
+
+
 def from_the_wiring(fault: Fault) -> Callable[[], Bench]:
     """Ports and processes are lost between ticks, where the wiring sees it and says so."""
 
@@ -133,6 +164,11 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.TICKER_LOST: from_the_wiring(Fault.TICKER_LOST),
     Fault.PORT_SLOW: from_the_wiring(Fault.PORT_SLOW),
     Fault.ONLY_ZERO: bound_to_zero,
+    Fault.HOMING_NO_SWITCH: homing_by_index(1, "x_min", 0),
+    Fault.HOMING_OFF_SWITCH: off_the_switch,
+    Fault.HOMING_ON_SWITCH: homing_by_index(3, "x_min", 1),
+    Fault.HOMING_NO_INDEX: homing_by_index(4, "x_index", 0),
+    Fault.HOMING_EARLY_INDEX: homing_by_index(3, "x_index", 1),
 }
 every_fault = pytest.mark.parametrize("fault", PROVOKED, ids=lambda fault: fault.name)
 

@@ -30,7 +30,8 @@ def test_zero_is_the_same_place_wherever_the_machine_was_found(name: str, start_
     for axis in (0, 1):
         sensor = b.machine.sensor_at(axis, "min")
         assert sensor is not None
-        let_go = sensor.edge_steps + sensor.hysteresis_steps
+        index = b.machine.index_of(axis)
+        let_go = index.at_steps if index else sensor.edge_steps + sensor.hysteresis_steps
         assert let_go <= b.card.plant.position_steps(axis) <= let_go + max(1, rest_steps)
     assert not any(b.ticker.lost_steps())
 

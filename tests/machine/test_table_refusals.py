@@ -14,6 +14,7 @@ from drillctl.machine import Library, TableError
 NAMES = "a name is letters, digits, - and _, no - or _ first"
 REVERSE, ROW, DIRECTION = "[[reverse]]\n", 'pattern = "xxxxxx"\n', "[direction]\n"
 INPUT, REACTION = "[[input]]\nname = 'stop'\n", "[[reaction]]\nfault = "
+INDEX = "[[index]]\nname = 'pulse'\naxis = 'x'\nturn = 40\n"
 Row = tuple[str | None, ...]
 PHASE: list[Row] = [
     ('name = "a"\n', 'name = "a"\nvolt = 5\n', "wire[0]: unknown key volt", "volt = 5"),
@@ -127,6 +128,14 @@ MACHINE: list[Row] = [
     ("[drill]", f"{INPUT}bit = 128\n[drill]", "input[0].bit: expected int <= 127", "bit = 128"),
     ("[drill]", "[[input]]\nname = 'x_min'\nbit = 4\n[drill]", "input x_min: a sensor has this name already",
      "[[input]]\nname = 'x_min'"),
+    ("[drill]", f"{INDEX}bit = 1\n[drill]", "index pulse: input bit 1 is z_top's already", f"{INDEX}bit = 1"),
+    ("[drill]", f"{INDEX}bit = 4\nwidth = 40\n[drill]", "index pulse: width 40 leaves no gap in a turn of 40 steps",
+     f"{INDEX}bit = 4\nwidth = 40"),
+    ("[drill]", f"{INDEX}bit = 4\n{INDEX.replace('pulse', 'other')}bit = 5\n[drill]",
+     "index other: x has an index already", f"{INDEX}bit = 4\n{INDEX.replace('pulse', 'other')}"[:-1]),
+    ("[drill]", f"{INDEX.replace('pulse', 'z_top')}bit = 4\n[drill]",
+     "index z_top: a sensor or an input has this name already", "[[index]]\nname = 'z_top'"),
+    ('do = "seek"', 'do = "index"', "homing: index needs an [[index]], and x has none", 'do = "index"\naxes = ["x"]'),
     ("bit = 1\n", "line = 'stop'\n", "sensor z_top: no input is named 'stop'; there are none", "line = 'stop'"),
     ("bit = 1\n", "", "sensor z_top: it has either a bit, or a line that it shares", 'hysteresis = 2\n\n[[sensor]]'),
     ("[drill]", f"{REACTION}'LIMIT'\ndo = 'drop'\nposition = 'kept'\n[drill]",

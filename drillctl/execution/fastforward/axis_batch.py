@@ -63,6 +63,12 @@ class AxisBatch:
         return AxisBatch(self.axis, self.profiles, self.sent[rows], self.absolute[rows], self.min_interval[rows],
                        self.steps[rows], self.position[places], self.column[places], self.ticks[rows])  # fmt: skip
 
+    def last(self) -> "AxisBatch":
+        """The last command alone."""
+        rows, places = slice(-1, None), slice(-2, None)
+        return AxisBatch(self.axis, self.profiles, self.sent[rows], self.absolute[rows], self.min_interval[rows],
+                       self.steps[rows], self.position[places], self.column[places], self.ticks[rows])  # fmt: skip
+
     def travel(self) -> int:
         """Columns on the way, forward less backward, as the controller counts them."""
         return int(self.steps.sum()) * self.axis.columns_per_step
@@ -134,7 +140,7 @@ class AxisBatch:
             return
         axis.position = axis.target = int(self.position[-1])
         axis.min_interval = int(self.min_interval[self.sent][-1])
-        axis.seek_mask = axis.clear_mask = 0
+        axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
         if self.steps.any():
             self._leave_moved(int(longest[-1]))
         axis.ramped_from = axis.strokes.ramped_from(axis.direction, axis.min_interval)
@@ -161,3 +167,18 @@ def _positions(axis: Axis, given: Count, placed: NDArray[np.bool_], shifted: NDA
     last = np.maximum.accumulate(np.where(np.concatenate(([True], placed)), np.arange(len(known)), 0))
     positions: Count = known[last] + shifts - shifts[last]
     return positions
+
+
+def turns_of(axis: Axis, column: Count, position: Count, before: tuple[int, int]) -> Count:
+    """Returns the columns that an axis puts out in each row of its motion, as the wires have it: 1, 0 or -1, (n,). A
+    motion goes on to a whole step, so the next step made tells the direction. ``before`` are column and position before
+    the first row.
+    """
+    steps = np.diff(position, prepend=before[1])
+    made = np.flatnonzero(steps)
+    if not len(made):
+        return np.zeros(len(column), np.int64)
+    put_out = np.diff(column, prepend=before[0]) != 0 if axis.length > 1 else steps != 0
+    following = np.minimum(np.cumsum(steps != 0) - (steps != 0), len(made) - 1)
+    turns: Count = put_out * np.sign(steps[made[following]]) * axis.direction_sign
+    return turns

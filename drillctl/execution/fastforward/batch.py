@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.axis_batch import AxisBatch
+from drillctl.execution.fastforward.input_changes import Changes, IndexWatch, together
 from drillctl.execution.fastforward.strokes import COUNTERS, POSITION, REMEMBERED, Place, Stroke
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.trace.tapes import PERIOD, Count, ImagePool, Tape
@@ -22,20 +23,24 @@ Touch = tuple[int, int, tuple[float, ...], int]  # tool, tag of the hole begun, 
 
 @dataclass(frozen=True, eq=False)
 class Stroked:
-    """The strokes of a batch: in the commands ``rows`` (k,) the kind ``which`` (k,), from the place ``begin`` on."""
+    """The strokes of a batch: in the commands ``rows`` (k,) the kind ``which`` (k,), from the place ``begin`` on. They
+    change the input bits in ``mask``.
+    """
 
     heads: tuple[int, ...]
+    mask: int
     begin: Place
     rows: NDArray[np.intp]
     which: NDArray[np.intp]
     kinds: tuple[Stroke, ...]
 
     @classmethod
-    def of(cls, heads: tuple[int, ...], begin: Place, rows: NDArray[np.intp], strokes: Sequence[Stroke]) -> "Stroked":
+    def of(cls, heads: tuple[int, ...], mask: int, begin: Place, rows: NDArray[np.intp],
+           strokes: Sequence[Stroke]) -> "Stroked":  # fmt: skip
         """From what is carried out in these rows."""
         numbers = {stroke: number for number, stroke in enumerate(dict.fromkeys(strokes))}
         which = np.fromiter(map(numbers.__getitem__, strokes), np.intp, len(strokes))
-        return cls(heads, begin, rows, which, tuple(numbers))
+        return cls(heads, mask, begin, rows, which, tuple(numbers))
 
     def of_kinds(self, values: Sequence[int]) -> Count:
         """A value for each kind as one for each stroke, (k,)."""
@@ -61,6 +66,17 @@ class Stroked:
             parts.append(np.stack((ticks, *np.tile(once[1:], len(begins)))))
         motion = np.concatenate(parts, axis=1)
         return motion[:, np.argsort(motion[0], kind="stable")]
+
+    def inputs(self, starts: Count, before: int) -> Changes:
+        """How the heads' sensors change, from what is latched ``before``; nothing where no head strokes."""
+        parts = [np.array([[0], [before & self.mask]], np.int64)]
+        for number, kind in enumerate(self.kinds):
+            begins = starts[self.rows[self.which == number]]
+            offsets, seen = np.array(kind.inputs, np.int64).T
+            parts.append(np.stack(((begins[:, None] + offsets).ravel(), np.tile(seen, len(begins)))))
+        ticks, seen = np.concatenate(parts, axis=1)
+        order = np.argsort(ticks, kind="stable")
+        return ticks[order], seen[order]
 
     def leave(self, m: Controller, world: PlantFacts, last_row: int) -> None:
         """The heads as they stand after the command ``last_row``."""
@@ -88,7 +104,8 @@ class Batch:
     axis_batches  by axis; None where the axis is a head and ``stroked`` says what it does
     switched  (n,) output bits that are no axis's, during each command
     tools     (n,) the tool in hand, ``holes`` (n,) the hole begun, in each command
-    inputs_before  the input image that the first tick latches; ``still_inputs`` the part that no stroke changes
+    inputs_before  the input image that the first tick latches; ``still_inputs`` the part that nothing changes
+    indexes   the encoders whose index may change, of axes that are not ``stroked``
     """
 
     commands: NDArray[np.void]
@@ -100,6 +117,7 @@ class Batch:
     holes: Count
     inputs_before: int
     still_inputs: int
+    indexes: Sequence[IndexWatch]
 
     @cached_property
     def starts(self) -> Count:
@@ -113,16 +131,14 @@ class Batch:
 
     def inputs(self) -> tuple[Count, Count]:
         """Ticks and input images where the inputs may change, tick 0 first."""
-        parts = [np.array([[0], [self.inputs_before]], np.int64)]
-        for number, kind in enumerate(self.stroked.kinds):
-            begins = self.starts[self.stroked.rows[self.stroked.which == number]]
-            offsets, seen = np.array(kind.inputs, np.int64).T
-            seen |= self.still_inputs
-            parts.append(np.stack(((begins[:, None] + offsets).ravel(), np.tile(seen, len(begins)))))
-        ticks, seen = np.concatenate(parts, axis=1)
-        inside = np.flatnonzero(ticks < self.end)
-        order = inside[np.argsort(ticks[inside], kind="stable")]
-        return ticks[order], seen[order]
+        sources = [self.stroked.inputs(self.starts, self.inputs_before)]
+        sources += [index.changes(self.starts) for index in self.indexes]
+        return together(self.end, self.still_inputs, sources)
+
+    def last_inputs(self) -> int:
+        """The input image that the last tick latches."""
+        _, seen = together(self.end, self.still_inputs, [self.stroked.inputs(self.starts, self.inputs_before)])
+        return int(seen[-1]) | sum(index.latched_last(int(self.ticks[-1])) for index in self.indexes)
 
     @cached_property
     def touches(self) -> list[Touch]:

@@ -78,7 +78,7 @@ class Engine:
         m.elapsed = int(batch.ticks[-1])
         m.tick += batch.end
         m.late = m.served = 0
-        m.inputs = int(batch.inputs()[1][-1])
+        m.inputs = batch.last_inputs()
         m.sensors = (m.inputs ^ m.polarity) & m.sensor_mask
         m.switched = int(batch.switched[-1])
         m.tool, m.hole_begun = int(batch.tools[-1]), int(batch.holes[-1])

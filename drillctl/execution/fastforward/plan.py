@@ -14,6 +14,7 @@ from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.axis_batch import AxisBatch
 from drillctl.execution.fastforward.batch import Batch, Stroked
+from drillctl.execution.fastforward.input_changes import IndexWatch
 from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.strokes import Stroke, Strokes
 from drillctl.execution.fastforward.world import PlantFacts
@@ -47,16 +48,20 @@ def foresee(m: Controller, world: PlantFacts, strokes: Strokes, profile: Profile
     rows, made = rows[: len(known)], [j and j.upto(len(commands)) for j in axis_batches]
     if not len(commands) or not all(j is None or j.timed() for j in made):
         return None
+    mask = strokes.mask if len(rows) else 0
+    indexed = [(index, j) for index, j in enumerate(made) if j is not None and world.index_mask(index)]
+    turning = sum(world.index_mask(index) for index, _ in indexed)
     return Batch(
         commands=commands,
         ticks=_ticks(commands, made, rows, known),
         axis_batches=made,
-        stroked=Stroked.of(heads, strokes.here(), rows, known),
+        stroked=Stroked.of(heads, mask, strokes.here(), rows, known),
         switched=_switched(m, commands),
         tools=_latest(commands["args"][:, 0], commands["opcode"] == Op.NARZEDZIE, m.tool),
         holes=_latest(commands["tag"], _begins_hole(commands), m.hole_begun),
         inputs_before=world.inputs,
-        still_inputs=world.inputs & ~(strokes.mask if len(rows) else 0),
+        still_inputs=world.inputs & ~(mask | turning),
+        indexes=[IndexWatch.of(world, index, axis_batch) for index, axis_batch in indexed],
     )
 
 
@@ -101,7 +106,7 @@ def _clear(m: Controller, world: PlantFacts, index: int, axis_batch: AxisBatch) 
     axis, absolute = m.axes[index], axis_batch.absolute & axis_batch.sent
     allowed = _in_reach(axis, axis_batch) if m.position_known else ~absolute & _within_travel(axis, axis_batch)
     travel = axis.travelled + (axis_batch.position - axis.position) * axis.columns_per_step
-    low, high = world.free(index)
+    low, high = world.free_of_switches(index)
     met = (world.inputs ^ m.polarity) & (axis.limits[1] | axis.limits[-1])
     free = (low < travel * axis.direction_sign) & (travel * axis.direction_sign < high) & (met == 0)
     clear: Rows = (allowed | ~axis_batch.sent) & ((free[1:] & free[:-1]) | (axis_batch.steps == 0))

@@ -140,7 +140,8 @@ def _is_quiet(axis: Axis, sensors: int, position_known: bool) -> bool:
     if axis.clear_mask:
         return sensors & axis.clear_mask != 0 and not axis.seek_mask
     in_range = axis.low <= min(axis.position, axis.target) and max(axis.position, axis.target) <= axis.high
-    return (in_range or not position_known) and not sensors & (axis.seek_mask | axis.limits[axis.direction])
+    stopping = axis.seek_mask | axis.halt_mask | axis.limits[axis.direction]
+    return (in_range or not position_known) and not sensors & stopping
 
 
 def _course(axis: Axis, most: int) -> Course:

@@ -86,7 +86,8 @@ class Strokes:
     def __init__(self, m: Controller, world: PlantFacts):
         self._m, self._world = m, world
         self.heads = m.machine.drill_axes
-        self.mask = sum(1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads)
+        switches = {1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads}
+        self.mask = sum(switches | {m.indexes[head] for head in self.heads})
         self._places: dict[Hashable, Place] = {}
 
     def here(self) -> Place:

@@ -6,6 +6,9 @@ Rule: execution sees no plant; whoever builds the engine hands it one that answe
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 class PlantFacts(Protocol):
     """A plant that always answers alike. Travel is in columns of the phase table since power-up, as the wires have
@@ -21,6 +24,18 @@ class PlantFacts(Protocol):
 
     def free(self, axis: int) -> tuple[float, float]:
         """Between these travels (neither included) no sensor changes and no bit meets the board."""
+
+    def free_of_switches(self, axis: int) -> tuple[float, float]:
+        """Between these travels the same, but that the index of the axis's encoder may change."""
+
+    def index_mask(self, axis: int) -> int:
+        """The input bit of the index of an axis's encoder, 0 where it has none."""
+
+    def index_levels(self, axis: int, travel: int, turns: NDArray[np.int64], column: NDArray[np.int64],
+                     ) -> NDArray[np.int64]:  # fmt: skip
+        """That bit after each of n turns, (n,), from the ``travel`` before them. ``turns`` (n,) are columns put out in
+        each: 1, 0 or -1, as the wires have it; ``column`` (n,) is the one that stands then, from 0.
+        """
 
     def follow(self, axis: int, travel: int) -> None:
         """The rotor has moved, and is where so many columns put it, within ``free``."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from drillctl.machine import AxisTable, Sensor
 from drillctl.machine.model import MM_PER_INCH, Surroundings
-from drillctl.plant.carriage import Carriage, Switch
+from drillctl.plant.carriage import Carriage, Pulses, Switch
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.kernel import Kernel
 from drillctl.plant.faults import Faults
@@ -94,8 +94,8 @@ class FaultySwitch(Switch):
 class LooseCarriage(Carriage):
     """A carriage on a belt with play: law.py moves it once the play is used up, else it stays where it was left."""
 
-    def __init__(self, table: AxisTable, sensors: Sequence[FaultySwitch], play_mm: float):
-        super().__init__(table, sensors)
+    def __init__(self, table: AxisTable, sensors: Sequence[FaultySwitch], play_mm: float, pulses: Pulses | None = None):
+        super().__init__(table, sensors, pulses)
         self.switches = sensors
         self.half_play = play_mm * table.steps_per_mm / 2
 

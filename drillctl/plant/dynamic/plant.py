@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
+from drillctl.plant.carriage import Pulses
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
@@ -154,4 +155,6 @@ def _belt(machine: Machine, index: int, known_faults: Faults, seed: int) -> Loos
         for sensor in machine.sensors
         if sensor.axis == index
     ]
-    return LooseCarriage(table, switches, known_faults.of("loose", table.name) or 0.0)
+    encoder = machine.index_of(index)
+    pulses = None if encoder is None else Pulses(encoder, known_faults.of("stuck", encoder.name))
+    return LooseCarriage(table, switches, known_faults.of("loose", table.name) or 0.0, pulses)
