@@ -132,7 +132,7 @@ MACHINE: list[Row] = [
     ("[drill]", f"{INDEX}bit = 4\nwidth = 40\n[drill]", "index pulse: width 40 leaves no gap in a turn of 40 steps",
      f"{INDEX}bit = 4\nwidth = 40"),
     ("[drill]", f"{INDEX}bit = 4\n{INDEX.replace('pulse', 'other')}bit = 5\n[drill]",
-     "index other: x has an index already", f"{INDEX}bit = 4\n{INDEX.replace('pulse', 'other')}"[:-1]),
+     "index other: x has an index already", f"{INDEX}bit = 4\n[[index]]\nname = 'other'\naxis = 'x'"),
     ("[drill]", f"{INDEX.replace('pulse', 'z_top')}bit = 4\n[drill]",
      "index z_top: a sensor or an input has this name already", "[[index]]\nname = 'z_top'"),
     ('do = "seek"', 'do = "index"', "homing: index needs an [[index]], and x has none", 'do = "index"\naxes = ["x"]'),
