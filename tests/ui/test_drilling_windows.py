@@ -96,8 +96,20 @@ def test_many_axes_stand_on_further_pages() -> None:
     many = replace(VIEW, axes=tuple(replace(VIEW.axes[0], name=f"a{n}") for n in range(8)), lost_steps=None)
     pages = machine_pages(many, HALF, BOARD, 48, 25)
     assert len(pages) > 1 and all(any(f"A{n}" in "\n".join(texts(page)) for page in pages) for n in range(8))
-    motors = Motors().pages(many, Speeds(), 108, 11)
+    motors = Motors().pages(many, Speeds(), 108, 8)
     assert len(motors) == 3 and "A7" in "\n".join(texts(motors[-1]))
+
+
+def test_many_motors_have_a_line_each_where_their_tables_have_no_room() -> None:
+    axes = [replace(VIEW.axes[0], name=f"a{n}", behind_steps=0.5 * n, top_state=10) for n in range(8)]
+    axes[3] = replace(axes[3], state=-10)
+    (page,) = Motors().pages(replace(VIEW, axes=tuple(axes), lost_steps=None), Speeds(), 108, 9)
+    heading, *lines = texts(page)
+    assert [line.split()[0] for line in lines] == [f"A{n}" for n in range(8)] and max(map(len, lines)) <= 108
+    assert lines[3].startswith("A3  7 -10 [1a]") and "█" * 10 in lines[3] and lines[3].endswith("....●.|...... -1.50")
+    assert len({line.index("/s") for line in lines}) == 1 == len({line.index("|") for line in lines[2:]})
+    assert heading.index("Rotor") == lines[0].index("......")
+    assert len(Motors().pages(replace(VIEW, axes=tuple(axes), lost_steps=None), Speeds(), 70, 9)) > 1
 
 
 def test_tools_are_told_with_their_holes_their_time_and_a_mark_on_the_one_that_is_in() -> None:

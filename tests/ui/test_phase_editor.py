@@ -343,7 +343,8 @@ def test_where_there_is_room_the_saved_table_stands_beside_the_changed_one(tried
     press(tried[0], " ", "f5")
     row = next(row for row in text_of(tried[0], (158, 45)).split("\n") if "no step lost" in row)
     assert row.index("no step lost") < row.index("LOST 1 of 30 steps")
-    assert "saved: rotor" in text_of(tried[0], (158, 45)) and "What it does" not in text_of(tried[0], (80, 20))
+    assert "rotor, in columns: saved, now" in text_of(tried[0], (158, 45))
+    assert "What it does" not in text_of(tried[0], (80, 20))
 
 
 def test_a_table_that_cannot_be_tried_is_refused_in_words(tried: tuple[PhaseEditor, Trial], shell: Shell) -> None:

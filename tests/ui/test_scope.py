@@ -103,6 +103,14 @@ def test_numbers_stand_in_lanes_and_the_values_at_the_right_follow_the_cursor(sq
     assert "X -1, column 11, -1" in program.text()
 
 
+def test_a_place_is_a_curve_from_far_away_too_and_a_column_is_not(square: TraceFile) -> None:
+    program = Scoped(square)
+    program.press("w")
+    place, column = program.row("x.position")[12:72], program.row("x.column")[12:72]
+    assert len(set(place) & set("▁▂▃▄▅▆▇█")) > 4 and "▒" not in place
+    assert "▒▒▒" in column and not set(column) & set("▂▃▄▅▆▇")
+
+
 def test_the_phase_table_stands_beside_with_the_column_of_that_tick(square: TraceFile) -> None:
     program = Scoped(square, (160, 50))
     program.press(*["right"] * 7)

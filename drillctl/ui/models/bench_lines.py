@@ -15,6 +15,7 @@ from drillctl.viewmodel.bench import BenchReport, CyclePath, MotorRun
 Size = tuple[int, int]
 Bounds = tuple[float, float]
 LABEL_COLUMNS = 6  # left of a curve
+SPACE = 2  # columns between two charts
 LEAST_HALF = 24  # columns from which two charts stand side by side
 NOT_TRIED = N_("F5 tries this table on motors of a bench; the machine does not move.")
 CHANGED_SINCE = N_("Changed since the last trial: F5 tries it again.")
@@ -57,30 +58,35 @@ def path_charts(path: CyclePath, saved: CyclePath, size: Size, plain: bool) -> l
     """
     if not path.columns:
         return [[_("no motor of the machine in use has windings for this table")]]
-    columns, rows = size
-    if saved == path or not saved.columns:
-        return _path_charts(path, "", size, plain)
-    half = (columns - 2) // 2
-    before = _path_charts(saved, _("saved"), (half, rows), plain)
-    return side_by_side(before, _path_charts(path, _("now"), (half, rows), plain), half + 2)
-
-
-def _path_charts(path: CyclePath, title: str, size: Size, plain: bool) -> list[Line]:
-    places = [0.0, *(column.place for column in path.columns)]
-    unit = path.torque_mnm or 1.0
-    torques = [column.torque * unit for column in path.columns]
+    shown = [path] if saved == path or not saved.columns else [saved, path]
+    each = (size[0] - SPACE) // len(shown) if len(shown) > 1 else size[0], size[1]
+    which = f": {_('saved')}, {_('now')}" if len(shown) > 1 else ""
     quantity = _("torque, mN m") if path.torque_mnm else _("torque, windings")
-    heading = f"{title}: " if title else ""
-    return [
-        *_chart(heading + _("rotor, in columns"), _held(places), _spanned(0.0, *places, path.wanted), size, plain),
-        *_chart(heading + quantity, _held(torques), (0.0, max(2 * unit, *torques)), size, plain),
-    ]
+    places, torques = ([chart(one, each, plain) for one in shown] for chart in (_places, _torques))
+    lines: list[Line] = []
+    for caption, charts in ((_("rotor, in columns"), places), (quantity, torques)):
+        drawn = charts[0] if len(charts) == 1 else side_by_side(charts[0], charts[1], each[0] + SPACE)
+        lines += [[("dark", caption + which)] if which else _caption(caption), *drawn]
+    return lines
 
 
-def _chart(
-    title: str, values: Sequence[float], bounds: Bounds, size: Size, plain: bool, look: str = "lit"
-) -> list[Line]:
-    """A curve with a title above it and its bounds to its left."""
+def _places(path: CyclePath, size: Size, plain: bool) -> list[Line]:
+    values = [0.0, *(column.place for column in path.columns)]
+    return _curve(_held(values), _spanned(0.0, *values, path.wanted), size, plain)
+
+
+def _torques(path: CyclePath, size: Size, plain: bool) -> list[Line]:
+    unit = path.torque_mnm or 1.0
+    values = [column.torque * unit for column in path.columns]
+    return _curve(_held(values), (0.0, max(2 * unit, *values)), size, plain)
+
+
+def _caption(text: str) -> Line:
+    return [("dark", f"{'':{LABEL_COLUMNS}}{text}")]
+
+
+def _curve(values: Sequence[float], bounds: Bounds, size: Size, plain: bool, look: str = "lit") -> list[Line]:
+    """A curve with its bounds to its left."""
     columns, rows = size
     drawn = curve_rows(values, max(columns - LABEL_COLUMNS, 1), rows, plain, bounds)
     labels = [
@@ -88,13 +94,12 @@ def _chart(
         *[" " * LABEL_COLUMNS] * (rows - 2),
         f"{bounds[0]:{LABEL_COLUMNS - 1}.4g} ",
     ]
-    lines: list[Line] = [[("dark", label), (look, row)] for label, row in zip(labels, drawn, strict=True)]
-    return [[("dark", f"{'':{LABEL_COLUMNS}}{title}")], *lines]
+    return [[("dark", label), (look, row)] for label, row in zip(labels, drawn, strict=True)]
 
 
 def chart(title: str, values: Sequence[float], size: Size, plain: bool) -> list[Line]:
     """A curve between its own extremes, with a title above it. ``size``: columns with those of its bounds, and rows."""
-    return _chart(title, values, _spanned(*values), size, plain)
+    return [_caption(title), *_curve(values, _spanned(*values), size, plain)]
 
 
 def _spanned(*values: float) -> Bounds:
@@ -142,9 +147,9 @@ def bench_lines(report: BenchReport | None, saved: BenchReport | None, size: Siz
         return _bench(report, _("now"), size, plain, _bounds(report))
     if columns < 2 * LEAST_HALF:
         return [*_bench(report, _("now"), size, plain, _bounds(report)), [("title", _("saved"))], *_results(saved)]
-    half, bounds = (columns - 2) // 2, _bounds(saved, report)
+    half, bounds = (columns - SPACE) // 2, _bounds(saved, report)
     before = _bench(saved, _("saved"), (half, rows), plain, bounds)
-    return side_by_side(before, _bench(report, _("now"), (half, rows), plain, bounds), half + 2)
+    return side_by_side(before, _bench(report, _("now"), (half, rows), plain, bounds), half + SPACE)
 
 
 def _bench(report: BenchReport, title: str, size: Size, plain: bool, bounds: Bounds) -> list[Line]:
@@ -155,8 +160,8 @@ def _bench(report: BenchReport, title: str, size: Size, plain: bool, bounds: Bou
     other: list[Line] = [] if report.in_use else [[("dark", _("no motor here has this table; tried on one that fits"))]]
     behind = ngettext("lag in steps: {motor}, {count:+d} step", "lag in steps: {motor}, {count:+d} steps", worst.steps)
     caption = behind.format(motor=worst.motor.upper(), count=worst.steps)
-    chart = _chart(caption, worst.behind, bounds, size, plain, "danger" if worst.lost else "good")
-    return [heading, *results, *kind, *other, *chart]
+    lag = _curve(worst.behind, bounds, size, plain, "danger" if worst.lost else "good")
+    return [heading, *results, *kind, *other, _caption(caption), *lag]
 
 
 def _results(report: BenchReport) -> list[Line]:

@@ -1,7 +1,8 @@
 """The motors side by side: phase table with its column, ramp, speed, and where the rotor of a simulated motor is.
 
 Rule: the wires that are on stand in brackets, in the column that is out too (machine_lines.py); the forcing wires'
-pulses are capital X, so that nothing is told by colour alone. Motors for which there is no room stand on further pages.
+pulses are capital X, so that nothing is told by colour alone. Where there is no room for all tables, each motor has a
+line; where there is none for all lines, the rest stands on further pages.
 """
 
 from itertools import zip_longest
@@ -9,7 +10,7 @@ from typing import NamedTuple
 
 from drillctl.language.words import _, ngettext
 from drillctl.ui.models.speeds import Speeds
-from drillctl.ui.screens.machine_lines import phase_table
+from drillctl.ui.screens.machine_lines import phase_line, phase_table
 from drillctl.ui.widgets.text_graphics import bar, strip
 from drillctl.ui.widgets.texts import Line, width_of
 from drillctl.viewmodel.console import AxisView, MachineView
@@ -17,6 +18,8 @@ from drillctl.viewmodel.console import AxisView, MachineView
 BLOCK_COLUMNS = 34  # of a motor, at least
 LABEL_COLUMNS = 9
 BAR_COLUMNS = 16
+SHORT_COLUMNS = 10  # of a bar in the line of a motor
+SPEED_COLUMNS = SHORT_COLUMNS + 8  # there, with the number
 REACH_STEPS = 6  # of the scale that the rotor is shown on, to either side
 MARK, PLAIN_MARK = "●", "o"
 
@@ -35,6 +38,8 @@ class Motors:
         widest = max((width + 1 for block in blocks for width in block.widths), default=1)
         beside = max(min(columns // max(BLOCK_COLUMNS, widest), len(blocks)), 1)
         below = max(rows // max(max((len(block.lines) for block in blocks), default=1), 1), 1)
+        if len(blocks) > beside * below and (table := _table(blocks, columns, rows)):
+            return [table]
         bands = [_side_by_side(blocks[i : i + beside], columns // beside) for i in range(0, len(blocks), beside)]
         return [[line for band in bands[i : i + below] for line in band] for i in range(0, len(bands), below)] or [[]]
 
@@ -46,30 +51,61 @@ class Motors:
         kept = self._kept.get(axis.name)
         if kept is None or kept[0] != shown:
             lines = _lines(axis, lost, values, most, self._plain)
-            kept = self._kept[axis.name] = shown, Block(lines, [*map(width_of, lines)])
+            rest = _rest(axis, lost, values, most, self._plain)
+            kept = self._kept[axis.name] = shown, Block(lines, [*map(width_of, lines)], phase_line(axis), rest)
         return kept[1]
 
 
 class Block(NamedTuple):
-    """The lines of a motor, and how many columns each takes."""
+    """The lines of a motor, and how many columns each takes; and its line in a table of all motors, in two parts."""
 
     lines: list[Line]
     widths: list[int]
+    phases: Line
+    rest: Line
 
 
 def _lines(axis: AxisView, lost: int, values: list[float], most: float, plain: bool) -> list[Line]:
-    ramp = bar(abs(axis.state) / axis.top_state if axis.top_state else 0.0, BAR_COLUMNS, plain)
-    curve, speed = strip(values, most, BAR_COLUMNS, plain), values[-1] if values else 0.0
+    rotor = _rotor(axis, lost, plain)
     return [
         *phase_table(axis),
-        [("title", f"{_('Ramp'):{LABEL_COLUMNS}}"), ("good", ramp)],
-        [("title", f"{_('Speed'):{LABEL_COLUMNS}}"), ("good", curve), f" {speed:.0f}/s"],
-        *_rotor(axis, lost, plain),
+        [_label(_("Ramp")), _ramp(axis, BAR_COLUMNS, plain)],
+        [_label(_("Speed")), *_speed(values, most, BAR_COLUMNS, plain)],
+        *([[_label(_("Rotor")), *rotor]] if rotor else []),
     ]
 
 
-def _rotor(axis: AxisView, lost: int, plain: bool) -> list[Line]:
-    """The rotor on a scale whose middle is the place where it is thought to be; none on a real port."""
+def _rest(axis: AxisView, lost: int, values: list[float], most: float, plain: bool) -> Line:
+    """Ramp, speed and rotor of a motor behind its phases."""
+    speed = _speed(values, most, SHORT_COLUMNS, plain)
+    space = " " * max(SPEED_COLUMNS - width_of(speed), 1)
+    return [" ", _ramp(axis, SHORT_COLUMNS, plain), " ", *speed, space, *_rotor(axis, lost, plain)]
+
+
+def _table(blocks: list[Block], columns: int, rows: int) -> list[Line]:
+    """A line for each motor below a heading; nothing where columns or rows do not suffice."""
+    width = max(width_of(block.phases) for block in blocks)
+    heading = f"{'':{width}} {_('Ramp'):{SHORT_COLUMNS}} {_('Speed'):{SPEED_COLUMNS}}{_('Rotor')}"
+    lines: list[Line] = [[("title", heading)]]
+    lines += [[*block.phases, " " * (width - width_of(block.phases)), *block.rest] for block in blocks]
+    return lines if len(lines) <= rows and max(map(width_of, lines)) <= columns else []
+
+
+def _label(word: str) -> tuple[str, str]:
+    return "title", f"{word:{LABEL_COLUMNS}}"
+
+
+def _ramp(axis: AxisView, columns: int, plain: bool) -> tuple[str, str]:
+    return "good", bar(abs(axis.state) / axis.top_state if axis.top_state else 0.0, columns, plain)
+
+
+def _speed(values: list[float], most: float, columns: int, plain: bool) -> Line:
+    """The last speeds as a chart, and the newest as a number."""
+    return [("good", strip(values, most, columns, plain)), f" {values[-1] if values else 0.0:.0f}/s"]
+
+
+def _rotor(axis: AxisView, lost: int, plain: bool) -> Line:
+    """The rotor on a scale whose middle is the place where it is thought to be; nothing on a real port."""
     if axis.behind_steps is None:
         return []
     off = round(-axis.behind_steps, 2) + 0.0  # never -0.00
@@ -78,7 +114,7 @@ def _rotor(axis: AxisView, lost: int, plain: bool) -> list[Line]:
     scale[REACH_STEPS], scale[at] = "|", PLAIN_MARK if plain else MARK
     role = "danger" if lost else "body"
     lost_text = ngettext(", {count} lost", ", {count} lost", lost).format(count=lost) if lost else ""
-    return [[("title", f"{_('Rotor'):{LABEL_COLUMNS}}"), (role, "".join(scale)), f" {off:+.2f}{lost_text}"]]
+    return [(role, "".join(scale)), f" {off:+.2f}{lost_text}"]
 
 
 def _side_by_side(blocks: list[Block], columns: int) -> list[Line]:

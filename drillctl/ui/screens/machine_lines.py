@@ -38,7 +38,8 @@ class Phases(Protocol):
 def phase_line(axis: Phases) -> Line:
     """The phases of an axis in one line: column, ramp state, and its wires."""
     wires = [lamp(name, lit) for name, _row, lit in axis.wires]
-    return [("title", f"{axis.name.upper():2} "), f"{axis.column:2} {axis.state:+d} ", *wires]
+    state = f"{axis.state:+{len(str(axis.top_state)) + 1}d}"  # as wide in every state
+    return [("title", f"{axis.name.upper():2} "), f"{axis.column:2} {state} ", *wires]
 
 
 def phase_table(axis: Phases) -> list[Line]:

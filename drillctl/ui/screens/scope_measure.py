@@ -5,10 +5,16 @@ from fnmatch import fnmatchcase
 from glob import escape
 
 from drillctl.language.words import _, ngettext
-from drillctl.viewmodel.scope import ScopeSource
+from drillctl.viewmodel.scope import ScopeSignal, ScopeSource
 
 COMMANDS = "kmd"  # the group of the signal that names the command in execution
 POSITION = "position"  # the name of each axis's signal that counts its steps
+PLANT = "plant"  # the group of where the simulated carriages are
+
+
+def is_place(signal: ScopeSignal) -> bool:
+    """Whether a signal is a place, which no tick changes by more than a step."""
+    return signal.name == POSITION or signal.group == PLANT
 
 
 def between(source: ScopeSource, marks: Sequence[tuple[str, int]], cursor: int) -> str:

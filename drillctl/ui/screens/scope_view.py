@@ -14,7 +14,7 @@ from drillctl.language.words import N_, _, ngettext, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
 from drillctl.ui.screens.machine_lines import phase_line, phase_table
 from drillctl.ui.screens.scope_curve import curve_lines
-from drillctl.ui.screens.scope_measure import between
+from drillctl.ui.screens.scope_measure import between, is_place
 from drillctl.ui.screens.scope_wave import SIGNS, fitted, number_line, ruler, wire_line, word_line
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.texts import Line, packed
@@ -168,7 +168,7 @@ def _wave(source: ScopeSource, look: ScopeLook, edges: Ints, row: int) -> str:
         return source.shown(row, value, int(known_edges[column + 1]) - 1)
 
     if shape == "count":
-        return number_line(strip, shown, exact, look.plain) + unknown
+        return number_line(strip, shown, exact or is_place(source.signals()[row]), look.plain) + unknown
     return word_line(strip, shown, True, look.plain) + unknown
 
 

@@ -2,7 +2,8 @@
 
 Rule: what can't be drawn is said, never left out: a column in which a wire changed more than once shows a busy sign, a
 number for which there is no room shows a dot, never some of its digits. Numbers that change too often for digits are a
-curve, but only where every tick has its column: a curve of some of the ticks could show what was not there.
+curve, but only where every tick has its column, or where they change by a step a tick at most, as a place does: a curve
+of some of the ticks of any other could show what was not there.
 """
 
 from collections.abc import Callable, Sequence
@@ -61,12 +62,12 @@ def word_line(strip: Strip, shown: Callable[[int, int], str], may_cut: bool, pla
     return "".join(parts)
 
 
-def number_line(strip: Strip, shown: Callable[[int, int], str], exact: bool, plain: bool = False) -> str:
-    """Numbers as ``word_line`` has them; a curve where there is no room for most of them, and ``exact``."""
+def number_line(strip: Strip, shown: Callable[[int, int], str], curved: bool, plain: bool = False) -> str:
+    """Numbers as ``word_line`` has them; a curve where there is no room for most of them, and it may be ``curved``."""
     line = word_line(strip, shown, may_cut=False, plain=plain)
     signs = SIGNS[plain]
     without_digits = sum(map(line.count, (signs.edge, signs.busy, signs.hidden)))
-    return level_line(strip, plain) if exact and 2 * without_digits > len(line) else line
+    return level_line(strip, plain) if curved and 2 * without_digits > len(line) else line
 
 
 def level_line(strip: Strip, plain: bool = False) -> str:
