@@ -10,7 +10,6 @@ from drillctl.cli import main, parser
 from drillctl.cli.examples import EXAMPLES
 
 ROOT = Path(__file__).resolve().parents[2]
-QUICK = ("drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "ports", "plot")
 QUICK = (
     "drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "parameters", "ports",
     "plot",
