@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from drillctl.language import words
 from drillctl.ui.models.board_map import CLOSEST, BoardMap, marks_mm, round_mm
 from drillctl.ui.models.board_work import BoardWork, Work
-from drillctl.ui.pcb_drill.board_view import BoardPicture
+from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.viewmodel.console import ToolView
 from drillctl.viewmodel.records import Progress
 from tests.ui.fake_console import BOARD, FAULT, VIEW, FakeConsole, Program

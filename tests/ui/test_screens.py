@@ -10,11 +10,11 @@ import urwid
 from drillctl.language import words
 from drillctl.language.number_text import pair_mm
 from drillctl.ui.models.board_work import Work
-from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.drilling_windows import FIRST_WORDS
 from drillctl.ui.pcb_drill.files import CHOICES, Files
 from drillctl.ui.pcb_drill.side_window import side_pages
+from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.jog_controls import JOG_SIZES, MM, STEPS
 from drillctl.ui.widgets.keys import STOP
 from drillctl.ui.widgets.texts import Line

@@ -1,10 +1,9 @@
 """The screens and menus of the PCB drill, and of every machine that drills a board.
 
-    drilling.py    the machine at work: jog, base, start, hold, stop       board_view.py   the picture of the board
+    drilling.py    the machine at work: its keys (what they do: screens/board_controls.py)
     drilling_windows.py its windows, by the size of the terminal
-    board_layers.py what lies in each cell of that picture                 rulers.py       what stands around it
     window_lines.py lines that the machine's window shares in its forms
-    side_window.py the paper's window at the right of it                   unfinished.py   jobs that were interrupted
+    side_window.py the paper's window at the right of it
     machine_window.py the same with large figures, where there is room     tool_list.py    the tools of the board
     motor_strip.py the motors side by side
     files.py       find a drill file, see what it says, place it           browser.py      its list of files
@@ -22,8 +21,8 @@ from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.pcb_drill.next_step import next_step
-from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import MachineScreens
+from drillctl.ui.screens.unfinished import offer_unfinished
 
 PCB_DRILL = MachineScreens(
     recognises=lambda view: True,

@@ -12,12 +12,12 @@ import urwid
 from drillctl.language.words import N_, _
 from drillctl.ui.models.board_work import BoardWork
 from drillctl.ui.models.speeds import Speeds
-from drillctl.ui.pcb_drill.board_layers import PlaceMm
-from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.machine_window import machine_pages
 from drillctl.ui.pcb_drill.motor_strip import Motors
 from drillctl.ui.pcb_drill.side_window import SideWindow, side_pages
 from drillctl.ui.pcb_drill.tool_list import tool_lines
+from drillctl.ui.screens.board_layers import head_places
+from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.screens.event_list import EventList
 from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.sizes import Layout
@@ -81,7 +81,7 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
             self._motors.draw_anew()
         self._tools.show(timeless, progress, board)
         self._events.see(view)
-        head, real = _head(view)
+        head, real = head_places(view)
         self.picture.show(board, work, view.tool, head, real, view.moving)
 
     def turn_page(self) -> None:
@@ -119,15 +119,3 @@ class DrillingWindows(urwid.WidgetWrap[urwid.Widget]):
         self, view: MachineView, _progress: object, board: BoardView | None, columns: int, _rows: int
     ) -> Paged:
         return [tool_lines(view, board, self._work.work.done, columns, self._plain)]
-
-
-def _head(view: MachineView) -> tuple[PlaceMm | None, PlaceMm | None]:
-    """Where the bit is thought to be, and where the simulated carriages have it; None for what is not known."""
-    if len(view.axes) < 2:
-        return None, None
-    x, y = view.axes[:2]
-    thought = x.position_mm, y.position_mm
-    if x.behind_steps is None or y.behind_steps is None:
-        return thought, None
-    behind_mm = x.behind_steps / x.steps_per_mm, y.behind_steps / y.steps_per_mm
-    return thought, (thought[0] - behind_mm[0], thought[1] - behind_mm[1])

@@ -21,8 +21,8 @@ from drillctl.ui.pcb_drill.browser import Browser
 from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.files_layout import FilesLayout
 from drillctl.ui.pcb_drill.job_forms import ask_how_to_drill, ask_offset, ask_panel, choose_format, type_format
-from drillctl.ui.pcb_drill.unfinished import offer_unfinished
 from drillctl.ui.screens.shell import Shell
+from drillctl.ui.screens.unfinished import offer_unfinished
 from drillctl.ui.widgets.dialogs import Answered
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.texts import Size

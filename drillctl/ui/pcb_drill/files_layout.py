@@ -13,8 +13,8 @@ import urwid
 
 from drillctl.language.words import N_, _
 from drillctl.ui.pcb_drill.board_facts import board_lines, glance_line, is_warning, option_lines, placing_lines
-from drillctl.ui.pcb_drill.board_view import BoardPicture
 from drillctl.ui.pcb_drill.browser import Browser, preview
+from drillctl.ui.screens.board_view import BoardPicture
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.panel import titled
 from drillctl.ui.widgets.texts import Icon, Size, Text, boxed

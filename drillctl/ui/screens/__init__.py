@@ -13,6 +13,9 @@
                      its waves in scope_wave.py, its curves in scope_curve.py, what is measured in scope_measure.py
     signals.py       every input and output, live             port.py           the port, tested and chosen
     plant.py         ideal or dynamic motors, faults and seed of the simulated machine
+    board_controls.py what is asked of a machine that drills boards; board_view.py   the picture of the board
+    board_layers.py  what lies in each cell of that picture   rulers.py         what stands around it
+    unfinished.py    jobs that were interrupted, offered
     event_list.py    what happened at the machine
     reader.py        a text to be read
     machine_lines.py phases and tools as lines of text        jog_controls.py   jog keys, and the line that answers

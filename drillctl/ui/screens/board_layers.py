@@ -16,7 +16,7 @@ from drillctl.ui.models.board_map import BoardMap, Dots, Places
 from drillctl.ui.models.board_work import Work
 from drillctl.ui.widgets.dots import BRAILLE, braille_cells
 from drillctl.ui.widgets.texts import Line
-from drillctl.viewmodel.console import HolesView
+from drillctl.viewmodel.console import HolesView, MachineView
 
 PlaceMm = tuple[float, float]
 ROUTE_HOLES = 60  # of the way to go so many holes are joined: more of them would hide the board
@@ -164,3 +164,15 @@ class Layers:
 def _cell(placed: BoardMap, place_mm: PlaceMm | None) -> Dots:
     places: Places = np.array([place_mm]) if place_mm else np.zeros((0, 2))
     return placed.cells(places)
+
+
+def head_places(view: MachineView) -> tuple[PlaceMm | None, PlaceMm | None]:
+    """Where the bit is thought to be, and where the simulated carriages have it; None for what is not known."""
+    if len(view.axes) < 2:
+        return None, None
+    x, y = view.axes[:2]
+    thought = x.position_mm, y.position_mm
+    if x.behind_steps is None or y.behind_steps is None:
+        return thought, None
+    behind_mm = x.behind_steps / x.steps_per_mm, y.behind_steps / y.steps_per_mm
+    return thought, (thought[0] - behind_mm[0], thought[1] - behind_mm[1])

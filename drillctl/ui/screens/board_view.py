@@ -12,8 +12,8 @@ import urwid
 from drillctl.language.words import N_, _
 from drillctl.ui.models.board_map import BoardMap
 from drillctl.ui.models.board_work import Work
-from drillctl.ui.pcb_drill.board_layers import Head, Layers, PlaceMm
-from drillctl.ui.pcb_drill.rulers import (
+from drillctl.ui.screens.board_layers import Head, Layers, PlaceMm
+from drillctl.ui.screens.rulers import (
     RULER_COLUMNS,
     RULER_ROWS,
     SCALE_ROWS,
