@@ -97,13 +97,32 @@ class Driver(Protocol):
     def flush(self, image: int) -> None:
         """Puts the output image out, within LONGEST_WAIT_S. Once a tick, after everything else, changed or not."""
 
-    def safe(self) -> None:
+    def safe(self, image: int = SAFE_IMAGE) -> None:
         """Puts the whole safe image out, whatever came before, within LONGEST_WAIT_S, from any process that inherited
-        the driver. Called on every way out; more than once is allowed.
+        the driver. Called on every way out; more than once is allowed. A machine whose outputs are kept, or on, after
+        an emergency stop has another ``image`` than SAFE_IMAGE.
         """
 
-    def close(self) -> None:
-        """Gives the port back. The outputs are safe afterwards, where the port still answers."""
+    def close(self, image: int = SAFE_IMAGE) -> None:
+        """Gives the port back. The outputs have the safe ``image`` afterwards, where the port still answers."""
+
+
+def make_safe(port: Driver, image: int) -> None:
+    """Puts the safe image out. A driver that knows no image but SAFE_IMAGE (one of another distribution may not) is
+    not given that one. Raises OSError.
+    """
+    if image == SAFE_IMAGE:
+        port.safe()
+    else:
+        port.safe(image)
+
+
+def close_port(port: Driver, image: int) -> None:
+    """Gives the port back with the safe image out, as ``make_safe``. Raises OSError."""
+    if image == SAFE_IMAGE:
+        port.close()
+    else:
+        port.close(image)
 
 
 @runtime_checkable

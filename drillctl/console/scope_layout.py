@@ -38,7 +38,7 @@ LANDMARKS: dict[Find, Landmark] = {
 def lanes_of(machine: Machine, signals: Sequence[Signal]) -> list[Row]:
     """The lanes that can be drawn of these signals, from top to bottom."""
     index = {signal.name: number for number, signal in enumerate(signals)}
-    layout = [var for var in vcd_layout(machine) if var.part is None and var.source in index]
+    layout = [var for var in vcd_layout(machine) if var.part is None and var.bits is None and var.source in index]
     shown = {var.source for var in layout}
     command = [(ScopeSignal(KMD, "command", "words"), Lane(index["kmd"]))] if "kmd" in index else []
     rest = [signal for signal in signals if signal.kind != "word" and signal.name not in {*shown, "kmd"}]

@@ -70,6 +70,7 @@ def machine_view(
         ),
         sensors=tuple((s.name, bool(int(status["sensors"]) >> s.bit & 1)) for s in machine.input_lines),
         outputs=tuple((name, bool(image >> bit & 1)) for name, bit in machine.outputs),
+        words=_words(machine, image, int(status["sensors"])),
         lost_steps=tuple(status["lost"].tolist()[: len(machine.axes)]) if link.measured else None,
         late=int(status["late"]),
         late_worst_ms=int(status["late_worst_ns"]) / 1e6,
@@ -81,6 +82,11 @@ def machine_view(
         paused=link.gate.paused,
     )
     return _without_ticker(view) if link.lost() else view
+
+
+def _words(machine: Machine, image: int, sensors: int) -> tuple[tuple[str, int], ...]:
+    shown = [(word.name, word.value(image)) for word in machine.output_words]
+    return (*shown, *((word.name, word.value(sensors)) for word in machine.input_words))
 
 
 def plant_in_words(plant: PlantChoice) -> str:

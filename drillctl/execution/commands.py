@@ -141,8 +141,15 @@ def _switch(m: Controller, command: Command) -> int:
 
 
 def _spindle(m: Controller, command: Command) -> int:
-    """On a machine without a spindle output the drill's motor has a switch of its own."""
-    m.switched = with_bits(m.switched, m.spindle_mask, command.args[0] > 0)
+    """On a machine without a spindle output the drill's motor has a switch of its own; one that says the speed has a
+    word for it.
+    """
+    rev_min = command.args[0]
+    if m.speed_word is not None:
+        if rev_min > m.speed_word.greatest:
+            return Fault.BAD_COMMAND
+        m.switched = m.speed_word.put(m.switched, rev_min)
+    m.switched = with_bits(m.switched, m.spindle_mask, rev_min > 0)
     return Fault.NONE
 
 

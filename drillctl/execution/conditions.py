@@ -33,6 +33,7 @@ from drillctl.execution.controller import Controller, Stage
 from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
 from drillctl.kmd import Fault, Reaction
 from drillctl.kmd.queue import RequestBit
+from drillctl.machine.levels import ESTOP, FAULT
 
 IDLE, ZERO_ONLY, RUNNING, HOLDING, STOPPING, FAULT_STOPPING, RETURN_STOPPING, RETURNING, LATCHED = Stage
 Action = Callable[[Controller], None]
@@ -78,6 +79,7 @@ def raise_fault(m: Controller, fault: int) -> None:
     if m.fault == Fault.NONE:
         m.fault = fault
         m.fault_kept = True
+    m.stopped_by = max(m.stopped_by, ESTOP if fault == Fault.EMERGENCY_STOP else FAULT)
     in_place = event != Event.FAULT_FREEZE or stops.stops_dead_in_place(m)
     stops.keep_position(m, spec.position_kept and in_place)
     m.zero_first = m.zero_first or fault in m.only_zero_after
@@ -113,7 +115,9 @@ def serve_inputs(m: Controller) -> bool:
 
 
 def _finish_stop(m: Controller) -> None:
-    """At rest after a stop: the outputs beside the axes go off. A return that was cut short has lost the position."""
+    """At rest after a stop: the outputs beside the axes take their levels. A return that was cut short has lost the
+    position.
+    """
     stops.finish_stop(m)
     _bind_to_zero(m)
 

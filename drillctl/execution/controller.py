@@ -10,7 +10,8 @@ from drillctl.execution.line import Line
 from drillctl.kmd import Command, CommandQueue, Condition, Fault, Mailbox
 from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine
-from drillctl.ports import SAFE_IMAGE, Driver
+from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_WANTED, STOP, masks_at
+from drillctl.ports import Driver
 
 
 class Stage(IntEnum):
@@ -49,6 +50,9 @@ class Controller:
     homing_fault  why the current row of the homing table could not begin
     return_rows the axes of the return to zero, in the order in which they go
     switched  output bits that are no axis's: spindle and the like
+    levels    by event (machine/levels.py) the bits of these that it keeps, and those that it sets
+    speed_word  where the spindle's speed is put out, in rev/min; None on a machine that only switches it
+    stopped_by  the gravest of these events since the last acknowledgement: STOP, FAULT or ESTOP
     elapsed   ticks of the current command, hold not counted
     underruns wakes in which a job's next command was missing
     running   sequence of the command that was current in this tick, 0 = none
@@ -74,6 +78,7 @@ class Controller:
         self.line = Line(self.axes)
         self.polarity = sum(1 << line.bit for line in machine.input_lines if line.active_level == 0)
         self.sensor_mask = sum(1 << line.bit for line in machine.input_lines)
+        self.sensor_mask |= sum(word.mask for word in machine.input_words)
         self.pause_mask, self.stop_mask, self.estop_mask = (_asking(machine, what) for what in ACTIONS)
         self.action_mask = self.pause_mask | self.stop_mask | self.estop_mask
         self.shared = sum({1 << sensor.bit for sensor in machine.sensors if sensor.line})
@@ -83,6 +88,8 @@ class Controller:
         self.only_zero_after = frozenset(Fault[name] for name in machine.only_zero_after)
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
+        self.speed_word = machine.output_word(SPEED_WANTED)
+        self.levels = tuple(masks_at(machine.levels, event) for event in (POWER_ON, STOP, FAULT, ESTOP))
         self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
         self.homes_by_sensor = machine.homes_by_sensor
         self.set_rate(machine.tick_hz)
@@ -96,8 +103,8 @@ class Controller:
         self.tick = self.underruns = self.moving = self.running = self.served = self.gap = self.late = 0
         self.unseen = self.hot_until = self.cut_off = 0
         self.inputs = self.sensors = self.estops = self.shared_on = 0
-        self.image = SAFE_IMAGE
-        self.switched = 0
+        self.image = self.switched = machine.switched_at(POWER_ON)
+        self.stopped_by = STOP
 
         self.epoch = 0
         self.fault = 0
@@ -111,6 +118,12 @@ class Controller:
         self.stage: int = stage.value
         self.condition: int = CONDITIONS[stage]
         self.job = stage in (Stage.RUNNING, Stage.HOLDING)
+
+    @property
+    def safe_image(self) -> int:
+        """What makes the outputs safe now: those beside the axes at their levels for an emergency stop."""
+        kept, on = self.levels[ESTOP]
+        return self.switched & kept | on
 
     def set_rate(self, tick_hz: int) -> None:
         """Sets the ticks a second; what is limited in seconds keeps its seconds."""

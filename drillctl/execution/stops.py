@@ -11,7 +11,8 @@ from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.kmd import Fault
 from drillctl.kmd.queue import RequestBit, bit_and_value, pace_of
-from drillctl.ports import SAFE_IMAGE, with_bits
+from drillctl.machine.levels import STOP
+from drillctl.ports import with_bits
 
 HOT_S = 1
 SURVIVES_STATE = 1  # a rotor stops dead from states 0 and 1: the automaton itself stops from them
@@ -38,9 +39,11 @@ def stop_job(m: Controller) -> None:
 
 
 def finish_stop(m: Controller) -> None:
-    """At rest after a stop: the outputs beside the axes go off. A return that was cut short has lost the position."""
+    """At rest after a stop: the outputs beside the axes take their levels. A return that was cut short has lost the
+    position.
+    """
     keep_position(m, kept=True)
-    m.switched = SAFE_IMAGE
+    switch_outputs(m)
 
 
 def drop_outputs(m: Controller) -> None:
@@ -68,8 +71,15 @@ def arrive_home(m: Controller) -> None:
 def acknowledge(m: Controller) -> None:
     """Forgets the fault, so that the next one is the first again."""
     m.fault = Fault.NONE
+    m.stopped_by = STOP
     m.fault_kept = False
     m.estops = 0
+
+
+def switch_outputs(m: Controller) -> None:
+    """Sets the outputs beside the axes to their levels for what has stopped the machine."""
+    kept, on = m.levels[m.stopped_by]
+    m.switched = m.switched & kept | on
 
 
 def set_output(m: Controller) -> None:
@@ -155,7 +165,7 @@ def _hold_current(m: Controller) -> None:
 
 def _stand_still(m: Controller) -> None:
     m.moving = 0
-    m.switched = SAFE_IMAGE
+    switch_outputs(m)
 
 
 def _hot(axis: Axis) -> int:

@@ -43,6 +43,7 @@ CHANNEL = np.dtype(
         ("ticker_beat_ns", "<i8"),  # ticker
         ("taken", "<u8"),  # records taken; ticker
         ("tick_ns", "<i8"),  # length of a tick: the beat may be silent for so long; ticker, before the fork desk
+        ("safe_image", "<u8"),  # what makes the outputs safe now, of the first two cards; ticker, before the fork desk
         ("ended", "<u4"),  # 1 when the ticker is leaving, its outputs safe; ticker
         ("guard_beat_ns", "<i8"),  # guard
         ("guarded", "<u4"),  # 1 when the guard has to make the outputs safe; guard

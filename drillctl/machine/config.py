@@ -13,11 +13,11 @@ from drillctl.machine.homing import axes_named, homing_steps
 from drillctl.machine.inputs import encoder_indexes, sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Surroundings
 from drillctl.machine.parameter_file import check_parameters, read_parameters
+from drillctl.machine.outputs import outputs_of
 from drillctl.machine.parts import Parts
-from drillctl.machine.phase import NAME
 from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
-from drillctl.machine.shape import Bit, DrillPart, MachineFile, Steps
+from drillctl.machine.shape import Bit, DrillPart, MachineFile, PlantPart, Steps
 from drillctl.machine.source import Source
 
 # Names that a trace gives to its own signals and scopes: an axis must not have the same name.
@@ -28,12 +28,13 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     """Returns the machine that a file's text describes; ``parts`` finds the tables that it names. Raises TableError."""
     raw = source.records(MachineFile)
     _check_names(source, raw)
-    wiring, outputs = (source.numbers(getattr(raw, table), Bit, table) for table in ("wiring", "outputs"))
+    wiring = source.numbers(raw.wiring, Bit, "wiring")
     axes = tuple(_axis(source, raw, index, wiring, parts) for index in range(len(raw.axis)))
-    _check_wiring(source, wiring, outputs, axes)
+    _check_wiring(source, wiring, axes)
+    outputs = outputs_of(source, raw, wiring)
     _check_locked(source, raw)
     names = [axis.name for axis in axes]
-    sensors, inputs = sensors_and_inputs(source, raw, axes)
+    sensors, inputs, input_words = sensors_and_inputs(source, raw, axes)
     indexes = encoder_indexes(source, raw, names)
     homing = homing_steps(source, raw, names, sensors, indexes)
     drill = raw.drill or DrillPart(axes=[names[-1]])
@@ -47,23 +48,31 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         configuration=Configuration(*msgspec.structs.astuple(raw.configuration)),
         axes=axes,
         sensors=sensors,
-        outputs=tuple(outputs.items()),
+        outputs=outputs.bits,
         homing=homing,
         drill_axes=drill_axes,
         drill_down_steps=drill.down,
         board_surface=_surfaces(source, raw.plant.board_surface, names),
         files=tuple(map(str, parts.files)),
         shipped=shipped,
-        surroundings=Surroundings(raw.plant.scatter_mm, raw.plant.thrust_n, raw.plant.thrust_growth),
+        surroundings=Surroundings(**_plain(raw.plant)),
         inputs=inputs,
         indexes=indexes,
         reactions=reactions(source, raw, homing),
         only_zero_after=only_zero_after(source, raw),
         return_interval=raw.return_interval,
         parameters=read_parameters(source, raw),
+        levels=outputs.levels,
+        output_words=outputs.words,
+        input_words=input_words,
     )
     check_parameters(source, machine)
     return machine
+
+
+def _plain(plant: PlantPart) -> dict[str, float]:
+    """What stands in [plant] beside the surfaces of the board."""
+    return {name: value for name, value in msgspec.structs.asdict(plant).items() if name != "board_surface"}
 
 
 def _check_names(source: Source, raw: MachineFile) -> None:
@@ -89,10 +98,6 @@ def _check_names(source: Source, raw: MachineFile) -> None:
         if row.name in (*sensors, *inputs):
             reason = Message("index {name}: a sensor or an input has this name already", name=row.name)
             raise source.error(reason, "index", number, "name")
-    for name in raw.outputs:
-        if not NAME.fullmatch(name):
-            reason = Message("outputs: {name!r}: a name is letters, digits, - and _, no - or _ first", name=name)
-            raise source.error(reason, "outputs", name)
 
 
 def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int], parts: Parts) -> AxisTable:
@@ -139,9 +144,7 @@ def _wire_bit(source: Source, wiring: Mapping[str, int], name: str) -> int:
     return wiring[name]
 
 
-def _check_wiring(
-    source: Source, wiring: Mapping[str, int], outputs: Mapping[str, int], axes: Iterable[AxisTable]
-) -> None:
+def _check_wiring(source: Source, wiring: Mapping[str, int], axes: Iterable[AxisTable]) -> None:
     wires = {f"{axis.name}.{wire}" for axis in axes for wire in axis.phase.wire_names()}
     for name in wiring:
         if name in wires:
@@ -153,18 +156,6 @@ def _check_wiring(
                 name,
             )
         raise source.error(Message('wiring: no axis has a wire "{name}"', name=name), "wiring", name)
-    taken: dict[int, str] = {}
-    for table, bits in (("wiring", wiring), ("outputs", outputs)):
-        for name, bit in bits.items():
-            if bit in taken:
-                raise source.error(
-                    Message(
-                        'output bit {bit} of "{name}" is {other}\'s already', bit=bit, name=name, other=taken[bit]
-                    ).at(table),
-                    table,
-                    name,
-                )
-            taken[bit] = name
 
 
 def _check_locked(source: Source, raw: MachineFile) -> None:

@@ -8,20 +8,38 @@ from collections.abc import Sequence
 
 from drillctl.language import Counted, Message, known_words
 from drillctl.machine.homing import axes_named
+from drillctl.machine.levels import Word
 from drillctl.machine.model import AxisTable, EncoderIndex, Input, Sensor
-from drillctl.machine.shape import InputRow, MachineFile
+from drillctl.machine.outputs import word_of
+from drillctl.machine.shape import InputRow, MachineFile, WordBits
 from drillctl.machine.source import Source
 
 
 def sensors_and_inputs(
     source: Source, raw: MachineFile, axes: Sequence[AxisTable]
-) -> tuple[tuple[Sensor, ...], tuple[Input, ...]]:
-    """Returns the sensors and the inputs of a machine's file. Raises TableError."""
+) -> tuple[tuple[Sensor, ...], tuple[Input, ...], tuple[Word, ...]]:
+    """Returns the sensors, the inputs of one bit, and the words of a machine's file. Raises TableError."""
+    words = _words(source, raw)
     _check_bits(source, raw)
     sensors = tuple(_sensor(source, raw, index, axes) for index in range(len(raw.sensor)))
-    inputs = (Input(row.name, row.bit, row.active, row.action) for row in raw.input)
+    single = ((row, row.bit) for row in raw.input)
+    inputs = (Input(row.name, bit, row.active, row.action) for row, bit in single if bit is not None)
     pulses = (Input(row.name, row.bit, row.active, "none") for row in raw.index)
-    return sensors, (*inputs, *pulses)
+    return sensors, (*inputs, *pulses), words
+
+
+def _words(source: Source, raw: MachineFile) -> tuple[Word, ...]:
+    words = []
+    for index, row in enumerate(raw.input):
+        if (row.bit is None) == (row.word is None):
+            reason = Message("input {name}: it has either a bit, or a word of several", name=row.name)
+            raise source.error(reason, "input", index)
+        if row.word is not None:
+            words.append(word_of(source, row.name, row.word, ("input", index, "word")))
+            if row.action != "none" or row.active != 1:
+                reason = Message("input {name}: a word has no active level and asks for nothing", name=row.name)
+                raise source.error(reason, "input", index)
+    return tuple(words)
 
 
 def encoder_indexes(source: Source, raw: MachineFile, names: list[str]) -> tuple[EncoderIndex, ...]:
@@ -42,17 +60,23 @@ def encoder_indexes(source: Source, raw: MachineFile, names: list[str]) -> tuple
 
 def _check_bits(source: Source, raw: MachineFile) -> None:
     taken: dict[int, str] = {}
-    sensors = [("sensor", index, row.name, row.bit) for index, row in enumerate(raw.sensor)]
-    inputs = [("input", index, row.name, row.bit) for index, row in enumerate(raw.input)]
-    indexes = [("index", index, row.name, row.bit) for index, row in enumerate(raw.index)]
-    for kind, index, name, bit in (*sensors, *inputs, *indexes):
-        if bit is None:
-            continue
-        if bit in taken:
-            fields = {"kind": kind, "name": name, "bit": bit, "other": taken[bit]}
-            reason = Message("{kind} {name}: input bit {bit} is {other}'s already", **fields)
-            raise source.error(reason, kind, index, "bit")
-        taken[bit] = name
+    sensors = [("sensor", index, row.name, _bits(row.bit)) for index, row in enumerate(raw.sensor)]
+    inputs = [("input", index, row.name, _bits(row.bit, row.word)) for index, row in enumerate(raw.input)]
+    indexes = [("index", index, row.name, _bits(row.bit)) for index, row in enumerate(raw.index)]
+    for kind, index, name, bits in (*sensors, *inputs, *indexes):
+        for bit in bits:
+            if bit in taken:
+                fields = {"kind": kind, "name": name, "bit": bit, "other": taken[bit]}
+                reason = Message("{kind} {name}: input bit {bit} is {other}'s already", **fields)
+                raise source.error(reason, kind, index, "bit")
+            taken[bit] = name
+
+
+def _bits(bit: int | None, word: WordBits | None = None) -> range:
+    """Returns the bits of a row: one, those of a word, or none."""
+    if word is not None:
+        return range(word[0], sum(word))
+    return range(0) if bit is None else range(bit, bit + 1)
 
 
 def _sensor(source: Source, raw: MachineFile, index: int, axes: Sequence[AxisTable]) -> Sensor:
@@ -84,6 +108,9 @@ def _line(source: Source, raw: MachineFile, index: int) -> InputRow | None:
         reason = Message("sensor {name}: no input is named {line!r}; {words}", **fields)
         raise source.error(reason, "sensor", index, "line")
     line = raw.input[names.index(row.line)]
+    if line.bit is None:
+        reason = Message("sensor {name}: input {line} is a word, not a line", name=row.name, line=line.name)
+        raise source.error(reason, "sensor", index, "line")
     if row.active is not None:
         reason = Message("sensor {name}: its active level is that of input {line}", name=row.name, line=line.name)
         raise source.error(reason, "sensor", index, "active")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from drillctl.machine.dynamics import Dynamics
+from drillctl.machine.levels import OutputLevels, Word, masks_at
 from drillctl.machine.motor import Motor
 from drillctl.machine.parameters import Parameters
 from drillctl.machine.phase import PhaseTable
@@ -128,11 +129,13 @@ class Surroundings:
     scatter_mm       standard deviation of where a sensor answers
     thrust_n         thrust that a sharp drill needs to advance in the board
     thrust_growth    by which part of that it grows with each metre of board drilled
+    spindle_rev_min_s  by how many rev/min the spindle's speed changes in a second, at most
     """
 
     scatter_mm: float = 0.0
     thrust_n: float = 0.0
     thrust_growth: float = 0.0
+    spindle_rev_min_s: float = 20_000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +163,9 @@ class Machine:
     only_zero_after: tuple[str, ...] = field(default=(), repr=False)  # faults after which only KMD_POWROT is taken
     return_interval: int = field(default=0, repr=False)  # the least ticks between steps of KMD_POWROT
     parameters: Parameters | None = field(default=None, repr=False)  # None: the machine has none
+    levels: tuple[OutputLevels, ...] = field(default=(), repr=False)  # of the outputs that have any but 0
+    output_words: tuple[Word, ...] = field(default=(), repr=False)
+    input_words: tuple[Word, ...] = field(default=(), repr=False)
 
     @property
     def file(self) -> str:
@@ -176,6 +182,7 @@ class Machine:
         """How many cards of 32 outputs and 32 inputs the wiring needs."""
         bits = [bit for axis in self.axes for bit in axis.wire_bits]
         bits += [bit for _, bit in self.outputs] + [line.bit for line in self.input_lines]
+        bits += [word.bit for word in (*self.output_words, *self.input_words)]
         return max(bits) // CARD_BITS + 1
 
     @property
@@ -207,6 +214,21 @@ class Machine:
         lowest = table.low_steps if low is None else max(table.low_steps, low.edge_steps + low.hysteresis_steps)
         highest = table.high_steps if high is None else min(table.high_steps, high.edge_steps - 1)
         return lowest, highest
+
+    def output_word(self, name: str) -> Word | None:
+        """Returns an output word by its name, or None."""
+        return next((word for word in self.output_words if word.name == name), None)
+
+    def input_word(self, name: str) -> Word | None:
+        """Returns an input word by its name, or None."""
+        return next((word for word in self.input_words if word.name == name), None)
+
+    def switched_at(self, event: int, image: int = 0) -> int:
+        """Returns what the outputs beside the axes are set to at an event (machine/levels.py), from what they have in
+        an image. At ESTOP that is the safe image: no axis's wire is in it.
+        """
+        kept, on = masks_at(self.levels, event)
+        return image & kept | on
 
     @property
     def longest_drilling_ticks(self) -> int:

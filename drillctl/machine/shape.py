@@ -19,6 +19,8 @@ Positive = Annotated[int, msgspec.Meta(ge=1, le=1_000_000)]
 TickHz = Annotated[int, msgspec.Meta(ge=SLOWEST_TICK_HZ, le=FASTEST_TICK_HZ)]
 End = Literal["min", "max"]
 Level = Literal[0, 1]
+LevelAt = Literal["keep", 0, 1]
+WordBits = tuple[Bit, Annotated[int, msgspec.Meta(ge=2, le=CARD_BITS)]]
 
 
 class Strict(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -55,12 +57,27 @@ class SensorRow(Strict, frozen=True):
 
 
 class InputRow(Strict, frozen=True):
-    """``[[input]]``: an input that belongs to no end of an axis, and what it asks for as long as it is on."""
+    """``[[input]]``: an input that belongs to no end of an axis, and what it asks for as long as it is on; or a number
+    on neighbouring bits (``word``: the first, how many).
+    """
 
     name: Name
-    bit: Bit
+    bit: Bit | None = None
     active: Level = 1
     action: Literal["none", "pause", "stop", "estop"] = "none"
+    word: WordBits | None = None
+
+
+class OutputRow(Strict, frozen=True):
+    """``[[output]]``: an output beside the axes with its level at each kind of stop; one bit, or a ``word``."""
+
+    name: Name
+    bit: Bit | None = None
+    word: WordBits | None = None
+    power_on: Level = 0
+    stop: LevelAt = 0
+    fault: LevelAt = 0
+    estop: LevelAt = 0
 
 
 class IndexRow(Strict, frozen=True):
@@ -118,6 +135,7 @@ class PlantPart(Strict, frozen=True):
     scatter_mm: Annotated[float, msgspec.Meta(ge=0, le=1)] = 0
     thrust_n: Annotated[float, msgspec.Meta(ge=0, le=10_000)] = 0
     thrust_growth: Annotated[float, msgspec.Meta(ge=0, le=1000)] = 0
+    spindle_rev_min_s: Annotated[float, msgspec.Meta(gt=0, le=10_000_000)] = 20_000
 
 
 class MachineFile(Strict, frozen=True):
@@ -138,6 +156,7 @@ class MachineFile(Strict, frozen=True):
     index: list[IndexRow] = []
     reaction: list[ReactionRow] = []
     outputs: dict[str, Any] = {}  # of Bit
+    output: list[OutputRow] = []
     homing: list[HomingRow] = []
     drill: DrillPart | None = None
     plant: PlantPart = PlantPart()

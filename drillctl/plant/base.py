@@ -10,6 +10,7 @@ from drillctl.machine import Machine
 from drillctl.plant.carriage import Carriage, Switch
 from drillctl.plant.effects import Effect
 from drillctl.plant.rotor import Rotor
+from drillctl.plant.spindle import spindle_of
 
 # Signals of an axis in a trace, by the suffix of the axis's name: the carriage's place in whole steps; the columns by
 # which it is behind the controller (its lag, and at rest its lost steps); the current that pulls in each phase, in
@@ -26,6 +27,7 @@ class Plant:
     inputs     the input image, 1 where a sensor's wire is high
     touches    how often a head's bit has met its board, coming down; ``met``: the same by axis
     effects    what the carriages act on beside their sensors, by name (effects.py)
+    spindle    a spindle with its converter, where the machine has one that says its speed
     """
 
     lanes: tuple[str, ...] = PLACE_LANES
@@ -40,6 +42,7 @@ class Plant:
         self._together = _lines([sensor for carriage in self.carriages for sensor in carriage.sensors])
         self.inputs = sum(1 << line.bit for line in machine.inputs if line.active_level == 0)  # nothing is pressed
         self.touches, self.met = 0, [0] * len(self.rotors)
+        self.spindle = spindle_of(machine)
         self.effects = effects
         self._effects_on = [[each for each in effects.values() if each.axis == n] for n in range(len(self.rotors))]
         for index in range(len(self.rotors)):

@@ -25,6 +25,8 @@ class IdealPlant(Plant):
         if image == self.image:
             return
         self.image = image
+        if self.spindle is not None:
+            self.inputs = self.spindle.at_once(image, self.inputs)
         for index, rotor in enumerate(self.rotors):
             pattern = image & rotor.mask
             if pattern != rotor.seen:

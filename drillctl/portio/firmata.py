@@ -36,7 +36,6 @@ class FirmataCard:
         self._latched = False  # since the last image: a question is sent only where its answer is read
         self._outputs = SAFE_IMAGE
         self._inputs = 0
-        self._safe = b"".join(pins.messages(SAFE_IMAGE))
 
     def facts(self) -> tuple[Message, ...]:
         """Returns which firmware answered, and which pins are set up (ports.Telling)."""
@@ -68,21 +67,21 @@ class FirmataCard:
             self._line.send(data)
         self._outputs = image
 
-    def safe(self) -> None:
-        """Sends zeros to every output port, whatever was sent before. Raises PortLost."""
+    def safe(self, image: int = SAFE_IMAGE) -> None:
+        """Sends the safe image to every output port, whatever was sent before. Raises PortLost."""
         self._watch.forget()
-        self._line.send_first(self._safe)
-        self._outputs = SAFE_IMAGE
+        self._line.send_first(b"".join(self._pins.messages(image)))
+        self._outputs = image
 
     @property
     def vouched(self) -> int:
         """How many of the images were put out before the board's last right answer."""
         return self._watch.vouched
 
-    def close(self) -> None:
+    def close(self, image: int = SAFE_IMAGE) -> None:
         """Makes the outputs safe, if the board still answers, and closes the line."""
         with suppress(OSError):
-            self.safe()
+            self.safe(image)
         self._line.close()
 
 

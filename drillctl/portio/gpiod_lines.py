@@ -88,14 +88,14 @@ class GpioLines:
         self._put = {line: self._levels[image >> bit & 1] for bit, line in self._outputs.items()}
         self._request.set_values(self._put)
 
-    def safe(self) -> None:
-        """Sets all outputs low. Raises OSError."""
-        self.flush(SAFE_IMAGE)
+    def safe(self, image: int = SAFE_IMAGE) -> None:
+        """Puts the safe image out. Raises OSError."""
+        self.flush(image)
 
-    def close(self) -> None:
-        """Sets all outputs low and gives the lines back."""
+    def close(self, image: int = SAFE_IMAGE) -> None:
+        """Puts the safe image out and gives the lines back."""
         with suppress(OSError):
-            self.safe()
+            self.safe(image)
         self._request.release()
 
 

@@ -57,19 +57,19 @@ class MappedCard:
         self._words[_FLUSHES] = self._words[_FLUSHES] + 1 & 0xFFFF_FFFF
         self._inner.flush(image)
 
-    def safe(self) -> None:
-        """Writes zeros to the file, and sets all outputs of the inner card low."""
-        self._put(_OUTPUTS, SAFE_IMAGE)
-        self._inner.safe()
+    def safe(self, image: int = SAFE_IMAGE) -> None:
+        """Writes the safe image to the file, and drives the inner card with it."""
+        self._put(_OUTPUTS, image)
+        self._inner.safe(image)
 
-    def close(self) -> None:
-        """Closes file and inner card; the file stays, its outputs low."""
+    def close(self, image: int = SAFE_IMAGE) -> None:
+        """Closes file and inner card; the file stays, with the safe image."""
         if self._map.closed:
             return
-        self._put(_OUTPUTS, SAFE_IMAGE)
+        self._put(_OUTPUTS, image)
         self._words.release()
         self._map.close()
-        self._inner.close()
+        self._inner.close(image)
 
     def _put(self, place: int, image: int) -> None:
         for card in range(self._cards):

@@ -59,14 +59,14 @@ class Pcl720:
                     "pcl720", Message("took no output at 0x{base:x}; check the card, then initialise again", base=base)
                 )
 
-    def safe(self) -> None:
-        """Sets all outputs of all cards low. Raises OSError."""
-        self.flush(SAFE_IMAGE)
+    def safe(self, image: int = SAFE_IMAGE) -> None:
+        """Puts the safe image out on all cards. Raises OSError."""
+        self.flush(image)
 
-    def close(self) -> None:
-        """Sets all outputs low, and closes the descriptors."""
+    def close(self, image: int = SAFE_IMAGE) -> None:
+        """Puts the safe image out, and closes the descriptors."""
         with suppress(OSError):
-            self.safe()
+            self.safe(image)
         for descriptor in {self._write_to, self._read_from}:
             os.close(descriptor)
 

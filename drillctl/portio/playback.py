@@ -33,10 +33,10 @@ class PlaybackCard:
         self.image = image
         self.tick += 1
 
-    def safe(self) -> None:
-        """Sets the kept image to all outputs low."""
-        self.image = SAFE_IMAGE
+    def safe(self, image: int = SAFE_IMAGE) -> None:
+        """Keeps the safe image."""
+        self.image = image
 
-    def close(self) -> None:
-        """Sets the kept image to all outputs low; there is nothing to give back."""
-        self.safe()
+    def close(self, image: int = SAFE_IMAGE) -> None:
+        """Keeps the safe image; there is nothing to give back."""
+        self.safe(image)

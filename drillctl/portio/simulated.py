@@ -22,13 +22,13 @@ class SimulatedCard:
         """Drives the plant with the image."""
         self.plant.drive(image)
 
-    def safe(self) -> None:
-        """Sets all outputs low: the coils are released."""
-        self.plant.drive(SAFE_IMAGE)
+    def safe(self, image: int = SAFE_IMAGE) -> None:
+        """Drives the plant with the safe image: the coils are released."""
+        self.plant.drive(image)
 
-    def close(self) -> None:
-        """Sets all outputs low; there is nothing to release."""
-        self.safe()
+    def close(self, image: int = SAFE_IMAGE) -> None:
+        """Drives the plant with the safe image; there is nothing to release."""
+        self.safe(image)
 
 
 class SwitchedCard(SimulatedCard):
@@ -82,12 +82,12 @@ class WatchedCard:
         self._card.flush(image)
         self._plant.drive(image)
 
-    def safe(self) -> None:
+    def safe(self, image: int = SAFE_IMAGE) -> None:
         """Makes the outputs safe on the other driver and on the plant."""
-        self._card.safe()
-        self._plant.drive(SAFE_IMAGE)
+        self._card.safe(image)
+        self._plant.drive(image)
 
-    def close(self) -> None:
+    def close(self, image: int = SAFE_IMAGE) -> None:
         """Makes the outputs safe on both and closes the other driver."""
-        self.safe()
-        self._card.close()
+        self.safe(image)
+        self._card.close(image)

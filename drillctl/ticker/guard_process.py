@@ -11,7 +11,7 @@ import time
 from contextlib import suppress
 
 from drillctl.kmd.channel import Channel
-from drillctl.ports import Driver
+from drillctl.ports import Driver, make_safe
 
 SILENCE_NS = 500_000_000
 LOOK_EVERY_MS = 20
@@ -28,14 +28,14 @@ def run_guard(channel: Channel, port: Driver, silence_ns: int = SILENCE_NS) -> N
         signal.signal(number, signal.SIG_IGN)
     ticker = _wait_for_ticker(channel)
     if ticker is None:
-        _make_safe(port)
+        _make_safe(channel, port)
         return
     while not channel["ended"]:
         channel["guard_beat_ns"] = time.monotonic_ns()
         if (_gone(ticker, LOOK_EVERY_MS) or _silent(channel, silence_ns)) and not channel["ended"]:
             channel["guarded"] = 1
             _end(ticker)
-            _make_safe(port)
+            _make_safe(channel, port)
             return
 
 
@@ -69,7 +69,7 @@ def _end(ticker: int) -> None:
     _gone(ticker, int(LONGEST_WAIT_S * 1000))
 
 
-def _make_safe(port: Driver) -> None:
+def _make_safe(channel: Channel, port: Driver) -> None:
     """Writes the safe image. On a port that is gone that fails; the desk reports it (PORT_LOST, TICKER_LOST)."""
     with suppress(OSError):
-        port.safe()
+        make_safe(port, channel["safe_image"])

@@ -4,12 +4,14 @@ Rule: everything that can be refused is refused here, before anything moves.
 """
 
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from drillctl.kmd import Queue
 from drillctl.language import Message, message_of
 from drillctl.machine import Machine
+from drillctl.machine.levels import Word
 from drillctl.plant import IDEAL_PLANT, IdealPlant, Plant, PlantChoice, PlantRefused
 from drillctl.portio.registry import check_rate as check_port_rate
 from drillctl.portio.registry import open_port, port_of_card, select
@@ -209,6 +211,10 @@ def port_layout(machine: Machine) -> PortLayout:
         tick_hz=machine.tick_hz,
         card_address=machine.configuration.card_address,
         axis_outputs=tuple(sum(1 << bit for bit in axis.wire_bits) for axis in machine.axes),
-        other_outputs=sum(1 << bit for _, bit in machine.outputs),
-        inputs=sum(1 << line.bit for line in machine.input_lines),
+        other_outputs=_image([bit for _, bit in machine.outputs], machine.output_words),
+        inputs=_image([line.bit for line in machine.input_lines], machine.input_words),
     )
+
+
+def _image(bits: Iterable[int], words: Iterable[Word]) -> int:
+    return sum(1 << bit for bit in bits) | sum(word.mask for word in words)

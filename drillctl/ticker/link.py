@@ -14,7 +14,7 @@ from drillctl.kmd import CommandQueue, Request, TickGate
 from drillctl.language import Message
 from drillctl.plant import Plant
 from drillctl.portio.simulated import SwitchedCard
-from drillctl.ports import Driver
+from drillctl.ports import Driver, close_port
 from drillctl.ticker.edited_tables import take_tables
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Segments, Trace
@@ -200,7 +200,7 @@ class LocalLink:
 
     def close(self) -> None:
         """Closes the port, which makes the outputs safe."""
-        self.ticker.port.close()
+        close_port(self.ticker.port, self.ticker.controller.safe_image)
 
 
 def hold_input(port: Driver, bit: int, level: int | None) -> bool:

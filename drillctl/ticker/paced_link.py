@@ -16,8 +16,9 @@ from drillctl.kmd import Fault, Request
 from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.language import Message
 from drillctl.machine import Machine
+from drillctl.machine.levels import POWER_ON
 from drillctl.plant import Plant
-from drillctl.ports import Driver
+from drillctl.ports import Driver, close_port
 from drillctl.ticker.child_process import ChildProcess
 from drillctl.ticker.edited_tables import TableSlot
 from drillctl.ticker.guard_process import SILENCE_NS, run_guard
@@ -65,6 +66,9 @@ class PacedLink:
         self._noticed: list[Message] = []
         self._half_line = b""
         self._channel["tick_ns"] = 1_000_000_000 // machine.tick_hz
+        self._channel["safe_image"] = power_on = machine.switched_at(POWER_ON)
+        if power_on:
+            port.flush(power_on)
         now_ns = self._beat()
         self._channel["guard_beat_ns"], self._channel["ticker_beat_ns"] = now_ns, now_ns + START_NS
         self._guard = ChildProcess(lambda: run_guard(self._channel, port))
@@ -172,7 +176,7 @@ class PacedLink:
         for child in (self._ticker, self._guard):
             child.end(LEAVE_S, meanwhile=self._beat)
         with suppress(OSError):  # a port that was lost; the outcome says so
-            self._port.close()
+            close_port(self._port, self._channel["safe_image"])
         os.close(self._touched)
         os.close(self._notices)
 

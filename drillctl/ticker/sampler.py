@@ -190,6 +190,10 @@ def wire_names(machine: Machine) -> dict[str, list[str]]:
     ]
     for name, bit in (*wires, *machine.outputs):
         names[f"out.{bit // CARD_BITS}"][bit % CARD_BITS] = name
+    for number in machine.output_words:
+        for place in range(number.bits):
+            card, bit = divmod(number.bit + place, CARD_BITS)
+            names[f"out.{card}"][bit] = f"{number.name}.{place}"
     return names
 
 
@@ -207,6 +211,10 @@ def vcd_layout(machine: Machine) -> list[VcdVar]:
         card, bit = divmod(line.bit, CARD_BITS)
         inverted = line.active_level == 0
         layout.append(VcdVar("sensors", line.name, "wire", f"in.{card}", bit=bit, invert=inverted))
+    for side, scope, words in (("out", "outputs", machine.output_words), ("in", "sensors", machine.input_words)):
+        for number in words:
+            card, bit = divmod(number.bit, CARD_BITS)
+            layout.append(VcdVar(scope, number.name, "integer", f"{side}.{card}", bit=bit, bits=number.bits))
     layout += [
         VcdVar("kmd", "seq", "integer", "kmd", part="seq"),
         VcdVar("kmd", "opcode", "integer", "kmd", part="opcode"),

@@ -20,7 +20,7 @@ from drillctl.kmd.commands import MOST_AXES
 from drillctl.language import Message, message_of
 from drillctl.machine import Machine
 from drillctl.plant import Plant
-from drillctl.ports import Driver, PortSlow
+from drillctl.ports import Driver, PortSlow, make_safe
 from drillctl.ticker.confirmed_status import ConfirmedStatus
 from drillctl.ticker.edited_tables import TableSlot, take_tables
 from drillctl.ticker.message_text import message_text
@@ -73,7 +73,7 @@ class TickerProcess:
             self._tick_on()
         finally:
             with suppress(OSError):  # then the guard tries too
-                self.port.safe()
+                make_safe(self.port, self.ticker.controller.safe_image)
                 self.channel["ended"] = 1
 
     def _tick_on(self) -> None:
@@ -165,6 +165,7 @@ class TickerProcess:
 
     def _publish(self) -> None:
         self.channel["ticker_beat_ns"] = time.monotonic_ns()
+        self.channel["safe_image"] = self.ticker.controller.safe_image
         if (status := self.vouched.newest(self.ticker.report())) is not None:
             self.channel.publish(status)
         self._tell_touches()

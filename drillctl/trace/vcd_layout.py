@@ -19,9 +19,9 @@ SHOWN = (
 class VcdVar:
     """One variable of the file.
 
-    `kind`: `wire` (bit `bit` of the value), `integer` (the value, signed 32 bits) or `string` (its word, or
-    `labels[value]`). `source`: name of the signal. `part`, of a command signal only: `seq` or `opcode`
-    (integers), `running` (a string). `invert`: the wire is 1 where the bit is 0. A scope `a.b` is b within a.
+    `kind`: `wire` (bit `bit` of the value), `integer` (the value, signed 32 bits, or `bits` of it from `bit` on) or
+    `string` (its word, or `labels[value]`). `source`: name of the signal. `part`, of a command signal only: `seq` or
+    `opcode` (integers), `running` (a string). `invert`: the wire is 1 where the bit is 0. A scope `a.b` is b within a.
     Raises ValueError for a combination that does not exist.
     """
 
@@ -33,6 +33,7 @@ class VcdVar:
     part: str | None = None
     invert: bool = False
     labels: tuple[str, ...] | None = None
+    bits: int | None = None
 
     def __post_init__(self) -> None:
         if (self.kind, self.part) not in SHOWN:

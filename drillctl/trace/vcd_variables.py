@@ -37,7 +37,7 @@ class Variable:
         self.words = var.labels or _words(var, signal)
         self.shift, self.mask = SHIFTS.get(var.part or "", 0), MASKS.get(var.part or "", ALL_BITS)
         if var.bit is not None:
-            self.shift, self.mask = var.bit, 1
+            self.shift, self.mask = var.bit, (1 << (var.bits or 1)) - 1
 
     def register(self, registered: "Registered[Any]") -> None:
         """Takes what pyvcd has made of it."""

@@ -80,6 +80,7 @@ class MachineView:
     following: tuple[str, ...] = ()  # the commands of the program that follow ``command``, at most three
     plant: str = ""  # the dynamic plant with its faults, ``dynamic blunt=20``; empty for another
     stores: bool = False  # its jobs are workpieces in stores (viewmodel/workpieces.py)
+    words: tuple[tuple[str, int], ...] = ()  # numbers on several bits of a card: those put out, then those read
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 

@@ -91,7 +91,14 @@ def _of_a_kind(m: Controller, commands: Records, stroked: Rows, heads: Sequence[
     moves = np.isin(ops, MOVES) & (commands["axes"] & busy == 0) & (commands["flags"] & Flag.LINKED == 0)
     there = np.array([m.output_mask >> bit & 1 for bit in range(256)], bool)[first & 0xFF]
     still = np.isin(ops, STILL) & (there | (ops != Op.WYJSCIE))
-    return (moves | stroked | still) & (commands["epoch"] == m.epoch)
+    return (moves | stroked | (still & ~_turns_spindle(m, commands))) & (commands["epoch"] == m.epoch)
+
+
+def _turns_spindle(m: Controller, commands: Records) -> Rows:
+    """The commands after which a machine's measured spindle speed, an input, changes."""
+    ops, bit = commands["opcode"], m.spindle_mask.bit_length() - 1
+    switched = (ops == Op.WYJSCIE) & (commands["args"][:, 0] & 0xFF == bit)
+    return (switched | (ops == Op.WRZECIONO)) & bool(m.machine.output_words or m.machine.input_words)
 
 
 def _axis_batch(m: Controller, index: int, profiles: Callable[[int, int], MoveProfile], commands: Records) -> AxisBatch:

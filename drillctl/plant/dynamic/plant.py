@@ -61,6 +61,7 @@ class DynamicPlant(Plant):
         self._bit = Bit(head, len(axes), surface, machine.surroundings, worn_m, kernel)
         self._bound()
         self._resting = False
+        self._tick_hz = machine.tick_hz
         self._one = np.zeros(1, np.uint64)
 
     @property
@@ -87,6 +88,7 @@ class DynamicPlant(Plant):
         """Goes on from the present state, in ticks of another length."""
         for motor in self.motors:
             motor.set_rate(tick_hz)
+        self._tick_hz = tick_hz
         self._resting = False
 
     def position_steps(self, axis: int) -> float:
@@ -96,6 +98,8 @@ class DynamicPlant(Plant):
     def _advance(self, images: NDArray[np.uint64], ticks: int) -> int:
         """Computes at most so many ticks, up to one in which a sensor may change; returns how many."""
         kernel, bit = self._kernel, self._bit.columns
+        if self._spindle_turns(int(images[0])):
+            ticks = 1
         done = kernel.run(
             self._rows, len(self.motors), self._head, self._wires, bit, kernel.images(images), ticks, kernel.sine,
             kernel.slope,
@@ -105,8 +109,14 @@ class DynamicPlant(Plant):
             motor.follow()
         if self._fluttering or bit[law.LEFT]:
             self._pass_sensors()
-        self._resting = bit[law.STILL] != 0.0 and not self._fluttering
+        if self.spindle is not None:
+            self.inputs = self.spindle.turn(self.image, self.inputs, done / self._tick_hz)
+        self._resting = bit[law.STILL] != 0.0 and not self._fluttering and not self._spindle_turns(self.image)
         return done
+
+    def _spindle_turns(self, image: int) -> bool:
+        """Whether the spindle's speed changes with this image."""
+        return self.spindle is not None and self.spindle.turns_on(image)
 
     def _pass_sensors(self) -> None:
         """Lets the sensors of the axes that moved, or whose wires flutter, answer to where the carriages are."""
