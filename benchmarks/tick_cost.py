@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from drillctl.execution import Controller, tick
 from drillctl.generation.job import names_of
 from drillctl.kmd import Command, Queue, Requests, parse_program
-from drillctl.machine import Library, shipped_tables
+from drillctl.machine import Library, Machine, shipped_tables
 
 MACHINES = ("pcb-drill", "pcb-drill-ramp-lab", "eight-axis")
 TARGET_US = 10.0
@@ -40,10 +40,13 @@ ROUNDS = 60  # there and back
 
 
 class DeadCard:
-    """A port without a machine: its inputs stay low, so that only the tick is measured."""
+    """A port without a machine: no input with an action is on, ever, so that only the tick is measured."""
+
+    def __init__(self, machine: Machine):
+        self.inputs = sum(1 << line.bit for line in machine.inputs if line.active_level == 0)
 
     def latch(self) -> int:
-        return 0
+        return self.inputs
 
     def flush(self, image: int) -> None:
         pass
@@ -62,7 +65,7 @@ def three_axes_moving(name: str, steps: int) -> Controller:
     there = "KMD_RUCHd " + " ".join(f"{axis}={reach}" for axis in machine.axis_names[:3])
     program = parse_program("\n".join([there, there.replace("=", "=-")] * ROUNDS), names_of(machine))[:-1]
     queue = EndlessQueue(program)
-    return Controller(machine, queue, Requests(), DeadCard())
+    return Controller(machine, queue, Requests(), DeadCard(machine))
 
 
 class EndlessQueue(Queue):

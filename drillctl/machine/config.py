@@ -12,8 +12,8 @@ from drillctl.language import Counted, Message, known_words, nearest
 from drillctl.machine.homing import axes_named, homing_steps
 from drillctl.machine.inputs import encoder_indexes, sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Surroundings
-from drillctl.machine.parameter_file import check_parameters, read_parameters
 from drillctl.machine.outputs import outputs_of
+from drillctl.machine.parameter_file import check_parameters, read_parameters
 from drillctl.machine.parts import Parts
 from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of

@@ -263,4 +263,5 @@ class Machine:
         slow = tuple((number, step.interval) for number, step in enumerate(self.homing) if step.interval)
         set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow)
         later = (*self.inputs, *self.reactions, *self.indexes, *set_by_file)
-        return "".join((*strokes, *(f"{value!r}\n" for value in later if value)))
+        outputs = (*self.levels, *self.output_words, *self.input_words)
+        return "".join((*strokes, *(f"{value!r}\n" for value in (*later, *outputs) if value)))

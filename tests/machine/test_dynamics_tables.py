@@ -63,7 +63,7 @@ def test_they_leave_the_digest(table: str, changed: Change) -> None:
 
 
 def test_what_surrounds_the_motors_is_read(changed: Change) -> None:
-    assert astuple(changed(DRILL, "scatter_mm = 0.01", "scatter_mm = 0.02").surroundings) == (0.02, 3, 1.5)
+    assert astuple(changed(DRILL, "scatter_mm = 0.01", "scatter_mm = 0.02").surroundings) == (0.02, 3, 1.5, 20_000)
 
 
 @pytest.mark.parametrize(

@@ -31,8 +31,8 @@ MOST_TICKS = 5_000
 def machine_file(folder: Path, added: tuple[str, ...]) -> Path:
     """The shipped machine's file with these axes, on free bits of its cards."""
     text = (shipped_tables() / "machines" / "eight-axis.toml").read_text()
-    wires = "".join(f'"{name}.pulse" = {20 + 2 * i}\n"{name}.dir" = {21 + 2 * i}\n' for i, name in enumerate(added))
-    text = text.replace("[outputs]", wires + "\n[outputs]")
+    wires = "".join(f'"{name}.pulse" = {24 + 2 * i}\n"{name}.dir" = {25 + 2 * i}\n' for i, name in enumerate(added))
+    text = text.replace("[wiring]\n", "[wiring]\n" + wires)
     file = folder / "with-magazine.toml"
     file.write_text(text.replace('"eight-axis"', '"with-magazine"') + "".join(AXIS.format(name=name) for name in added))
     return file

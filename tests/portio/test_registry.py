@@ -72,8 +72,10 @@ def test_a_machines_wiring_is_its_bits(name: str) -> None:
     machine = LIBRARY.machine(name)
     wiring = port_layout(machine)
     wires = [bit for axis in machine.axes for bit in axis.wire_bits]
-    assert bits_of(wiring.outputs) == sorted([*wires, *(bit for _, bit in machine.outputs)])
-    assert bits_of(wiring.inputs) == sorted(line.bit for line in machine.input_lines)
+    words = machine.output_words, machine.input_words
+    numbers = [[bit for word in each for bit in bits_of(word.mask)] for each in words]
+    assert bits_of(wiring.outputs) == sorted([*wires, *(bit for _, bit in machine.outputs), *numbers[0]])
+    assert bits_of(wiring.inputs) == sorted([*(line.bit for line in machine.input_lines), *numbers[1]])
     assert wiring.cards == machine.cards
 
 
