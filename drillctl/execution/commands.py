@@ -7,11 +7,12 @@ none; one that ends a command may return GOES_ON instead, while its condition do
 
 from collections.abc import Callable, Mapping
 
-from drillctl.execution.axis import Axis
 from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
 from drillctl.execution.heads import heads_lowered, heads_raised, lower_heads, raise_heads
 from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
+from drillctl.execution.lifted_travel import lift_then_go, lifted_and_gone
+from drillctl.execution.reach import refused, target_of
 from drillctl.execution.return_to_zero import begin_return, carry_return
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
@@ -53,9 +54,10 @@ def finish(m: Controller) -> None:
 
 
 def _move(m: Controller, command: Command) -> int:
-    fault = _set_targets(m, command)
+    fault = refused(m, command, command.axes)
     if fault:
         return fault
+    _set_targets(m, command)
     if command.flags & Flag.LINKED:
         return _start_line(m, command)
     m.hole_begun = command.tag or m.hole_begun  # a peck or a spot begins a hole too
@@ -65,33 +67,12 @@ def _move(m: Controller, command: Command) -> int:
     return Fault.NONE
 
 
-def _set_targets(m: Controller, command: Command) -> int:
-    """Checks every axis first, then sets all targets; the axes rest."""
+def _set_targets(m: Controller, command: Command) -> None:
+    """Sets the targets of axes that rest and may be sent there."""
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1:
-            fault = _refused(m, axis, _target(axis, command, index), command.flags & Flag.ABSOLUTE)
-            if fault:
-                return fault
-    for index, axis in enumerate(m.axes):
-        if command.axes >> index & 1:
-            axis.target = _target(axis, command, index)
+            axis.target = target_of(axis, command, index)
             axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
-    return Fault.NONE
-
-
-def _target(axis: Axis, command: Command, index: int) -> int:
-    return command.args[index] + (axis.base if command.flags & Flag.ABSOLUTE else axis.position)
-
-
-def _refused(m: Controller, axis: Axis, target: int, absolute: int) -> int:
-    """Returns the fault of an axis that can't be sent there. Before initialisation only moves from here are allowed,
-    all together within the travel.
-    """
-    if m.position_known:
-        return Fault.NONE if axis.in_reach(target) else Fault.SOFT_LIMIT
-    if absolute:
-        return Fault.HOMING_REQUIRED
-    return Fault.NONE if axis.within_travel(target) else Fault.SOFT_LIMIT
 
 
 def _start_line(m: Controller, command: Command) -> int:
@@ -208,6 +189,7 @@ _STARTED: Mapping[int, Handler] = {
     Op.FAZY_WYL: _release,
     Op.KONIEC: _nothing,
     Op.POWROT: begin_return,
+    Op.GORA_X_Y: lift_then_go,
 }
 _ENDED: Mapping[int, Handler] = {
     Op.WIERTLO_DOL: heads_lowered,
@@ -217,4 +199,5 @@ _ENDED: Mapping[int, Handler] = {
     Op.CZEKAJ_WE: _answered,
     Op.KONIEC: _end,
     Op.POWROT: carry_return,
+    Op.GORA_X_Y: lifted_and_gone,
 }

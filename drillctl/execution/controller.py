@@ -45,6 +45,7 @@ class Controller:
     estops    inputs that asked for an emergency stop in the tick before, none once it was acknowledged
     shared    input bits that several end sensors share; ``shared_on`` those that were on in the tick before
     reactions what this machine does on each fault
+    lifting   KMD_GORA_X_Y is current, and X and Y wait until the heads are clear of the board
     zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
     indexes   input bits of the encoders' indexes, by axis; 0 of an axis without one
     homing_fault  why the current row of the homing table could not begin
@@ -73,6 +74,7 @@ class Controller:
             Axis(table, _limits(machine, index), machine.reach(index)) for index, table in enumerate(machine.axes)
         )
         self.drill_axes = tuple(self.axes[index] for index in machine.drill_axes)
+        self.head_mask = sum(1 << index for index in machine.drill_axes)
         others = tuple(axis for axis in self.axes if axis not in self.drill_axes)
         self.return_rows = (self.drill_axes, others)
         self.line = Line(self.axes)
@@ -108,7 +110,7 @@ class Controller:
 
         self.epoch = 0
         self.fault = 0
-        self.fault_kept = self.caught = self.zero_first = False
+        self.fault_kept = self.caught = self.zero_first = self.lifting = False
         self.position_known = False
 
         self.done = self.hole_begun = self.holes_done = self.tool = 0

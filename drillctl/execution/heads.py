@@ -1,12 +1,12 @@
 """The drilling heads: how KMD_WIERTLO_DOL and KMD_WIERTLO_GORA start and end (docs/SPEC.md, 1.10).
 
 Rule: a head goes towards its sensor at that end and stops on it; without one it goes to the distance that the machine's
-file gives. The range's end without the sensor is a fault.
+file gives. The range's end without the sensor is a fault. A command's argument of a head is its own least interval.
 """
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
-from drillctl.kmd import Command, Fault
+from drillctl.kmd import Command, Fault, Op
 
 UP, DOWN = -1, 1
 
@@ -45,12 +45,14 @@ def _drive_head(m: Controller, command: Command, direction: int) -> int:
                 return Fault.HOMING_REQUIRED
             axis.seek_mask, axis.clear_mask, axis.halt_mask = sensor, 0, 0
             if not m.sensors & sensor:
-                axis.set_target(_head_target(m, axis, direction, sensor), command.floor_ticks)
+                axis.set_target(_head_target(m, axis, direction, sensor), max(command.floor_ticks, command.args[index]))
     return Fault.NONE
 
 
 def _is_head(m: Controller, command: Command, index: int, axis: Axis) -> bool:
-    return bool(command.axes >> index & 1) if command.axes else axis in m.drill_axes
+    """Whether a command moves an axis as a head: those that it names, else all heads of the machine."""
+    named = command.axes & m.head_mask if command.opcode == Op.GORA_X_Y else command.axes
+    return bool(named >> index & 1) if named else axis in m.drill_axes
 
 
 def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:

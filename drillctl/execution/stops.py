@@ -152,7 +152,7 @@ def too_fast_to_stop(m: Controller, axis: Axis) -> bool:
 
 def _end_job(m: Controller) -> None:
     m.epoch += 1
-    m.busy = False
+    m.busy = m.lifting = False
     m.time_limit = 0
 
 

@@ -9,6 +9,7 @@ from drillctl.execution.clock import apply_gap
 from drillctl.execution.commands import finish, start_next
 from drillctl.execution.conditions import Event, occur, serve
 from drillctl.execution.controller import Controller, Stage
+from drillctl.execution.lifted_travel import go_once_clear
 from drillctl.execution.limit_checks import guard
 from drillctl.execution.motion import MOVING, SETTLES
 from drillctl.execution.stops import cut_off
@@ -41,15 +42,13 @@ def tick(m: Controller) -> None:
         m.unseen = m.served  # a resume is recorded in the tick to come, which serves it again without effect
         _put_out(m)  # a winding must not keep its 24 V for as long as the next command takes to come
         return
+    if m.lifting:
+        go_once_clear(m)
     m.running = m.command.sequence if m.busy else 0
     if m.busy and m.stage == RUNNING:
         m.elapsed += 1
-    moving = 0
-    for axis in m.axes:
-        if axis.motion >= MOVING:
-            moving += axis.interrupt()
-    m.moving = moving
-    if not moving:
+    m.moving = _count(m)
+    if not m.moving:
         _at_rest(m)
     _put_out(m)
     m.tick += 1
@@ -67,6 +66,15 @@ def drop_forcing(m: Controller) -> None:
     for axis in m.axes:
         image |= axis.hold_bits
     m.port.flush(image)
+
+
+def _count(m: Controller) -> int:
+    """Every axis that moves counts one interrupt. Returns how many of them still count afterwards."""
+    moving = 0
+    for axis in m.axes:
+        if axis.motion >= MOVING:
+            moving += axis.interrupt()
+    return moving
 
 
 def _at_rest(m: Controller) -> None:

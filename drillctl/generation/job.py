@@ -96,4 +96,6 @@ class Job:
 
 def names_of(machine: Machine) -> Names:
     """What a machine calls its axes, outputs and inputs."""
-    return Names(machine.axis_names, dict(machine.outputs), {line.name: line.bit for line in machine.input_lines})
+    heads = tuple(machine.axis_names[index] for index in machine.drill_axes)
+    inputs = {line.name: line.bit for line in machine.input_lines}
+    return Names(machine.axis_names, dict(machine.outputs), inputs, heads)

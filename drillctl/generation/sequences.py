@@ -12,6 +12,7 @@ from drillctl.kmd.commands import Flag
 
 Records = NDArray[np.void]
 LOWERING = (Op.WIERTLO_DOL, Op.RUCH)  # a board's program moves its heads by these
+LIFTING = (Op.WIERTLO_GORA, Op.GORA_X_Y)  # and raises them by these, which end a hole
 
 
 def record(op: Op, args: list[int] | None = None, axes: int = 0, flags: Flag = Flag.NONE) -> Records:
@@ -35,7 +36,7 @@ def holes(program: Records) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """
     tag, opcode = program["tag"], program["opcode"]
     downs = np.flatnonzero((opcode == Op.WIERTLO_DOL) & (tag > 0))
-    ups = np.append(np.flatnonzero(opcode == Op.WIERTLO_GORA), len(program) - 1)
+    ups = np.append(np.flatnonzero(np.isin(opcode, LIFTING)), len(program) - 1)
     firsts = np.flatnonzero(np.append(True, tag[1:] != tag[:-1]))
     begins = firsts[np.searchsorted(firsts, downs, side="right") - 1]
     return begins, ups[np.searchsorted(ups, downs)] + 1

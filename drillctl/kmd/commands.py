@@ -25,7 +25,7 @@ RECORD = np.dtype(
         ("axes", "<u2"),  # mask: bit i = axis i of the machine's file
         ("floor_ticks", "<i4"),  # slowest allowed interval between steps, 0 = none
         ("tag", "<i4"),  # the hole's number in the job, from 1; 0 = none
-        ("args", "<i4", (MOST_AXES,)),  # by axis for moves, else as the command's form says
+        ("args", "<i4", (MOST_AXES,)),  # by axis: a move's way, a head's own floor; else as the command's form says
     ]
 )
 
@@ -53,6 +53,7 @@ class Op(IntEnum):
     FAZY_WYL = 17
     KONIEC = 18
     POWROT = 19
+    GORA_X_Y = 20
 
 
 class Flag(IntFlag):
@@ -73,6 +74,12 @@ class ArgumentForm(IntEnum):
     NUMBER = 4  # one integer
     OUTPUT = 5  # output name, 0|1
     INPUT = 6  # input name, 0|1, timeout in ticks
+    HEADS = 7  # axis or axis=ticks: heads, each with its own least interval; none = all heads of the machine
+    XY_HEADS = 8  # as XY, then as HEADS
+
+
+# The forms of commands that move axes, and so carry the feed (KMD_PREDKOSC).
+MOVING = frozenset((ArgumentForm.XY, ArgumentForm.MOVES, ArgumentForm.HEADS, ArgumentForm.XY_HEADS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +99,8 @@ class Spec:
 
 _BASE = Flag.ABSOLUTE
 _LINE = Flag.LINKED
-_HEADS, _PLACES = Message("[axis ...]"), Message("axis=steps ...")
+_AXES, _PLACES = Message("[axis ...]"), Message("axis=steps ...")
+_HEADS = Message("[axis[=ticks] ...]")
 _TICKS, _NOTHING = Message("ticks"), ""
 _ALL = (
     Spec("KMD_GOTOdXdY", Op.GOTO_DXDY, ArgumentForm.XY, "dX dY", Message("move X and Y by so many steps from here")),
@@ -100,14 +108,16 @@ _ALL = (
         "KMD_GOTO_X_Y", Op.GOTO_X_Y, ArgumentForm.XY, "X Y",
         Message("move X and Y to a place, in steps from the working base"), _BASE,
     ),
-    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, ArgumentForm.AXES, _HEADS, Message("lower the head to its lower sensor")),
-    Spec("KMD_WIERTLO_GORA", Op.WIERTLO_GORA, ArgumentForm.AXES, _HEADS, Message("raise the head to its upper sensor")),
+    Spec("KMD_WIERTLO_DOL", Op.WIERTLO_DOL, ArgumentForm.HEADS, _HEADS, Message("lower the head to its lower sensor")),
+    Spec(
+        "KMD_WIERTLO_GORA", Op.WIERTLO_GORA, ArgumentForm.HEADS, _HEADS, Message("raise the head to its upper sensor")
+    ),
     Spec(
         "KMD_INICJALIZACJA", Op.INICJALIZACJA, ArgumentForm.NOTHING, _NOTHING,
         Message("head up, then to X=0, Y=0 as the limit sensors set it; the position is known from here on"),
     ),
     Spec(
-        "KMD_BAZA", Op.BAZA, ArgumentForm.AXES, _HEADS,
+        "KMD_BAZA", Op.BAZA, ArgumentForm.AXES, _AXES,
         Message("take this place as working base, in X and Y or the axes named"),
     ),
     Spec(
@@ -143,13 +153,18 @@ _ALL = (
         Message("note which tool is in the spindle, by its number"),
     ),
     Spec(
-        "KMD_FAZY_WYL", Op.FAZY_WYL, ArgumentForm.AXES, _HEADS,
+        "KMD_FAZY_WYL", Op.FAZY_WYL, ArgumentForm.AXES, _AXES,
         Message("switch the phases of all axes, or of those named, off: the position is lost"),
     ),
     Spec("KMD_KONIEC", Op.KONIEC, ArgumentForm.NOTHING, _NOTHING, Message("the end of the queue")),
     Spec(
         "KMD_POWROT", Op.POWROT, ArgumentForm.NOTHING, _NOTHING,
         Message("return to zero by the count of steps: the heads first, then all other axes"),
+    ),
+    Spec(
+        "KMD_GORA_X_Y", Op.GORA_X_Y, ArgumentForm.XY_HEADS, Message("X Y [axis[=ticks] ...]"),
+        Message("raise the heads; once all of them are clear of the board, X and Y start to a place, in steps from "
+                "the working base"), _BASE,
     ),
 )  # fmt: skip
 
@@ -159,11 +174,14 @@ BY_OP: Mapping[Op, Spec] = {spec.op: spec for spec in _ALL}
 
 @dataclass(frozen=True)
 class Names:
-    """The names that a machine gives to axes (by index), outputs and inputs (by bit)."""
+    """The names that a machine gives to axes (by index), outputs and inputs (by bit); ``heads`` are the axes that
+    drill, none where that is not known.
+    """
 
     axes: tuple[str, ...]
     outputs: Mapping[str, int] = field(default_factory=dict)
     inputs: Mapping[str, int] = field(default_factory=dict)
+    heads: tuple[str, ...] = ()
 
 
 class Command:

@@ -11,7 +11,7 @@ import msgspec
 from drillctl.language import Counted, Message, known_words, nearest
 from drillctl.machine.homing import axes_named, homing_steps
 from drillctl.machine.inputs import encoder_indexes, sensors_and_inputs
-from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Surroundings
+from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Sensor, Surroundings
 from drillctl.machine.outputs import outputs_of
 from drillctl.machine.parameter_file import check_parameters, read_parameters
 from drillctl.machine.parts import Parts
@@ -40,6 +40,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     drill = raw.drill or DrillPart(axes=[names[-1]])
     drill_axes = axes_named(source, drill.axes, names, "drill", "axes")
     _check_depth(source, drill, [axes[index] for index in drill_axes])
+    _check_clear(source, drill, sensors, [(index, axes[index]) for index in drill_axes])
     machine = Machine(
         name=raw.name,
         description=raw.description,
@@ -65,6 +66,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         levels=outputs.levels,
         output_words=outputs.words,
         input_words=input_words,
+        drill_clear_steps=drill.clear,
     )
     check_parameters(source, machine)
     return machine
@@ -187,6 +189,24 @@ def _check_depth(source: Source, drill: DrillPart, heads: Iterable[AxisTable]) -
                 "drill",
                 "down",
             )
+
+
+def _check_clear(
+    source: Source, drill: DrillPart, sensors: Iterable[Sensor], heads: Iterable[tuple[int, AxisTable]]
+) -> None:
+    """A head that is up must be clear, and one that is down must not be."""
+    tops = {sensor.axis: sensor.edge_steps + sensor.hysteresis_steps for sensor in sensors if sensor.end == "min"}
+    for index, head in heads:
+        up, down = max(0, tops.get(index, 0)), drill.down or head.high_steps
+        if drill.clear is not None and not up <= drill.clear < down:
+            raise source.error(
+                Message(
+                    "drill: clear {clear} is outside {up}..{last} of {name}: between where it is up and where it "
+                    "drills",
+                    clear=drill.clear, up=up, last=down - 1, name=head.name,
+                ),
+                "drill", "clear",
+            )  # fmt: skip
 
 
 def _surfaces(source: Source, surfaces: Mapping[str, object], names: list[str]) -> tuple[int | None, ...]:

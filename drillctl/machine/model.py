@@ -166,6 +166,7 @@ class Machine:
     levels: tuple[OutputLevels, ...] = field(default=(), repr=False)  # of the outputs that have any but 0
     output_words: tuple[Word, ...] = field(default=(), repr=False)
     input_words: tuple[Word, ...] = field(default=(), repr=False)
+    drill_clear_steps: int | None = field(default=None, repr=False)  # down to here a head is clear of the board
 
     @property
     def file(self) -> str:
@@ -261,7 +262,8 @@ class Machine:
         """What decides a run and came later than the first digests, where it is not as it was before."""
         strokes = (f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
         slow = tuple((number, step.interval) for number, step in enumerate(self.homing) if step.interval)
-        set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow)
+        clear = () if self.drill_clear_steps is None else ("clear", self.drill_clear_steps)
+        set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow, clear)
         later = (*self.inputs, *self.reactions, *self.indexes, *set_by_file)
         outputs = (*self.levels, *self.output_words, *self.input_words)
         return "".join((*strokes, *(f"{value!r}\n" for value in (*later, *outputs) if value)))

@@ -122,10 +122,11 @@ class ConfigurationPart(Strict, frozen=True):
 
 
 class DrillPart(Strict, frozen=True):
-    """``[drill]``: which axes drill, and how deep where no sensor says."""
+    """``[drill]``: which axes drill, how deep where no sensor says, and down to where they are clear of the board."""
 
     axes: Annotated[list[str], msgspec.Meta(min_length=1)]
     down: Steps | None = None
+    clear: Steps | None = None
 
 
 class PlantPart(Strict, frozen=True):

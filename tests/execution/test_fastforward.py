@@ -38,6 +38,7 @@ def small(name: str) -> Machine:
         machine,
         axes=tuple(replace(axis, start_steps=axis.start_steps // SHORTER) for axis in machine.axes),
         drill_down_steps=machine.drill_down_steps // SHORTER,
+        drill_clear_steps=machine.drill_clear_steps and machine.drill_clear_steps // SHORTER,
         board_surface=tuple(steps and steps // SHORTER for steps in machine.board_surface),
     )
 
@@ -48,11 +49,12 @@ def commands(draw: st.DrawFn, machine: Machine) -> str:
     axis = st.sampled_from(machine.axis_names)
     some = draw(st.lists(axis, min_size=1, max_size=2, unique=True))
     places = " ".join(f"{name}={abs(draw(STEPS))}" for name in some)
+    head = machine.axis_names[draw(st.sampled_from(machine.drill_axes))]
     ways = " ".join(f"{name}={draw(STEPS)}" for name in some)
     forms = [
         *[f"KMD_GOTO_X_Y {abs(draw(STEPS))} {abs(draw(STEPS))}"] * 3, f"KMD_GOTOdXdY {draw(STEPS)} {draw(STEPS)}",
         *["KMD_WIERTLO_DOL"] * 2, *["KMD_WIERTLO_GORA"] * 3,
-        f"KMD_WIERTLO_DOL {some[0]}", f"KMD_WIERTLO_GORA {some[0]}",
+        f"KMD_WIERTLO_DOL {some[0]}=5", f"KMD_WIERTLO_DOL {some[0]}", f"KMD_WIERTLO_GORA {some[0]}",
         f"KMD_RUCH {places}", f"KMD_RUCHd {ways}", f"KMD_LINIA {places}", f"KMD_LINIAd {ways}",
         "KMD_BAZA", f"KMD_BAZA {some[0]}", f"KMD_PREDKOSC {draw(st.sampled_from([0, 1, 2, 3, 5, 9, 40]))}",
         f"KMD_CZEKAJ {draw(st.sampled_from([0, 1, 2, 77, 5000]))}", "KMD_WRZECIONO 9", "KMD_WRZECIONO 0",
@@ -60,6 +62,8 @@ def commands(draw: st.DrawFn, machine: Machine) -> str:
         *(f"KMD_WYJSCIE {name} {level}" for name, _ in machine.outputs for level in (0, 1)),
         *(f"KMD_CZEKAJ_WE {line.name} {level} 9" for line in machine.input_lines for level in (0, 1)),
     ]  # fmt: skip
+    if head not in ("x", "y"):
+        forms += [f"KMD_GORA_X_Y {abs(draw(STEPS))} {abs(draw(STEPS))}", f"KMD_GORA_X_Y {abs(draw(STEPS))} 7 {head}=3"]
     return draw(st.sampled_from(forms))
 
 
@@ -98,6 +102,23 @@ def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.Dat
 @pytest.mark.parametrize("name", MACHINES)
 def test_a_hundred_programs_more(name: str) -> None:
     settings(max_examples=100, deadline=None)(given(data=st.data())(check_some_program))(small(name))
+
+
+LIFTED_TO = ((40, 20), (45, 20), (45, 20), (300, 700), (40, 20), (45, 20))
+LIFTED = "KMD_INICJALIZACJA\nKMD_GOTO_X_Y 5 5\n" + "\n".join(
+    f"KMD_WIERTLO_DOL\nKMD_GORA_X_Y {x} {y} {{heads}}" for x, y in LIFTED_TO
+)
+
+
+@pytest.mark.parametrize("heads", ["", "{head}=3"])
+@pytest.mark.parametrize(("name", "clear"), [("pcb-drill", None), ("pcb-drill", 700), ("eight-axis", 360)])
+def test_x_and_y_start_in_the_same_tick_of_a_lift(name: str, clear: int | None, heads: str) -> None:
+    """Ways shorter and longer than the lift, and none at all; by one feed, and with one of each head's own."""
+    machine = replace(small(name), drill_clear_steps=clear)
+    named = [machine.axis_names[index] for index in machine.drill_axes]
+    text = LIFTED.format(heads=" ".join(heads.format(head=head) for head in named))
+    fast = check(machine, text, {}, 10**9)
+    assert fast.controller.fault == 0 and fast.touched
 
 
 HOLES = np.random.default_rng(720).integers(0, 300, (2, 2)).tolist()

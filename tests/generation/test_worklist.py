@@ -16,6 +16,7 @@ from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.placing import Panel, Placing
 from drillctl.generation.queues import queue_text
 from drillctl.generation.readers import load_job
+from drillctl.generation.sequences import holes
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import build
 from drillctl.kmd import Op
@@ -135,6 +136,25 @@ def test_the_spindle_of_a_machine_that_has_one_is_on_while_drilling() -> None:
     for at in (at for at, op in enumerate(found) if op is Op.NARZEDZIE):
         assert found[at + 1 : at + 3] == [Op.WYJSCIE, Op.CZEKAJ], "on, and time to spin up"
         assert program["args"][at + 2, 0] == machine.configuration.spin_up_s * machine.tick_hz > 0
+
+
+@pytest.mark.parametrize("backlash", [0, 7])
+def test_where_the_bits_are_clear_is_known_the_way_to_the_next_hole_begins_during_the_lift(backlash: int) -> None:
+    """Between the holes of a tool; the hole's number stays with its stroke. The same places are drilled in the same
+    order as one after the other.
+    """
+    axes = tuple(replace(axis, backlash_steps=backlash) for axis in PCB.axes)
+    body, plain = "T1\nX1Y1\nX3Y2\nX2Y1\nT2\nX2Y9", replace(PCB, axes=axes)
+    clear = replace(plain, drill_clear_steps=500)
+    settings = WorkSettings(base_steps=(9, 9))
+    programs = [board_program(build(drill_file(body), settings, m), m, settings) for m in (plain, clear)]
+    ups = programs[1][np.isin(programs[1]["opcode"], [Op.WIERTLO_GORA, Op.GORA_X_Y])]
+    assert [(Op(up["opcode"]), int(up["tag"])) for up in ups] == [
+        (Op.GORA_X_Y, 1), (Op.GORA_X_Y, 2), (Op.WIERTLO_GORA, 3), (Op.WIERTLO_GORA, 4),
+    ]  # fmt: skip
+    places = [each["args"][np.isin(each["opcode"], [Op.GOTO_X_Y, Op.GORA_X_Y])][:, :2].tolist() for each in programs]
+    assert places[0] == places[1]
+    assert [len(ends) for _, ends in map(holes, programs)] == [4, 4]
 
 
 def test_pecks_go_deeper_each_time_and_end_at_the_sensor() -> None:

@@ -14,7 +14,7 @@ AGREED = {
     "KMD_GOTOdXdY", "KMD_GOTO_X_Y", "KMD_WIERTLO_DOL",
     "KMD_WIERTLO_GORA", "KMD_INICJALIZACJA", "KMD_BAZA", "KMD_RUCH", "KMD_RUCHd", "KMD_LINIA", "KMD_LINIAd",
     "KMD_PREDKOSC", "KMD_CZEKAJ", "KMD_WYJSCIE", "KMD_CZEKAJ_WE", "KMD_WRZECIONO", "KMD_NARZEDZIE", "KMD_FAZY_WYL",
-    "KMD_KONIEC", "KMD_POWROT",
+    "KMD_KONIEC", "KMD_POWROT", "KMD_GORA_X_Y",
 }  # fmt: skip
 
 
@@ -45,7 +45,9 @@ def test_a_record_is_60_bytes_little_endian(names: Names) -> None:
 def test_flags_tell_absolute_from_relative_and_lines_from_moves() -> None:
     flags = {name.removeprefix("KMD_"): spec.flags for name, spec in COMMANDS.items() if spec.flags}
     absolute, linked = Flag.ABSOLUTE, Flag.LINKED
-    assert flags == {"GOTO_X_Y": absolute, "RUCH": absolute, "LINIA": absolute | linked, "LINIAd": linked}
+    assert flags == {
+        "GOTO_X_Y": absolute, "RUCH": absolute, "LINIA": absolute | linked, "LINIAd": linked, "GORA_X_Y": absolute,
+    }  # fmt: skip
 
 
 def test_take_overwrites_one_command_in_place() -> None:

@@ -13,6 +13,7 @@ NAMES = Names(("x", "y", "z"), {"spindle": 18, "clamp": 40}, {"x_min": 0, "z_top
 INTEGERS = st.integers(-MOST_ARGUMENT, MOST_ARGUMENT)
 NATURALS = st.integers(0, MOST_ARGUMENT)
 AXES = st.lists(st.sampled_from(NAMES.axes), max_size=3, unique=True)
+HEADS = AXES.flatmap(lambda axes: st.tuples(*(st.sampled_from([axis, f"{axis}=0", f"{axis}=7"]) for axis in axes)))
 ARGUMENTS = {
     ArgumentForm.NOTHING: st.just([]),
     ArgumentForm.XY: st.tuples(INTEGERS, INTEGERS),
@@ -20,6 +21,8 @@ ARGUMENTS = {
         lambda axes: st.tuples(*(INTEGERS.map(f"{a}={{}}".format) for a in axes))
     ),
     ArgumentForm.AXES: AXES,
+    ArgumentForm.HEADS: HEADS,
+    ArgumentForm.XY_HEADS: st.tuples(INTEGERS, INTEGERS, st.sampled_from(["", "z", "z=7"])),
     ArgumentForm.NUMBER: st.tuples(NATURALS),
     ArgumentForm.OUTPUT: st.tuples(st.sampled_from(sorted(NAMES.outputs)), st.sampled_from([0, 1])),
     ArgumentForm.INPUT: st.tuples(
@@ -112,6 +115,11 @@ def test_axis_names_fill_mask_and_arguments_by_index() -> None:
         ("KMD_RUCH x=1 w=2", 1, 14, "no axis is named 'w'; there are x, y, z"),
         ("KMD_RUCH x=1 z=two", 1, 16, "'two' is not a whole number"),
         ("KMD_WIERTLO_DOL z w", 1, 19, "no axis is named 'w'; there are x, y, z"),
+        ("KMD_WIERTLO_GORA z=-1", 1, 20, "'-1' is not a whole number from 0"),
+        ("KMD_WIERTLO_DOL z z=2", 1, 19, "axis z is named twice"),
+        ("KMD_GORA_X_Y 1", 1, 1, "1 argument; it is written KMD_GORA_X_Y X Y [axis[=ticks] ...]"),
+        ("KMD_GORA_X_Y 1 2 x=3", 1, 18, "x is no head"),
+        ("KMD_GORA_X_Y 1 2 z=3 w", 1, 22, "no axis is named 'w'; there are x, y, z"),
         ("KMD_CZEKAJ -1", 1, 12, "'-1' is not a whole number from 0"),
         ("KMD_CZEKAJ", 1, 1, "0 arguments; it is written KMD_CZEKAJ ticks"),
         ("KMD_WYJSCIE fan 1", 1, 13, "no output is named 'fan'; there are spindle, clamp"),
@@ -127,6 +135,18 @@ def test_errors_name_line_column_and_reason(text: str, line: int, column: int, r
         parse_program(text, NAMES, "q.kmd")
     assert (refused.value.line, refused.value.column, refused.value.reason) == (line, column, reason)
     assert str(refused.value) == f"q.kmd:{line}:{column}: {reason}"
+
+
+def test_only_heads_are_raised_before_x_and_y_start() -> None:
+    """A machine's names tell which axes drill."""
+    table = Names(("x", "y", "z", "w"), heads=("z",))
+    assert parse_program("KMD_GORA_X_Y 1 2 z", table)["axes"][0] == 0b111
+    for names, text, reason in (
+        (table, "KMD_GORA_X_Y 1 2 w", "w is no head"),
+        (Names(("x", "y"), heads=("y",)), "KMD_GORA_X_Y 1 2", "y is a head of this machine"),
+    ):
+        with pytest.raises(KmdError, match=reason):
+            parse_program(text, names)
 
 
 def test_a_machine_without_such_names_says_so() -> None:

@@ -5,7 +5,7 @@ command ends. Strokes that end on a sensor are not in it: batch.py has them.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ class AxisBatch:
     steps     signed; 0 where it rests
     min_interval  of the command, in ticks
     ticks     of its own motion
+    delay     ticks of the command before it starts
     """
 
     axis: Axis
@@ -37,6 +38,7 @@ class AxisBatch:
     position: Count
     column: Count
     ticks: Count
+    delay: Count
 
     @classmethod
     def of(cls, axis: Axis, profiles: Profiles, given: Count, absolute: NDArray[np.bool_], sent: NDArray[np.bool_],
@@ -47,7 +49,7 @@ class AxisBatch:
         travel = np.cumsum(steps * (axis.columns_per_step * axis.direction_sign))
         column = np.concatenate(([axis.column], (axis.column + travel) % axis.length))
         ticks = np.zeros(len(given), np.int64)
-        return cls(axis, profiles, sent, absolute, min_interval, steps, position, column, ticks)
+        return cls(axis, profiles, sent, absolute, min_interval, steps, position, column, ticks, ticks.copy())
 
     def timed(self) -> bool:
         """Finds the ticks of each move; False where a move is not to be foreseen."""
@@ -57,34 +59,43 @@ class AxisBatch:
             self.ticks[rows] = profile.ticks(np.abs(self.steps[rows]))
         return True
 
-    def upto(self, count: int) -> "AxisBatch":
-        """The first ``count`` commands alone."""
-        rows, places = slice(count), slice(count + 1)
-        return AxisBatch(self.axis, self.profiles, self.sent[rows], self.absolute[rows], self.min_interval[rows],
-                       self.steps[rows], self.position[places], self.column[places], self.ticks[rows])  # fmt: skip
+    def ends(self) -> Count:
+        """In each command, the ticks up to where it rests again, (n,); 0 where it doesn't move."""
+        return np.where(self.steps != 0, self.delay + self.ticks, 0)
+
+    def upto(self, count: int, delay: Count) -> "AxisBatch":
+        """The first ``count`` commands alone, with the ``delay`` (count,) of each."""
+        return replace(self._part(slice(count), slice(count + 1)), delay=delay)
 
     def last(self) -> "AxisBatch":
         """The last command alone."""
-        rows, places = slice(-1, None), slice(-2, None)
-        return AxisBatch(self.axis, self.profiles, self.sent[rows], self.absolute[rows], self.min_interval[rows],
-                       self.steps[rows], self.position[places], self.column[places], self.ticks[rows])  # fmt: skip
+        return self._part(slice(-1, None), slice(-2, None))
+
+    def _part(self, rows: slice, places: slice) -> "AxisBatch":
+        return AxisBatch(
+            self.axis, self.profiles, self.sent[rows], self.absolute[rows], self.min_interval[rows], self.steps[rows],
+            self.position[places], self.column[places], self.ticks[rows], self.delay[rows],
+        )  # fmt: skip
 
     def travel(self) -> int:
         """Columns on the way, forward less backward, as the controller counts them."""
         return int(self.steps.sum()) * self.axis.columns_per_step
 
     def slices(self, pool: ImagePool, ticks: Count) -> tuple[Count, Count, Count]:
-        """Start, ticks and period (n, 5) while the commands take ``ticks`` (n,): wait, head, cruise, tail, rest."""
-        start, length = np.zeros((2, len(ticks), 5), np.int64)
+        """Start, ticks and period (n, 6) while the commands take ``ticks`` (n,): delay, wait, head, cruise, tail and
+        rest.
+        """
+        start, length = np.zeros((2, len(ticks), 6), np.int64)
         period = np.full_like(start, PERIOD)
-        start[:, 0], start[:, 4] = self._rests(pool)
+        start[:, 0], start[:, 1], start[:, 5] = self._rests(pool)
         length[:, 0] = ticks
         for profile, rows in self._moves():
-            start[rows, 1:4], length[rows, 1:4], period[rows, 1:4] = profile.slices(
+            start[rows, 2:5], length[rows, 2:5], period[rows, 2:5] = profile.slices(
                 pool, np.abs(self.steps[rows]), self.column[rows]
             )
-            length[rows, 0] = profile.first_wait - 1
-            length[rows, 4] = ticks[rows] - self.ticks[rows]
+            length[rows, 0] = self.delay[rows]
+            length[rows, 1] = profile.first_wait - 1
+            length[rows, 5] = ticks[rows] - self.delay[rows] - self.ticks[rows]
         return start, length, period
 
     def motion(self, starts: Count) -> Count:
@@ -92,10 +103,11 @@ class AxisBatch:
         the commands begin at the ticks ``starts`` (n,).
         """
         parts = [np.array([[-1], [self.column[0]], [self.position[0]], [0]], np.int64)]
+        begins = starts[: len(self.delay)] + self.delay
         for profile, rows in self._moves():
             distance = self.steps[rows]
             for steps in np.unique(distance).tolist():
-                parts.append(self._moved(profile.motion(abs(steps)), rows[distance == steps], starts))
+                parts.append(self._moved(profile.motion(abs(steps)), rows[distance == steps], begins))
         parts.sort(key=lambda part: int(part[0, 0]))  # mostly that is the order of all ticks already
         motion = np.concatenate(parts, axis=1)
         return motion[:, np.argsort(motion[0], kind="stable")]
@@ -109,8 +121,10 @@ class AxisBatch:
         moved = (starts[rows][:, None] + ticks, column, position, np.broadcast_to(states, column.shape))
         return np.stack([each.ravel() for each in moved])
 
-    def _rests(self, pool: ImagePool) -> tuple[Count, Count]:
-        """Where the image lies that stands before a command's first column, and after its last one: (n,) each."""
+    def _rests(self, pool: ImagePool) -> tuple[Count, Count, Count]:
+        """Where the image lies that stands before an axis starts, before its first column, and after its last one:
+        (n,) each.
+        """
         axis, turn = self.axis, np.sign(self.steps) * self.axis.direction_sign
         moved = np.flatnonzero(turn)
         patterns = [axis.hold_patterns[way] or (0,) * axis.length for way in (0, 1, -1)]
@@ -118,9 +132,10 @@ class AxisBatch:
         last = np.maximum.accumulate(np.where(turn != 0, np.arange(1, len(turn) + 1), 0)) if len(turn) else moved
         after = np.concatenate(([pool.steady(axis.hold_bits)], at_rest[turn, self.column[1:]]))[last]
         before = np.concatenate(([pool.steady(axis.hold_bits)], after[:-1]))[: len(turn)]
+        turned = before.copy()
         if axis.drive:  # the direction wire stands before the first pulse
-            before[moved] = at_rest[turn[moved], self.column[moved]]
-        return before, after
+            turned[moved] = at_rest[turn[moved], self.column[moved]]
+        return before, turned, after
 
     def _moves(self) -> list[tuple[MoveProfile, NDArray[np.intp]]]:
         """The commands in which this axis moves, by direction and min_interval."""
@@ -155,7 +170,7 @@ class AxisBatch:
         axis.wait = self.profiles(axis.direction, int(self.min_interval[row])).last_wait(abs(int(self.steps[row])))
         turn = axis.direction * axis.direction_sign
         axis.hold_bits = axis.hold_patterns[turn][axis.column]
-        just_at_rest = row == len(self.steps) - 1 and int(self.ticks[row]) == longest
+        just_at_rest = row == len(self.steps) - 1 and int(self.ends()[row]) == longest
         axis.motion = SETTLING if just_at_rest else REST
         axis.bits = axis.drive_patterns[turn][axis.column] if just_at_rest else axis.hold_bits
 

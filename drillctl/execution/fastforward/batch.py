@@ -50,11 +50,14 @@ class Stroked:
         """What a head puts out, by its number: between strokes it rests where the last one left it."""
         rests = [pool.steady(place.rests[number]) for place in (self.begin, *(kind.after for kind in self.kinds))]
         strokes_before = np.cumsum(np.bincount(self.rows, minlength=len(ticks))) if len(self.rows) else 0 * ticks
-        start = np.array(rests)[np.concatenate(([0], self.which + 1))][strokes_before]
-        period = np.full(len(ticks), PERIOD)
-        start[self.rows] = self.of_kinds([kind.strip(pool, number) for kind in self.kinds])
-        period[self.rows] = np.maximum(ticks[self.rows], PERIOD + 1)
-        return Tape.of(start, ticks, period)
+        start, length = np.zeros((2, len(ticks), 2), np.int64)  # the stroke, and the rest of its command
+        start[:, 1] = np.array(rests)[np.concatenate(([0], self.which + 1))][strokes_before]
+        period = np.full_like(start, PERIOD)
+        start[self.rows, 0] = self.of_kinds([kind.strip(pool, number) for kind in self.kinds])
+        length[self.rows, 0] = self.of_kinds([kind.ticks for kind in self.kinds])
+        period[self.rows, 0] = np.maximum(length[self.rows, 0], PERIOD + 1)
+        length[:, 1] = ticks - length[:, 0]
+        return Tape.of(start.ravel(), length.ravel(), period.ravel())
 
     def motion(self, number: int, starts: Count) -> Count:
         """What a head does, by its number, as AxisBatch.motion has it."""
@@ -78,8 +81,8 @@ class Stroked:
         order = np.argsort(ticks, kind="stable")
         return ticks[order], seen[order]
 
-    def leave(self, m: Controller, world: PlantFacts, last_row: int) -> None:
-        """The heads as they stand after the command ``last_row``."""
+    def leave(self, m: Controller, world: PlantFacts, last_row: int, ticks: int) -> None:
+        """The heads as they stand after the command ``last_row``, which took so many ticks."""
         place = self.kinds[self.which[-1]].after if len(self.rows) else self.begin
         times = np.bincount(self.which, minlength=len(self.kinds)).tolist()
         for number, head in enumerate(self.heads):
@@ -91,7 +94,7 @@ class Stroked:
             for counter, name in enumerate(COUNTERS):
                 grown = sum(n * kind.grown[number][counter] for n, kind in zip(times, self.kinds, strict=True))
                 setattr(axis, name, getattr(axis, name) + grown)
-            if len(self.rows) and self.rows[-1] == last_row:
+            if len(self.rows) and self.rows[-1] == last_row and self.kinds[self.which[-1]].ticks == ticks:
                 axis.motion, axis.bits = self.kinds[self.which[-1]].last[number]
             world.recall(head, place.memories[number])
 

@@ -66,7 +66,7 @@ class Engine:
                 axis_batch.leave(batch.ticks)
                 if axis_batch.steps.any():
                     self._world.follow(index, _travel(self._m.axes[index]))
-        batch.stroked.leave(self._m, self._world, len(batch.commands) - 1)
+        batch.stroked.leave(self._m, self._world, len(batch.commands) - 1, int(batch.ticks[-1]))
         self._leave_controller(batch)
         self._world.settle(self._m.image, [head for *_, head in batch.touches])
 
@@ -88,10 +88,12 @@ class Engine:
             m.image |= axis.bits
 
     def recording(self, command: NDArray[np.void]) -> Recording | None:
-        """Returns what notes the ticks of a command, dtype RECORD (1,), if it is a stroke of the heads alone."""
+        """Returns what notes the ticks of a command, dtype RECORD (1,), if it is a stroke of the heads, alone or before
+        other axes start.
+        """
         if not (self._m.position_known and is_stroke(command, self._strokes.heads).all()):
             return None
-        return Recording(self._m, self._world, self._strokes, signatures(command)[0])
+        return Recording(self._m, self._world, self._strokes, signatures(command, np.uint16(self._m.head_mask))[0])
 
     def _profile(self, index: int, direction: int, min_interval: int) -> MoveProfile:
         key = index, direction, min_interval

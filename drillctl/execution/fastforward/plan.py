@@ -19,7 +19,7 @@ from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.strokes import Stroke, Strokes
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.kmd import Op
-from drillctl.kmd.commands import Flag
+from drillctl.kmd.commands import MOST_AXES, Flag
 from drillctl.ports import with_bits
 from drillctl.trace.tapes import Count
 
@@ -45,7 +45,9 @@ def foresee(m: Controller, world: PlantFacts, strokes: Strokes, profile: Profile
     commands = commands[: _beginning(np.logical_and.reduce([*clear, np.ones(len(commands), bool)]))]
     rows, known = _known(strokes, commands, np.flatnonzero(stroked[: len(commands)]))
     commands = commands[: rows[len(known)] if len(known) < len(rows) else len(commands)]
-    rows, made = rows[: len(known)], [j and j.upto(len(commands)) for j in axis_batches]
+    rows = rows[: len(known)]
+    delay = _delay(m, commands, rows, known)
+    made = [j and j.upto(len(commands), delay) for j in axis_batches]
     if not len(commands) or not all(j is None or j.timed() for j in made):
         return None
     mask = strokes.mask if len(rows) else 0
@@ -66,22 +68,22 @@ def foresee(m: Controller, world: PlantFacts, strokes: Strokes, profile: Profile
 
 
 def is_stroke(commands: Records, heads: Sequence[int]) -> Rows:
-    """The commands that heads alone carry out, (n,)."""
+    """The commands that heads alone carry out, or begin before other axes start: (n,)."""
     alone = commands["axes"] & ~_mask(heads) == 0
     moves = np.isin(commands["opcode"], MOVES) & (commands["axes"] > 0)
-    stroke: Rows = (np.isin(commands["opcode"], STROKES) | moves) & alone
+    stroke: Rows = (np.isin(commands["opcode"], STROKES) | moves) & alone | (commands["opcode"] == Op.GORA_X_Y)
     return stroke
 
 
 def _stroked(commands: Records, heads: Sequence[int]) -> Rows:
     """The strokes; none where the first command that moves a head moves another axis too."""
-    stroke, moves = is_stroke(commands, heads), np.isin(commands["opcode"], (*MOVES, *STROKES))
+    stroke, moves = is_stroke(commands, heads), np.isin(commands["opcode"], (*MOVES, *STROKES, Op.GORA_X_Y))
     touching = np.flatnonzero(stroke | (moves & (commands["axes"] & _mask(heads) > 0)))
     return stroke if len(touching) and stroke[touching[0]] else np.zeros(len(commands), bool)
 
 
-def _mask(axes: Sequence[int]) -> np.uint8:
-    return np.uint8(sum(1 << axis for axis in axes))
+def _mask(axes: Sequence[int]) -> np.uint16:
+    return np.uint16(sum(1 << axis for axis in axes))
 
 
 def _of_a_kind(m: Controller, commands: Records, stroked: Rows, heads: Sequence[int]) -> Rows:
@@ -102,7 +104,7 @@ def _turns_spindle(m: Controller, commands: Records) -> Rows:
 
 
 def _axis_batch(m: Controller, index: int, profiles: Callable[[int, int], MoveProfile], commands: Records) -> AxisBatch:
-    sent = np.isin(commands["opcode"], MOVES) & (commands["axes"] >> index & 1 > 0)
+    sent = np.isin(commands["opcode"], (*MOVES, Op.GORA_X_Y)) & (commands["axes"] >> index & 1 > 0)
     absolute = commands["flags"] & Flag.ABSOLUTE > 0
     given, min_interval = commands["args"][:, index].astype(np.int64), commands["floor_ticks"].astype(np.int64)
     return AxisBatch.of(m.axes[index], profiles, given, absolute, sent, min_interval)
@@ -139,7 +141,7 @@ def _within_travel(axis: Axis, axis_batch: AxisBatch) -> Rows:
 def _known(strokes: Strokes, commands: Records, rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], list[Stroke]]:
     """All rows of strokes, and what the first of them do, as far as that is known: from place to place."""
     place, known = strokes.here(), []
-    for command in signatures(commands[rows]):
+    for command in signatures(commands[rows], _mask(strokes.heads)):
         stroke = place.known.get(command)
         if stroke is None:
             break
@@ -148,11 +150,13 @@ def _known(strokes: Strokes, commands: Records, rows: NDArray[np.intp]) -> tuple
     return rows, known
 
 
-def signatures(commands: Records) -> list[bytes]:
-    """All that a stroke's motion depends on, for each command."""
+def signatures(commands: Records, heads: np.uint16) -> list[bytes]:
+    """All that a stroke's motion depends on, for each command; ``heads`` is the mask of what strokes."""
     plain = commands.copy()
     for name in ("sequence", "epoch", "tag"):
         plain[name] = 0
+    plain["axes"] &= heads
+    plain["args"][:, [not int(heads) >> index & 1 for index in range(MOST_AXES)]] = 0
     data, size = plain.tobytes(), plain.itemsize
     return [data[begin : begin + size] for begin in range(0, len(data), size)]
 
@@ -162,9 +166,18 @@ def _ticks(
 ) -> Count:
     """The longest of what a command waits for, and at least 1."""
     waits = np.where(commands["opcode"] == Op.CZEKAJ, commands["args"][:, 0], 1).astype(np.int64)
-    ticks = np.maximum.reduce([np.maximum(waits, 1), *(j.ticks for j in axis_batches if j is not None)])
-    ticks[rows] = [stroke.ticks for stroke in known]
+    ticks = np.maximum.reduce([np.maximum(waits, 1), *(j.ends() for j in axis_batches if j is not None)])
+    ticks[rows] = np.maximum(ticks[rows], [stroke.ticks for stroke in known])
     return ticks
+
+
+def _delay(m: Controller, commands: Records, rows: NDArray[np.intp], known: list[Stroke]) -> Count:
+    """The ticks of each command before the axes that don't stroke start: 0, but where they wait for the heads."""
+    delay = np.zeros(len(commands), np.int64)
+    for row, stroke in zip(rows.tolist(), known, strict=True):
+        if commands["opcode"][row] == Op.GORA_X_Y:
+            delay[row] = stroke.clear_after(m.machine.drill_clear_steps)
+    return delay
 
 
 def _switched(m: Controller, commands: Records) -> NDArray[np.uint64]:

@@ -14,6 +14,7 @@ from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.stretch import Count, Course, Images, foresee_courses, leave, put_out, still_image
 from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.kmd import Op
 
 LONGEST = 1 << 20  # ticks
 SHORTEST = 8  # ticks: a stretch of fewer is quicker ticked
@@ -48,6 +49,8 @@ def foresee_quiet(m: Controller, world: PlantFacts, most: int) -> Quiet | None:
     """
     moving = [index for index, axis in enumerate(m.axes) if axis.counting]
     columns = {index: _free_columns(world, index, m.axes[index]) for index in moving}
+    if m.command.opcode == Op.GORA_X_Y and len({m.axes[index] in m.drill_axes for index in moving}) > 1:
+        return None  # the heads' part of it ends in a tick of its own (strokes.py)
     if not moving or min(columns.values()) <= 0 or (len(moving) > 1 and any(m.axes[index].drive for index in moving)):
         return None
     ticks, courses = foresee_courses(m, world.inputs, min(most, LONGEST))

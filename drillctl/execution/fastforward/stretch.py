@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller, Stage
+from drillctl.execution.lifted_travel import heads_clear
 from drillctl.execution.motion import BRAKING, MOVING, REST, SETTLING, STOPPING
 from drillctl.kmd import Op
 
@@ -69,9 +70,11 @@ def foresee_courses(m: Controller, inputs: int, most: int) -> tuple[int, list[Co
     moving = [course for course in courses if course is not None]
     if len(moving) != m.moving:
         return 0, []
+    if m.lifting:
+        ticks = min(ticks, _until_clear(m, courses))
     if moving:
         on = [course.ticks for course in moving if not course.rests]
-        ticks = min(on) if on else max(course.ticks for course in moving) - 1  # then the command may end
+        ticks = min(ticks, min(on) if on else max(course.ticks for course in moving) - 1)  # then the command may end
     return ticks, courses
 
 
@@ -123,12 +126,29 @@ def _undisturbed(m: Controller, inputs: int) -> int:
     """Returns for how many ticks the current command goes on, and nothing but its axes may change how."""
     if m.stage != Stage.RUNNING or not m.busy or m.requests.waiting or inputs != m.inputs:
         return 0
-    if m.fault or m.gap or m.late or m.served or m.unseen or m.hot_until:
+    if m.fault or m.gap or m.late or m.served or m.unseen or m.hot_until or (m.lifting and heads_clear(m)):
         return 0
     ticks = m.time_limit - m.elapsed if m.time_limit else LONGEST
     if not m.moving:
         ticks = min(ticks, m.command.args[0] - m.elapsed - 1 if m.command.opcode == Op.CZEKAJ else 0)
     return ticks
+
+
+def _until_clear(m: Controller, courses: Sequence[Course | None]) -> int:
+    """Returns the ticks up to that in which the last of the heads that go up is clear: X and Y start in the next."""
+    clear = m.machine.drill_clear_steps
+    return max((_clear_after(m.axes[index], courses[index], clear) for index in m.machine.drill_axes), default=0)
+
+
+def _clear_after(axis: Axis, course: Course | None, clear: int | None) -> int:
+    """Returns the ticks until a head is clear: where it comes to rest, or has come up to ``clear``."""
+    if course is None or (clear is not None and axis.position <= clear):
+        return 0
+    if clear is not None:
+        steps = (axis.column_in_step + np.arange(1, sum(course.columns) + 1)) // axis.columns_per_step
+        there = np.flatnonzero(axis.position + axis.direction * steps <= clear)
+        return int(course.begins()[there[0]]) + 1 if len(there) else course.ticks
+    return course.ticks
 
 
 def _is_quiet(axis: Axis, sensors: int, position_known: bool) -> bool:

@@ -27,6 +27,7 @@ TABLES = (
     "halves",
 )  # fmt: skip
 BEEN = ("least", "most")  # strokes are foreseen from known places alone, where nothing depends on these
+SOUGHT = ("seek_mask",)  # a command that ends well seeks no sensor any more
 REMEMBERED = tuple(slot for slot in Axis.__slots__ if slot not in (*COUNTERS, *TABLES, *BEEN))
 
 
@@ -40,6 +41,7 @@ class Stroke:
     motions  by head: tick and MOTION, changes only, (k, 4)
     grown    by head, what it adds to the COUNTERS
     last     by head, its AxisMotion in the last tick, in which its forcing may still be on, and its bits then
+    begins   by head, MOTION before it
     after    the place it ends at
     """
 
@@ -50,8 +52,19 @@ class Stroke:
     motions: tuple[Count, ...]
     grown: tuple[tuple[int, ...], ...]
     last: tuple[tuple[int, int], ...]
+    begins: tuple[tuple[int, ...], ...]
     after: "Place"
     strips: dict[int, int] = field(default_factory=dict)
+
+    def clear_after(self, clear: int | None) -> int:
+        """Returns the ticks of the stroke up to that in which the last of the heads has come up to ``clear`` steps, or,
+        where that is None, has come to rest; 0 where all were there already.
+        """
+        ends = []
+        for motion, (_, position, _) in zip(self.motions, self.begins, strict=True):
+            there = motion if clear is None else motion[motion[:, 1 + POSITION] <= clear][:1]
+            ends.append(int(there[-1, 0]) + 1 if len(there) and (clear is None or position > clear) else 0)
+        return max(ends, default=0)
 
     def strip(self, pool: ImagePool, number: int) -> int:
         """Returns where the images of a head, by its number, lie in the pool; they are put there when first asked for,
@@ -90,10 +103,10 @@ class Strokes:
         self.mask = sum(switches | {m.indexes[head] for head in self.heads})
         self._places: dict[Hashable, Place] = {}
 
-    def here(self) -> Place:
-        """The place where the heads stand, their forcing off."""
+    def here(self, left: Sequence[str] = ()) -> Place:
+        """The place where the heads stand, their forcing off; the slots ``left`` are 0 by the end of the command."""
         axes = [self._m.axes[head] for head in self.heads]
-        states = tuple(tuple(_cooled(axis, slot) for slot in REMEMBERED) for axis in axes)
+        states = tuple(tuple(0 if slot in left else _cooled(axis, slot) for slot in REMEMBERED) for axis in axes)
         memories = tuple(self._world.memory(head) for head in self.heads)
         key = states, memories, self._m.position_known
         return self._places.setdefault(key, Place(states, memories))
@@ -124,12 +137,16 @@ class Recording:
         self._inputs: list[tuple[int, int]] = []
         self._touches: list[tuple[int, int, tuple[float, ...]]] = []
         self._motions: list[list[ArrayLike]] = [[] for _ in self._axes]
-        self._at = [self._start.motion(number) for number in range(len(self._axes))]
+        self._begins = tuple(self._start.motion(number) for number in range(len(self._axes)))
+        self._at = list(self._begins)
+        self._made: Stroke | None = None
 
     def note(self, met: Sequence[int], places: tuple[float, ...], ticks: int = 1) -> None:
         """After a tick, or several alike: the axes whose bits have ``met`` their boards in it, and then the places of
         all axes.
         """
+        if self._made is not None:
+            return
         tick = self._ticks
         self._ticks += ticks
         self._see(tick, self._m.inputs)
@@ -141,9 +158,12 @@ class Recording:
                 self._motions[number].append([(tick, *at)])
         for axis_met in met:
             self._touches.append((tick, axis_met, tuple(places[head] for head in self._strokes.heads)))
+        self._look()
 
     def note_quiet(self, quiet: Quiet) -> None:
         """Notes a stretch that was foreseen (quiet.py): what each axis put out, and where its columns changed."""
+        if self._made is not None:
+            return
         first, ticks = self._ticks, quiet.ticks
         self._see(first, self._m.inputs)
         self._ticks += ticks
@@ -154,9 +174,19 @@ class Recording:
                 rows = np.concatenate(([(0, *self._at[number])], motion.T + np.array((first, 0, 0, 0))))
                 self._motions[number].append(rows[1:][(rows[1:, 1:] != rows[:-1, 1:]).any(axis=1)])
                 self._at[number] = tuple(rows[-1, 1:].tolist())
+        self._look()
 
     def end(self) -> None:
-        """From now on the stroke is known."""
+        """The command ended well: from now on the stroke is known."""
+        if self._made is not None:
+            self._start.known[self._signature] = self._made
+
+    def _look(self) -> None:
+        """Once all heads rest the stroke is over, though other axes may go on."""
+        if not any(axis.counting for axis in self._axes):
+            self._made = self._stroke()
+
+    def _stroke(self) -> Stroke:
         ticks = self._ticks
         self._see(ticks, self._world.inputs)
         grown = [
@@ -170,9 +200,9 @@ class Recording:
         none = np.zeros((0, 1 + len(MOTION)), np.int64)
         motions = tuple(_joined([none, *parts], np.int64) for parts in self._motions)
         last = tuple((axis.motion, axis.bits) for axis in self._axes)
-        self._start.known[self._signature] = Stroke(
+        return Stroke(
             ticks, shown, tuple(self._inputs), tuple(self._touches), motions, tuple(grown),
-            last, self._strokes.here(),
+            last, self._begins, self._strokes.here(SOUGHT),
         )  # fmt: skip
 
     def _see(self, tick: int, inputs: int) -> None:

@@ -45,7 +45,9 @@ def go_to_base(settings: WorkSettings, machine: Machine) -> list[Records]:
 
 
 def holes_of(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
-    """The holes of a tool: to each a go (two where backlash is taken up), then the stroke."""
+    """The holes of a tool: to each a go (two where backlash is taken up), then the stroke. Where the machine's file
+    says from where on the heads are clear, the way to the next hole begins during the stroke up.
+    """
     steps = work.steps[group.start : group.stop]
     before = approaches(steps, here, backlash_of(machine))
     blocks = np.zeros((len(steps), len(stroke) + 2), dtype=RECORD)
@@ -55,7 +57,20 @@ def holes_of(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int
     blocks["tag"][:, 2:] = work.number[group.start : group.stop, None]
     kept = np.ones(blocks.shape, bool)
     kept[:, 0] = (before != steps).any(axis=1)
+    if machine.drill_clear_steps is not None:
+        overlap(blocks[:-1, -1], gotos(before[1:], machine))
+        kept[1:, 1] = kept[1:, 0]
+        kept[1:, 0] = False
     return blocks[kept]
+
+
+def overlap(ups: Records, ways: Records) -> None:
+    """Makes strokes up (n,) and the ways that follow them (n,) one command each: X and Y start on their way as soon as
+    the heads are clear of the board.
+    """
+    ups["opcode"], ups["flags"] = Op.GORA_X_Y, ways["flags"]
+    ups["axes"] |= ways["axes"]
+    ups["args"] += ways["args"]
 
 
 def gotos(steps: NDArray[np.int64], machine: Machine) -> Records:
