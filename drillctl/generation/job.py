@@ -19,7 +19,8 @@ UNMOVED = Affine.of(np.eye(2))
 @dataclass(frozen=True)
 class MadeHole:
     """One hole as the plant made it, in the coordinates of the file; tool and diameter as far as they are known.
-    ``spindle`` is the number, from 1, of the drilling axis that made it.
+    ``spindle`` is the number, from 1, of the drilling axis that made it; ``number`` that of the hole in the whole job,
+    from 1, or 0 for a touch of the board that the job has no number for.
     """
 
     tool: int
@@ -27,6 +28,7 @@ class MadeHole:
     x_mm: float
     y_mm: float
     spindle: int = 1
+    number: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +61,8 @@ class Job:
         """
         group, placed = self._hole(tag)
         x_mm, y_mm = placed.inverse().apply_one(self._place_mm("x", places), self._place_mm("y", places))
-        number, diameter_mm = (group.number, group.diameter_mm) if group else (tool, None)
-        return MadeHole(number, diameter_mm, x_mm, y_mm, 1 + self.machine.drill_axes.index(head))
+        drill, diameter_mm = (group.number, group.diameter_mm) if group else (tool, None)
+        return MadeHole(drill, diameter_mm, x_mm, y_mm, 1 + self.machine.drill_axes.index(head), tag)
 
     def _place_mm(self, name: str, places: tuple[float, ...]) -> float:
         """From machine zero; 0 on a machine without such an axis, which a queue may run on."""

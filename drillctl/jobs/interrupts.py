@@ -5,6 +5,7 @@ Rule: within a job they ask the machine to stop; anywhere else they end the verb
 """
 
 import signal
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -15,7 +16,12 @@ Handler = Callable[[int, FrameType | None], None]
 
 @contextmanager
 def caught(handler: Handler) -> Iterator[None]:
-    """Within it the signals of CAUGHT go to ``handler``, afterwards to what they went to before. Main thread only."""
+    """Within it the signals of CAUGHT go to ``handler``, afterwards to what they went to before. In another thread
+    than the main one, where Python allows no handler, they go where they went before.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
     previous = {number: signal.signal(number, handler) for number in CAUGHT}
     try:
         yield

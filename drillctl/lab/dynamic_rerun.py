@@ -62,17 +62,24 @@ def rerun_axis(file: Path, library: Library, axis_name: str | None = None) -> Ax
     """
     recorded = read_trace(file)
     machine = machine_of(recorded, file, library)
+    if not same_tables(recorded, machine, file):
+        reason = Message(
+            "recorded with other tables of {name}; record it again, or give them (--tables)", name=machine.name
+        )
+        raise LabError(reason.at(file))
+    return axis_of_run(recorded, machine, file, axis_name)
+
+
+def axis_of_run(recorded: Trace, machine: Machine, file: Path, axis_name: str | None = None) -> AxisRun:
+    """Like ``rerun_axis`` for a run that was read already, and the machine it was made on; ``file`` is what messages
+    call it.
+    """
     if recorded.end > MOST_TICKS:
         raise LabError(
             Message("{end} ticks; a picture takes at most {most_ticks}", end=recorded.end, most_ticks=MOST_TICKS).at(
                 file
             )
         )
-    if not same_tables(recorded, machine, file):
-        reason = Message(
-            "recorded with other tables of {name}; record it again, or give them (--tables)", name=machine.name
-        )
-        raise LabError(reason.at(file))
     if recorded.has("pace"):
         raise LabError(Message("the tick rate was changed on the way (PACE); a picture has one scale of time").at(file))
     again = with_columns(recorded, machine, file)

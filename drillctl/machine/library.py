@@ -145,7 +145,7 @@ class Library:
 
     def machine_of(self, source: Source) -> Machine:
         """Returns a machine given by its file, with the tables beside it searched first."""
-        beside = _tables_beside(source.file)
+        beside = tables_beside(source.file)
         unasked = tuple(folder for folder in self.unasked if real_path(folder) != real_path(beside))
         return replace(self, folders=(beside, *self.folders), unasked=unasked)._parse(source)
 
@@ -210,7 +210,7 @@ def _bytes(file: Path) -> bytes:
     return read_bytes(file, LARGEST_TABLE_BYTES, Message("a table"))
 
 
-def _tables_beside(machine_file: Path) -> Path:
+def tables_beside(machine_file: Path) -> Path:
     """Returns the folder whose phase/, ramp/ and motor/ belong to a machine that is given by its file."""
     folder = real_path(machine_file).parent
     return folder.parent if folder.name == "machines" else folder

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.paced
 
 PARTS = ("**Aim.**", "**Read.**", "**Start files.**", "\n## Write down\n", "\n## Questions\n", "\n## Hand in\n")
 TABLES = [(sheet, file) for sheet in SHEETS for file in solution(sheet) if file.suffix == ".toml"]
-PYTEST = (sys.executable, "-m", "pytest", "-q", "-p", "drillctl.pytest_plugin", "-p", "no:cacheprovider")
+PYTEST = (sys.executable, "-m", "pytest", "-q", "-p", "drillctl.api.pytest_plugin", "-p", "no:cacheprovider")
 
 
 def page_of(sheet: str) -> str:

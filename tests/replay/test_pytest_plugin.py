@@ -125,3 +125,11 @@ def test_tables_of_ones_own_and_same_tables(repository: Path) -> None:
     (repository / "mine" / "machines" / "pcb-drill.toml").write_text(text, "utf-8")
     assert run_pytest(repository, "--drillctl-tables", "mine").returncode == 0
     assert run_pytest(repository, "--drillctl-tables", "mine", "--drillctl-same-tables").returncode == 1
+
+
+def test_a_test_with_the_fixture_fails_with_the_first_tick_that_differs(repository: Path) -> None:
+    same = "def test_it(drill):\n    assert drill.run('KMD_GOTOdXdY 3 0') == drill.run('KMD_GOTOdXdY 0 3')\n"
+    (repository / "test_machine.py").write_text(same)
+    done = run_pytest(repository, "test_machine.py")
+    assert done.returncode == 1
+    assert "the runs differ" in done.stdout and "tick 6" in done.stdout

@@ -19,7 +19,7 @@ POLISH_FORMS = {
 }
 TRANSLATED = {*POLISH, *(form for forms in POLISH_FORMS for form in forms)}
 # Their messages go to a terminal or a test's report, in English; no screen of the program shows them.
-IN_ENGLISH = ("cli", "lab", "pytest_plugin", "ui.terminal")
+IN_ENGLISH = ("cli", "lab", "api", "ui.terminal")
 
 
 def templates_in(source: str) -> Iterator[str]:

@@ -1,20 +1,25 @@
-"""A pytest plugin: ``*.trace`` and ``*.seg`` files are tests, in anybody's repository that has drillctl installed.
+"""A pytest plugin: ``*.trace`` and ``*.seg`` files are tests, in anybody's repository that has drillctl installed; and
+tests of one's own can run a machine by the fixture ``drill``.
 
 A trace is replayed with the tables at hand; the test fails at the first tick that differs. Only files that begin
 with the magic line are collected. ``--drillctl-rewrite`` records goldens anew on the simulated machine.
 
 Rule: every pytest run on the computer loads this module, so the rooms it needs, and numpy with them, are imported
-only once a file was found that begins as a trace does.
+only once a file was found that begins as a trace does, or a test asks for the fixture.
 """
 
+import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from drillctl.files.inputs import read_start
 from drillctl.language import LINES, one_line, visible
+
+if TYPE_CHECKING:
+    from drillctl.api.fixture import Drill
 
 SUFFIXES = (".trace", ".seg")
 START = b"drillctl-"  # of both forms; which one, and whether it is one at all, the trace room knows
@@ -37,6 +42,24 @@ def pytest_configure(config: pytest.Config) -> None:
     tables = config.getoption("--drillctl-tables")
     if tables is not None and not tables.is_dir():
         raise pytest.UsageError(f"--drillctl-tables {tables}: no such folder")
+
+
+@pytest.fixture
+def drill(request: pytest.FixtureRequest) -> "Drill":
+    """Returns a simulated machine to be driven: ``drill.run("KMD_GOTOdXdY 30 0").positions("x")`` (docs/API.md)."""
+    from drillctl.api.fixture import Drill
+
+    return Drill(request.path.parent)
+
+
+def pytest_assertrepr_compare(op: str, left: object, right: object) -> list[str] | None:
+    """Explains why two runs are not equal, by the first tick that differs."""
+    if op != "==" or "drillctl.api.result" not in sys.modules:
+        return None
+    from drillctl.api.fixture import explain
+    from drillctl.api.result import Run
+
+    return explain(left, right) if isinstance(left, Run) and isinstance(right, Run) else None
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "TraceFile | None":

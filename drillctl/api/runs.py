@@ -1,0 +1,57 @@
+"""Runs a job for another program: on the simulated machine, as fast as it goes."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from drillctl.api.jobs import MachineGiven, Source, job
+from drillctl.api.machines import DEFAULT
+from drillctl.api.result import Run
+from drillctl.jobs.session import Session
+from drillctl.language import Message, Refusal
+from drillctl.plant import PlantChoice
+from drillctl.ticker.launch import RunSettings, in_batches
+from drillctl.trace.files import MOST_CARDS
+from drillctl.viewmodel.records import Progress
+
+PLANTS = ("ideal", "dynamic")
+
+
+def run(
+    source: Source,
+    machine: MachineGiven = DEFAULT,
+    *,
+    plant: str = "ideal",
+    faults: Mapping[str, float] | None = None,
+    seed: int = 0,
+    tick_hz: int | None = None,
+    trace: bool = True,
+    **options: Any,
+) -> Run:
+    """Runs a job from the machine's start position to its end, and returns what happened.
+
+    source, machine, options  as of ``job``
+    plant    ``"ideal"``: a rotor follows its columns; ``"dynamic"``: motors with inertia, which lose steps
+    (docs/PLANT.md) faults   of the dynamic plant, by name: ``{"blunt": 20, "loose.x": 0.4}``
+    seed     of the dynamic plant's scatter, 0 to 2**31 - 1
+    tick_hz  interrupt frequency in Hz in place of the machine's own
+    trace    False keeps no record of the ticks: only outcome and holes; takes less memory
+
+    A fault of the machine is no error: ``Run.fault`` has it. Raises Refused for what can't be run at all.
+
+    >>> import drillctl
+    >>> moved = drillctl.run(["KMD_GOTOdXdY 30 0", "KMD_GOTOdXdY 0 -10"])
+    >>> moved.positions("x")[[0, -1]].tolist(), moved.fault
+    ([0, 30], None)
+    """
+    if plant not in PLANTS:
+        raise Refusal(Message("no plant {plant!r}; there are {plants}", plant=plant, plants=", ".join(PLANTS)))
+    made = job(source, machine, tick_hz=tick_hz, **options)
+    choice = PlantChoice(plant, tuple(f"{name}={value:g}" for name, value in sorted((faults or {}).items())), seed)
+    running = RunSettings(traced=trace, plant=choice)
+    taped = trace and in_batches(running) and made.machine.cards <= MOST_CARDS
+    running = RunSettings(traced=trace, plant=choice, taped=taped)
+    return Run(made, choice, Session(made, running).run(_unwatched))
+
+
+def _unwatched(progress: Progress) -> None:
+    """Nobody looks at the progress."""
