@@ -20,6 +20,7 @@ from drillctl.language import LINES, one_line, visible
 
 if TYPE_CHECKING:
     from drillctl.api.fixture import Drill
+    from drillctl.replay.compare import Verdict
 
 SUFFIXES = (".trace", ".seg")
 START = b"drillctl-"  # of both forms; which one, and whether it is one at all, the trace room knows
@@ -34,6 +35,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--drillctl-rewrite", action="store_true", help="record every golden trace anew, then pass")
     group.addoption("--drillctl-tables", metavar="DIR", type=Path, help="look for tables here first")
     group.addoption("--drillctl-same-tables", action="store_true", help="a trace recorded with other tables fails")
+    group.addoption("--drillctl-report", metavar="DIR", type=Path, help="write a page for each trace that fails here")
     group.addoption("--drillctl-require-traces", action="store_true", help="exit non-zero when no trace was collected")
 
 
@@ -144,8 +146,24 @@ class TraceItem(pytest.Item):
             return
         verdict = replay(self.path, library)
         if verdict.failed(bool(option("--drillctl-same-tables"))):
+            self._report(verdict)
             first = f"{self.path.name}: {verdict.headline()}"
             raise TraceMismatch(f"{first}\n{verdict.message()}\n  run       {verdict.remark()}")
+
+    def _report(self, verdict: "Verdict") -> None:
+        """Writes the page of the run by the tables at hand, where --drillctl-report asks for it."""
+        folder = self.config.getoption("--drillctl-report")
+        if folder is None or verdict.difference is None:
+            return
+        from drillctl.files.outputs import Output
+        from drillctl.lab.run_report import comparison, report_of
+        from drillctl.ui.report.page import report_page
+
+        found = comparison("recorded", "by these tables", verdict.difference, verdict.machine)
+        page = report_page([report_of(verdict.actual, verdict.machine, self.path)], "en", found)
+        folder.mkdir(parents=True, exist_ok=True)
+        name = self.nodeid.partition("::")[0].replace("/", "-")  # traces of one name in several folders
+        Output(folder / f"{name}.html").write(lambda stream: stream.write(page))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """A dozen plain lines, without a Python traceback, for what is the trace's or the tables' fault."""

@@ -9,8 +9,9 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
     tables.py     machines, and checking tables        ports.py     the ports, and which can be used
     latency.py    how punctual ticks are               screen.py    the screen; drillctl without a verb
     scope.py      a trace on the screen                plot.py      pictures of a run
+    report.py     a run as a page for a browser        store.py     stores of workpieces by number
     sweep.py      thousands of variants of a machine   tune.py      the fastest ramp that loses no steps
-    store.py      stores of workpieces by number     parameters.py parameters of a machine, listed and set
+    parameters.py parameters of a machine, listed and set
 
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
 tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), board_trials.py
@@ -32,6 +33,7 @@ from drillctl.cli import (
     plot,
     ports,
     replay,
+    report,
     resume,
     run,
     scope,
@@ -50,7 +52,7 @@ from drillctl.jobs.interrupts import caught, exit_code, leave
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (
     run, resume, estimate, inspect, convert, store, replay, tables, parameters, ports, latency, screen, scope, plot,
-    sweep, tune,
+    report, sweep, tune,
 )  # fmt: skip
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (

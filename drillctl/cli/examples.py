@@ -66,6 +66,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl plot board.trace",
         "drillctl plot board.trace --what speed --axis x --to-tick 2000",
     ),
+    "report": (
+        "drillctl report board.trace -o board.html",
+        "drillctl report yesterday.trace today.trace -o parting.html",
+    ),
     "sweep": (
         "drillctl sweep --hz 500:600:50 --steps 10 --out rates.csv",
         "drillctl sweep --board examples/relay.drl --hz 440 --out board.csv",

@@ -83,11 +83,16 @@ def axis_of_run(recorded: Trace, machine: Machine, file: Path, axis_name: str | 
     if recorded.has("pace"):
         raise LabError(Message("the tick rate was changed on the way (PACE); a picture has one scale of time").at(file))
     again = with_columns(recorded, machine, file)
-    columns = [_unwrapped(dense(again, f"{axis.name}.column"), axis.phase.columns) for axis in machine.axes]
+    columns = columns_of(again, machine)
     index = axis_index(machine, axis_name) if axis_name else _farthest(columns)
     plant, as_run = _plant(recorded, machine)
     rotor, sent_mm, drilled_mm = _driven(plant, recorded, machine, index, columns)
     return AxisRun(machine, machine.axes[index], columns[index], rotor, sent_mm, drilled_mm, as_run)
+
+
+def columns_of(again: Trace, machine: Machine) -> list[Counts]:
+    """Returns for each axis the columns put out since power-up, (ticks,), of a trace with derived signals."""
+    return [_unwrapped(dense(again, f"{axis.name}.column"), axis.phase.columns) for axis in machine.axes]
 
 
 def _unwrapped(column: Counts, length: int) -> Counts:
@@ -114,17 +119,17 @@ def _driven(
 ) -> tuple[Motion, Floats, Floats]:
     """Drives the plant through all ticks of the run; returns what one motor did, and the holes sent and drilled."""
     recorder, touches, places = MotionRecorder(plant.motors[index]), 0, []
-    for tick, image in enumerate(_images(recorded, machine).tolist()):
+    for tick, image in enumerate(images_of(recorded, machine).tolist()):
         plant.drive(image)
         recorder.sample()
         if plant.touches != touches:
             touches = plant.touches
             places.append((tick, [plant.position_steps(axis) for axis in plane_of(machine)]))
-    return recorder.finish(), *_holes(places, machine, columns)
+    return recorder.finish(), *holes_of(places, machine, columns)
 
 
-def _images(recorded: Trace, machine: Machine) -> Counts:
-    """The port image of each tick, all cards in one number."""
+def images_of(recorded: Trace, machine: Machine) -> Counts:
+    """Returns the port image of each tick, all cards in one number, (ticks,)."""
     words = (dense(recorded, f"out.{card}") << CARD_BITS * card for card in range(machine.cards))
     return np.bitwise_or.reduce([*words])
 
@@ -134,8 +139,10 @@ def plane_of(machine: Machine) -> tuple[int, ...]:
     return tuple(axis for axis in range(len(machine.axes)) if axis not in machine.drill_axes)[:2]
 
 
-def _holes(places: list[tuple[int, list[float]]], machine: Machine, columns: list[Counts]) -> tuple[Floats, Floats]:
-    """Sent and drilled, in mm from the start; a hole that is come to again (peck after peck) counts once."""
+def holes_of(places: list[tuple[int, list[float]]], machine: Machine, columns: list[Counts]) -> tuple[Floats, Floats]:
+    """Returns where holes were sent and drilled, (holes, 2) each, in mm from the start, from the ticks in which the bit
+    met the board, with the places of the plane's axes then. A hole that is come to again (peck after peck) counts once.
+    """
     sent: list[list[float]] = []
     drilled: list[list[float]] = []
     for tick, reached in places:

@@ -133,3 +133,13 @@ def test_a_test_with_the_fixture_fails_with_the_first_tick_that_differs(reposito
     done = run_pytest(repository, "test_machine.py")
     assert done.returncode == 1
     assert "the runs differ" in done.stdout and "tick 6" in done.stdout
+
+
+def test_a_page_is_left_of_each_trace_that_failed(repository: Path) -> None:
+    spoil(repository)
+    done = run_pytest(repository, "--drillctl-report=out/pages")
+    assert done.returncode == 1
+    pages = sorted(page.name for page in (repository / "out" / "pages").iterdir())
+    assert pages == ["bad.trace.html"]
+    text = (repository / "out" / "pages" / pages[0]).read_text("utf-8")
+    assert "The two runs part at tick 6" in text and "by these tables" in text
