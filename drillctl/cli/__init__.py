@@ -11,7 +11,7 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
     scope.py      a trace on the screen                plot.py      pictures of a run
     report.py     a run as a page for a browser        store.py     stores of workpieces by number
     sweep.py      thousands of variants of a machine   tune.py      the fastest ramp that loses no steps
-    parameters.py parameters of a machine, listed and set
+    grade.py      submissions of a lab sheet judged    parameters.py parameters of a machine, listed and set
 
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
 tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), board_trials.py
@@ -27,6 +27,7 @@ from drillctl import __version__
 from drillctl.cli import (
     convert,
     estimate,
+    grade,
     inspect,
     latency,
     parameters,
@@ -52,7 +53,7 @@ from drillctl.jobs.interrupts import caught, exit_code, leave
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (
     run, resume, estimate, inspect, convert, store, replay, tables, parameters, ports, latency, screen, scope, plot,
-    report, sweep, tune,
+    report, sweep, tune, grade,
 )  # fmt: skip
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (

@@ -70,6 +70,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl report board.trace -o board.html",
         "drillctl report yesterday.trace today.trace -o parting.html",
     ),
+    "grade": (
+        "drillctl grade 01 submissions/* --csv grades.csv",
+        "drillctl grade my-sheet/ submissions/* --junit grades.xml",
+    ),
     "sweep": (
         "drillctl sweep --hz 500:600:50 --steps 10 --out rates.csv",
         "drillctl sweep --board examples/relay.drl --hz 440 --out board.csv",

@@ -17,8 +17,8 @@ def test_the_queue_draws_the_figure(tmp_path: Path) -> None:
     holes = tmp_path / "holes.csv"
     call = [sys.executable, "-m", "drillctl", "run", str(HERE / "figure.kmd"), "--json", "--holes", str(holes)]
     done = subprocess.run(call, capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == 0, done.stderr or done.stdout
     outcome = json.loads(done.stdout)
+    assert done.returncode == 0, done.stderr.strip() or f"{outcome['fault']['name']}: {outcome['fault']['cause']}"
     rows = places_mm(holes)
     assert len(rows) == len(HOLES_STEPS)
     for number, (made, wanted) in enumerate(zip(rows, HOLES_STEPS, strict=True), start=1):
