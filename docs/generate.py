@@ -1,7 +1,12 @@
-"""Writes docs/KMD.md, FAULTS.md, STATES.md and GEARS.md from the tables in the code. A test compares."""
+"""Writes docs/KMD.md, FAULTS.md, STATES.md, GEARS.md and API.md from tables and docstrings in the code. A test
+compares.
+"""
 
+import inspect
 from pathlib import Path
+from typing import Any
 
+from drillctl.api import PUBLIC, load
 from drillctl.execution.conditions import TABLE, Event
 from drillctl.execution.controller import CONDITIONS, Stage
 from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, LETTERS, MM_PER_M, GearRow, gear_rows
@@ -144,7 +149,73 @@ def _gear(row: GearRow) -> str:
     return f"| {' | '.join(map(str, cells))} | {row.peak_m_s2:.2f} |"
 
 
-PAGES = {"KMD.md": commands_page, "FAULTS.md": faults_page, "STATES.md": states_page, "GEARS.md": gears_page}
+API_INTRO = """
+A script, a notebook or a test drives and simulates machines by these names of `import drillctl`, which alone is
+public. The import itself costs nothing: each name is loaded when it is first used. Arrays are numpy's; a tick is a
+row. What a caller got wrong is raised as `drillctl.Refused`, whose text says what and where.
+
+Lost steps against the tick rate, drawn by matplotlib:
+
+```python
+import drillctl
+import matplotlib.pyplot as plt
+
+rates = range(300, 1000, 50)
+lost = []
+for hz in rates:
+    run = drillctl.run("KMD_GOTOdXdY 600 0", plant="dynamic", tick_hz=hz)
+    lost.append(abs(run.lost_steps["x"]))
+plt.plot(rates, lost, "o-")
+plt.xlabel("interrupt frequency, Hz")
+plt.ylabel("lost steps")
+plt.savefig("lost.png")
+```
+
+In pytest the same functions are in the fixture `drill`, which every test of a repository has where drillctl is
+installed; files are looked for beside the test, and two runs that are compared are told apart by the first tick that
+differs:
+
+```python
+def test_the_head_comes_up_again(drill):
+    run = drill.run("hole.kmd", plant="dynamic")
+    assert run.fault is None
+    assert run.positions("z")[-1] == 0
+    assert run == drill.run("hole.kmd", plant="dynamic")
+```
+"""
+
+
+def api_page() -> str:
+    parts = [MADE.format("the docstrings of drillctl/api"), "", "# Python", "", API_INTRO.strip(), ""]
+    for name in PUBLIC:
+        found = load(name)
+        parts += [f"## {name}", "", *_documented(found)]
+        members = vars(found).items() if isinstance(found, type) and found.__module__.endswith(".result") else ()
+        for member, value in members:
+            if not member.startswith("_") and (told := inspect.getdoc(value)) and not isinstance(value, type):
+                parts += [f"### Run.{member}", "", *_documented(getattr(value, "fget", value), told)]
+    return "\n".join(parts)
+
+
+def _documented(found: Any, told: str = "") -> list[str]:
+    text = told or inspect.getdoc(found) or ""
+    head = [] if isinstance(found, type) or not callable(found) else [f"{found.__name__}{_signature(found)}", ""]
+    return ["```text", *head, *text.splitlines(), "```", ""]
+
+
+def _signature(found: Any) -> str:
+    """As it is called, a parameter a line; types stand in the source."""
+    names = [str(each.replace(annotation=each.empty)) for each in inspect.signature(found).parameters.values()]
+    return f"({', '.join(name for name in names if name != 'self')})"
+
+
+PAGES = {
+    "KMD.md": commands_page,
+    "FAULTS.md": faults_page,
+    "STATES.md": states_page,
+    "GEARS.md": gears_page,
+    "API.md": api_page,
+}
 
 if __name__ == "__main__":
     for name, page in PAGES.items():

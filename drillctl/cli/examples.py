@@ -68,7 +68,7 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     ),
     "report": (
         "drillctl report board.trace -o board.html",
-        "drillctl report yesterday.trace today.trace -o parting.html",
+        "drillctl report board.trace --lang pl -o przebieg.html",
     ),
     "grade": (
         "drillctl grade 01 submissions/* --csv grades.csv",

@@ -126,3 +126,15 @@ def test_runs_in_a_thread_too() -> None:
     thread.start()
     thread.join(60)
     assert ticks == [drillctl.estimate("KMD_GOTOdXdY 30 0").ticks]
+
+
+def test_the_script_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (BOARD.parent.parent / "docs" / "API.md").read_text("utf-8")
+    script = page.split("```python\n")[1].split("```")[0]
+    assert len([line for line in script.splitlines() if line]) <= 15
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    found: dict[str, object] = {}
+    exec(compile(script, "docs/API.md", "exec"), found)
+    lost = found["lost"]
+    assert isinstance(lost, list) and lost[0] == 0 < lost[-1] and (tmp_path / "lost.png").is_file()

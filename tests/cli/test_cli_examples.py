@@ -12,9 +12,9 @@ from drillctl.cli.examples import EXAMPLES
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = (
     "drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "parameters", "ports",
-    "plot",
+    "plot", "report",
 )  # fmt: skip
-BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune"}  # a terminal, a cut-off job, or seconds of work
+BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune", "grade"}  # a terminal, a cut-off job, or seconds of work
 
 
 def words(line: str) -> list[str]:
