@@ -14,7 +14,7 @@ QUICK = (
     "drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "parameters", "ports",
     "plot", "report",
 )  # fmt: skip
-BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune", "grade"}  # a terminal, a cut-off job, or seconds of work
+BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune", "grade"}  # a terminal, a cut-off job, seconds
 
 
 def words(line: str) -> list[str]:
