@@ -9,7 +9,7 @@ from drillctl.execution.axis import Axis
 from drillctl.execution.line import Line
 from drillctl.kmd import Command, CommandQueue, Condition, Fault, Mailbox
 from drillctl.kmd.faults import reactions_of
-from drillctl.machine import Machine
+from drillctl.machine import Machine, ways
 from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_WANTED, STOP, masks_at
 from drillctl.ports import Driver
 
@@ -48,6 +48,7 @@ class Controller:
     lifting   KMD_GORA_X_Y is current, and X and Y wait until the heads are clear of the board
     zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
     indexes   input bits of the encoders' indexes, by axis; 0 of an axis without one
+    homing_ways   by row of the homing table, how each of its axes goes
     homing_fault  why the current row of the homing table could not begin
     return_rows the axes of the return to zero, in the order in which they go
     switched  output bits that are no axis's: spindle and the like
@@ -131,6 +132,7 @@ class Controller:
         """Sets the ticks a second; what is limited in seconds keeps its seconds."""
         self.tick_hz = tick_hz
         self.longest_drilling = self.machine.drilling_ticks_at(tick_hz)
+        self.homing_ways = ways(self.machine, tick_hz)
 
 
 def _asking(machine: Machine, action: str) -> int:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.kmd import Fault
-from drillctl.machine import HomingStep
+from drillctl.machine import HomingStep, Way
 
 TOWARDS = {"min": -1, "max": 1}
 GOES_ON = -1  # instead of a fault code: it has not ended yet
@@ -48,56 +48,57 @@ def _start_row(m: Controller) -> int:
     row = m.machine.homing[m.homing_row]
     if row.do == "index" and m.sensors & sum(m.indexes[index] for index in row.axes):
         return Fault.HOMING_EARLY_INDEX
-    for index in row.axes:
+    for index, way in zip(row.axes, m.homing_ways[m.homing_row], strict=True):
         axis = m.axes[index]
         axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
-        _STARTED[row.do](m, index, row)
+        _STARTED[row.do](m, index, TOWARDS[row.end], way)
     return Fault.NONE
 
 
-def _seek(m: Controller, index: int, row: HomingStep) -> None:
+def _seek(m: Controller, index: int, towards: int, way: Way) -> None:
     """To the sensor, at most a tenth beyond the range; the edge brakes (guard)."""
-    axis, towards = m.axes[index], TOWARDS[row.end]
+    axis = m.axes[index]
     if not m.sensors & axis.limits[towards]:
         axis.seek_mask = axis.limits[towards]
-        axis.set_target(axis.position + towards * (axis.span + axis.span // 10), row.interval)
+        axis.set_target(axis.position + towards * (axis.span + axis.span // 10), way.interval)
 
 
-def _go_on(m: Controller, index: int, row: HomingStep) -> None:
+def _go_on(m: Controller, index: int, towards: int, way: Way) -> None:
     """Slowly on to the sensor, where braking has not ended on it; the first step with the sensor on halts (guard)."""
-    axis, towards = m.axes[index], TOWARDS[row.end]
+    axis = m.axes[index]
     if not m.sensors & axis.limits[towards]:
         axis.halt_mask = axis.limits[towards]
-        _creep(axis, towards, row)
+        _creep(axis, towards, way)
 
 
-def _leave(m: Controller, index: int, row: HomingStep) -> None:
+def _leave(m: Controller, index: int, towards: int, way: Way) -> None:
     """Slowly off the sensor; the first step with the sensor clear halts (guard)."""
-    axis, towards = m.axes[index], TOWARDS[row.end]
+    axis = m.axes[index]
     if m.sensors & axis.limits[towards]:
         axis.clear_mask = axis.limits[towards]
-        _creep(axis, -towards, row)
+        _creep(axis, -towards, way)
 
 
-def _to_index(m: Controller, index: int, row: HomingStep) -> None:
+def _to_index(m: Controller, index: int, towards: int, way: Way) -> None:
     """Slowly on, away from the end; the first step with the encoder's index on halts (guard)."""
     axis = m.axes[index]
     axis.halt_mask = m.indexes[index]
-    _creep(axis, -TOWARDS[row.end], row)
+    _creep(axis, -towards, way)
 
 
-def _move_off(m: Controller, index: int, row: HomingStep) -> None:
-    """Slowly on, away from the end, by all its steps."""
-    _creep(m.axes[index], -TOWARDS[row.end], row)
+def _move_off(m: Controller, index: int, towards: int, way: Way) -> None:
+    """Slowly on by all its steps: away from the end, or back where they are negative."""
+    _creep(m.axes[index], -towards, way)
 
 
-def _stay(m: Controller, index: int, row: HomingStep) -> None:
+def _stay(m: Controller, index: int, towards: int, way: Way) -> None:
     """Nothing moves in this row."""
 
 
-def _creep(axis: Axis, direction: int, row: HomingStep) -> None:
+def _creep(axis: Axis, direction: int, way: Way) -> None:
     """At most the row's steps, the ramp capped at state 1: from there an axis stops dead without losing steps."""
-    axis.set_target(axis.position + direction * row.limit_steps, max(row.interval, axis.interval[direction]))
+    steps = direction * way.limit_steps
+    axis.set_target(axis.position + steps, max(way.interval, axis.interval[1 if steps > 0 else -1]))
 
 
 def _on_sensors(m: Controller, row: HomingStep) -> list[bool]:
@@ -136,7 +137,7 @@ def _zeroed(m: Controller, row: HomingStep) -> int:
 
 _MISSING = {"raise": Fault.HEAD_NOT_UP, "seek": Fault.HOMING_NOT_FOUND, "slow": Fault.HOMING_OFF_SWITCH}
 _STUCK = {"release": Fault.HOMING_NOT_FOUND, "creep": Fault.HOMING_NOT_FOUND, "back": Fault.HOMING_ON_SWITCH}
-_STARTED: Mapping[str, Callable[[Controller, int, HomingStep], None]] = {
+_STARTED: Mapping[str, Callable[[Controller, int, int, Way], None]] = {
     "raise": _seek,
     "seek": _seek,
     "fast": _seek,

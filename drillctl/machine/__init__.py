@@ -16,6 +16,7 @@ source.py    a TOML file that knows on which line a key stands (positions.py)   
 
 from drillctl.machine.dynamics import Dynamics
 from drillctl.machine.errors import TableError
+from drillctl.machine.homing import Way, ways
 from drillctl.machine.library import Library, machine_hazards, shipped_tables
 from drillctl.machine.model import AxisTable, EncoderIndex, HomingStep, Machine, Sensor
 from drillctl.machine.motor import Motor
@@ -26,6 +27,6 @@ from drillctl.machine.travel import intervals, travel_table, travel_ticks
 
 __all__ = [
     "AxisTable", "Dynamics", "EncoderIndex", "HomingStep", "Library", "Machine", "Motor", "ParameterRow", "Parameters",
-    "PhaseTable", "RampTable", "Sensor", "TableError", "intervals", "machine_hazards", "shipped_tables", "travel_table",
-    "travel_ticks",
+    "PhaseTable", "RampTable", "Sensor", "TableError", "Way", "intervals", "machine_hazards", "shipped_tables",
+    "travel_table", "travel_ticks", "ways",
 ]  # fmt: skip

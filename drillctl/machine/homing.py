@@ -4,13 +4,45 @@ Rule: a row whose sensor or index an axis lacks is refused here, so that executi
 """
 
 from collections.abc import Iterable, Sequence
+from math import ceil
+from typing import NamedTuple
 
 from drillctl.language import Message, known_words
-from drillctl.machine.model import EncoderIndex, HomingStep, Sensor
+from drillctl.machine.model import EncoderIndex, HomingStep, Machine, Sensor
+from drillctl.machine.parameters import ParameterRow
 from drillctl.machine.shape import HomingRow, MachineFile
 from drillctl.machine.source import Source
 
 WITHOUT_SENSOR = ("zero", "index", "offset")  # rows that look at no end sensor
+# What an axis's parameter decides of a row in place of the row itself: its most steps, and its speed.
+LIMITS = {"index": "homing_detection_mm", "offset": "homing_offset_mm"}
+SPEEDS = {"fast": "homing_speed_mm_min"}
+
+
+class Way(NamedTuple):
+    """How one axis goes in one row: ``limit_steps`` at most, with ``interval`` ticks at least before each column."""
+
+    limit_steps: int
+    interval: int
+
+
+def ways(machine: Machine, tick_hz: int) -> tuple[tuple[Way, ...], ...]:
+    """Returns by row of the homing table, and by axis of that row, how it goes: as the row says, and where the axis has
+    a parameter for it, by that.
+    """
+    return tuple(tuple(_way(machine, step, axis, tick_hz) for axis in step.axes) for step in machine.homing)
+
+
+def _way(machine: Machine, step: HomingStep, axis: int, tick_hz: int) -> Way:
+    table, own = machine.axes[axis], ParameterRow()
+    if machine.parameters is not None:
+        own = machine.parameters.of_axis(table.name)
+    limit_mm, speed_mm_min = own.number(LIMITS.get(step.do, "")), own.number(SPEEDS.get(step.do, ""))
+    limit = step.limit_steps if limit_mm is None else round(limit_mm * table.steps_per_mm)
+    if not speed_mm_min:
+        return Way(limit, step.interval)
+    columns_hz = speed_mm_min / 60 * table.steps_per_mm * table.columns_per_step
+    return Way(limit, max(step.interval, ceil(round(tick_hz / columns_hz, 9))))
 
 
 def homing_steps(

@@ -6,7 +6,7 @@ import pytest
 
 from drillctl.execution.motion import STOPPING
 from drillctl.kmd import Fault
-from drillctl.machine import HomingStep
+from drillctl.machine import HomingStep, ParameterRow, Parameters
 from tests.support.bench import Bench, shipped
 
 X = 0
@@ -19,7 +19,7 @@ def bench(*more: HomingStep, start: int = 400) -> Bench:
     machine = shipped("eight-axis")
     x, *others = machine.axes
     axes = (replace(x, start_steps=start, high_steps=600), *others)
-    return Bench(replace(machine, axes=axes, homing=(*ROWS, *more))).queue("KMD_INICJALIZACJA")
+    return Bench(replace(machine, axes=axes, homing=(*ROWS, *more), parameters=None)).queue("KMD_INICJALIZACJA")
 
 
 def in_row(b: Bench, row: int) -> Bench:
@@ -81,7 +81,7 @@ def test_an_index_elsewhere_is_found_and_its_offset_is_gone_before_zero_is_taken
 
 def test_a_row_keeps_its_interval() -> None:
     slow = tuple(replace(row, interval=20) for row in ROWS)
-    b = Bench(replace(shipped("eight-axis"), homing=slow)).queue("KMD_INICJALIZACJA")
+    b = Bench(replace(shipped("eight-axis"), homing=slow, parameters=None)).queue("KMD_INICJALIZACJA")
     waits = set()
 
     def watched() -> bool:
@@ -91,6 +91,41 @@ def test_a_row_keeps_its_interval() -> None:
 
     b.until(watched)
     assert (b.m.fault, waits) == (Fault.NONE, {20})
+
+
+def entered(**x_parameters: float) -> Bench:
+    """The same, and X has parameters for its homing."""
+    parameters = Parameters(axes=(("x", ParameterRow(tuple(x_parameters.items()))),))
+    machine = replace(bench(HomingStep("offset", (X,), "min", 30)).machine, parameters=parameters)
+    return Bench(machine).queue("KMD_INICJALIZACJA")
+
+
+@pytest.mark.parametrize("offset_mm", [0.0, 0.4, -0.25])
+def test_the_offset_of_the_parameters_is_the_distance_from_index_to_zero(offset_mm: float) -> None:
+    b = entered(homing_offset_mm=offset_mm)
+    b.finish()
+    assert (b.m.fault, b.positions()[X]) == (Fault.NONE, 0)
+    assert b.card.plant.position_steps(X) == 100 * offset_mm
+
+
+@pytest.mark.parametrize(("detection_mm", "fault"), [(0.56, Fault.NONE), (0.53, Fault.HOMING_NO_INDEX)])
+def test_the_index_must_come_within_the_detection_length(detection_mm: float, fault: Fault) -> None:
+    b = entered(homing_detection_mm=detection_mm)
+    b.finish()
+    assert b.m.fault == fault
+
+
+@pytest.mark.parametrize(("speed_mm_min", "interval"), [(2400, 1), (2399, 2), (1200, 2), (100, 24)])
+def test_the_homing_speed_is_never_passed_on_the_way_to_the_switch(speed_mm_min: float, interval: int) -> None:
+    b = entered(homing_speed_mm_min=speed_mm_min)
+    waits = set()
+
+    def watched() -> bool:
+        waits.add(b.m.axes[X].wait)
+        return b.m.homing_row == 2
+
+    b.until(watched)
+    assert min(waits) == interval
 
 
 @pytest.mark.parametrize("row", ROWS)
