@@ -18,7 +18,7 @@ from drillctl.machine import Machine
 TWO_CARDS = (1 << 64) - 1
 KEPT = (
     "tick", "underruns", "inputs", "sensors", "shared_on", "switched", "image", "epoch", "done", "hole_begun",
-    "holes_done", "tool",
+    "holes_done", "tool", "speed_reached",
 )  # fmt: skip
 KEPT_BY_AXIS = ("position", "target", "base", "made", "travelled", "direction", "least", "most", "met")
 

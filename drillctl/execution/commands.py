@@ -14,6 +14,7 @@ from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
 from drillctl.execution.lifted_travel import lift_then_go, lifted_and_gone
 from drillctl.execution.reach import refused, target_of
 from drillctl.execution.return_to_zero import begin_return, carry_return
+from drillctl.execution.spindle import spindle_reached, start_spindle
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
 from drillctl.ports import with_bits
@@ -118,19 +119,8 @@ def _switch(m: Controller, command: Command) -> int:
     if not bit & m.output_mask:
         return Fault.BAD_COMMAND
     m.switched = with_bits(m.switched, bit, command.args[1])
-    return Fault.NONE
-
-
-def _spindle(m: Controller, command: Command) -> int:
-    """On a machine without a spindle output the drill's motor has a switch of its own; one that says the speed has a
-    word for it.
-    """
-    rev_min = command.args[0]
-    if m.speed_word is not None:
-        if rev_min > m.speed_word.greatest:
-            return Fault.BAD_COMMAND
-        m.switched = m.speed_word.put(m.switched, rev_min)
-    m.switched = with_bits(m.switched, m.spindle_mask, rev_min > 0)
+    if bit & m.spindle_mask:
+        m.speed_reached = m.dip_ticks = 0
     return Fault.NONE
 
 
@@ -184,7 +174,7 @@ _STARTED: Mapping[int, Handler] = {
     Op.CZEKAJ: _nothing,
     Op.WYJSCIE: _switch,
     Op.CZEKAJ_WE: _nothing,
-    Op.WRZECIONO: _spindle,
+    Op.WRZECIONO: start_spindle,
     Op.NARZEDZIE: _tool,
     Op.FAZY_WYL: _release,
     Op.KONIEC: _nothing,
@@ -197,6 +187,7 @@ _ENDED: Mapping[int, Handler] = {
     Op.INICJALIZACJA: _initialised,
     Op.CZEKAJ: _waited,
     Op.CZEKAJ_WE: _answered,
+    Op.WRZECIONO: spindle_reached,
     Op.KONIEC: _end,
     Op.POWROT: carry_return,
     Op.GORA_X_Y: lifted_and_gone,

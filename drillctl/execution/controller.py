@@ -10,7 +10,7 @@ from drillctl.execution.line import Line
 from drillctl.kmd import Command, CommandQueue, Condition, Fault, Mailbox
 from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine, ways
-from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_WANTED, STOP, masks_at
+from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_ACTUAL, SPEED_WANTED, STOP, masks_at
 from drillctl.ports import Driver
 
 
@@ -53,7 +53,9 @@ class Controller:
     return_rows the axes of the return to zero, in the order in which they go
     switched  output bits that are no axis's: spindle and the like
     levels    by event (machine/levels.py) the bits of these that it keeps, and those that it sets
-    speed_word  where the spindle's speed is put out, in rev/min; None on a machine that only switches it
+    speed_word  where the spindle's speed is put out, in rev/min; None on a machine that only switches it;
+              ``actual_word`` where it is read
+    speed_reached  the speed that was reached and is watched, 0 for none; ``dip_ticks`` for how long it is missed now
     stopped_by  the gravest of these events since the last acknowledgement: STOP, FAULT or ESTOP
     elapsed   ticks of the current command, hold not counted
     underruns wakes in which a job's next command was missing
@@ -91,7 +93,9 @@ class Controller:
         self.only_zero_after = frozenset(Fault[name] for name in machine.only_zero_after)
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
-        self.speed_word = machine.output_word(SPEED_WANTED)
+        self.spindle = machine.spindle
+        self.speed_word, self.actual_word = machine.output_word(SPEED_WANTED), machine.input_word(SPEED_ACTUAL)
+        self.speed_reached = self.dip_ticks = 0
         self.levels = tuple(masks_at(machine.levels, event) for event in (POWER_ON, STOP, FAULT, ESTOP))
         self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
         self.homes_by_sensor = machine.homes_by_sensor
@@ -133,6 +137,9 @@ class Controller:
         self.tick_hz = tick_hz
         self.longest_drilling = self.machine.drilling_ticks_at(tick_hz)
         self.homing_ways = ways(self.machine, tick_hz)
+        if self.spindle is not None:
+            self.reach_ticks = round(self.spindle.reached_s * tick_hz)
+            self.most_dip_ticks = round(self.spindle.dip_s * tick_hz)
 
 
 def _asking(machine: Machine, action: str) -> int:

@@ -11,6 +11,7 @@ from drillctl.execution.axis import Axis
 from drillctl.execution.conditions import raise_fault, serve_inputs
 from drillctl.execution.controller import Controller
 from drillctl.execution.motion import SETTLING, STOPPING
+from drillctl.execution.spindle import speed_is_lost
 from drillctl.kmd import Fault
 
 
@@ -34,6 +35,10 @@ def guard(m: Controller) -> None:
     if m.time_limit and m.elapsed >= m.time_limit:
         m.time_limit = 0
         raise_fault(m, Fault.DRILLING_TIME)
+        return
+    if m.speed_reached and m.spindle is not None and speed_is_lost(m):
+        m.speed_reached = m.dip_ticks = 0
+        raise_fault(m, Fault.SPINDLE_LOST)
 
 
 def _watch(m: Controller, axis: Axis, sensors: int) -> int:

@@ -80,12 +80,15 @@ def switch_outputs(m: Controller) -> None:
     """Sets the outputs beside the axes to their levels for what has stopped the machine."""
     kept, on = m.levels[m.stopped_by]
     m.switched = m.switched & kept | on
+    m.speed_reached = m.dip_ticks = 0
 
 
 def set_output(m: Controller) -> None:
     """Sets an output by hand. A coil's wire moves its rotor, so the position is lost."""
     place, on = bit_and_value(m.requests.hand)
     bit = 1 << place
+    if bit & m.spindle_mask:
+        m.speed_reached = m.dip_ticks = 0
     m.switched = with_bits(m.switched, bit & m.output_mask, on)
     for axis in m.axes:
         if axis.wires & bit:

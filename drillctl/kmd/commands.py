@@ -146,7 +146,7 @@ _ALL = (
     ),
     Spec(
         "KMD_WRZECIONO", Op.WRZECIONO, ArgumentForm.NUMBER, Message("rpm"),
-        Message("switch the spindle on, at so many turns a minute; 0: off"),
+        Message("switch the spindle on, at so many turns a minute, and wait for them where they are measured; 0: off"),
     ),
     Spec(
         "KMD_NARZEDZIE", Op.NARZEDZIE, ArgumentForm.NUMBER, Message("number"),

@@ -43,6 +43,8 @@ class Fault(IntEnum):
     TICKER_LOST = 17
     PORT_SLOW = 18
     ONLY_ZERO = 19
+    SPINDLE_SPEED = 40
+    SPINDLE_LOST = 41
     HOMING_NO_SWITCH = 50
     HOMING_OFF_SWITCH = 51
     HOMING_ON_SWITCH = 52
@@ -79,6 +81,8 @@ _ALL = (
     FaultSpec(Fault.TICKER_LOST, Reaction.DROP, False),
     FaultSpec(Fault.PORT_SLOW, Reaction.DROP, False),
     FaultSpec(Fault.ONLY_ZERO, Reaction.STOP, True),
+    FaultSpec(Fault.SPINDLE_SPEED, Reaction.STOP, True),
+    FaultSpec(Fault.SPINDLE_LOST, Reaction.STOP, True),
     FaultSpec(Fault.HOMING_NO_SWITCH, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_OFF_SWITCH, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_ON_SWITCH, Reaction.STOP, False),

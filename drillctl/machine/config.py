@@ -19,6 +19,7 @@ from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, MachineFile, PlantPart, Steps
 from drillctl.machine.source import Source
+from drillctl.machine.spindle import spindle_of
 
 # Names that a trace gives to its own signals and scopes: an axis must not have the same name.
 TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
@@ -67,6 +68,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         output_words=outputs.words,
         input_words=input_words,
         drill_clear_steps=drill.clear,
+        spindle=spindle_of(source, raw, outputs.words, input_words),
     )
     check_parameters(source, machine)
     return machine

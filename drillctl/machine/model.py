@@ -15,6 +15,7 @@ from drillctl.machine.motor import Motor
 from drillctl.machine.parameters import Parameters
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
+from drillctl.machine.spindle import Spindle
 from drillctl.ports import CARD_BITS
 
 MM_PER_INCH = 25.4
@@ -167,6 +168,7 @@ class Machine:
     output_words: tuple[Word, ...] = field(default=(), repr=False)
     input_words: tuple[Word, ...] = field(default=(), repr=False)
     drill_clear_steps: int | None = field(default=None, repr=False)  # down to here a head is clear of the board
+    spindle: Spindle | None = field(default=None, repr=False)  # None: its speed is not measured
 
     @property
     def file(self) -> str:
@@ -265,5 +267,5 @@ class Machine:
         clear = () if self.drill_clear_steps is None else ("clear", self.drill_clear_steps)
         set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow, clear)
         later = (*self.inputs, *self.reactions, *self.indexes, *set_by_file)
-        outputs = (*self.levels, *self.output_words, *self.input_words)
+        outputs = (*self.levels, *self.output_words, *self.input_words, self.spindle)
         return "".join((*strokes, *(f"{value!r}\n" for value in (*later, *outputs) if value)))

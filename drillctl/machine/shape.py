@@ -129,6 +129,16 @@ class DrillPart(Strict, frozen=True):
     clear: Steps | None = None
 
 
+class SpindlePart(Strict, frozen=True):
+    """``[spindle]``: when a spindle whose speed is measured is at its speed (machine/spindle.py)."""
+
+    tolerance_percent: Annotated[float, msgspec.Meta(gt=0, le=50)] = 3
+    standstill_rev_min: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 60
+    reached_s: Annotated[float, msgspec.Meta(gt=0, le=600)] = 5
+    dip_s: Annotated[float, msgspec.Meta(ge=0, le=600)] = 0.5
+    rev_min_per_hz: Annotated[float, msgspec.Meta(gt=0, le=60)] = 60
+
+
 class PlantPart(Strict, frozen=True):
     """``[plant]``: what a simulation must know beyond the ports."""
 
@@ -161,4 +171,5 @@ class MachineFile(Strict, frozen=True):
     homing: list[HomingRow] = []
     drill: DrillPart | None = None
     plant: PlantPart = PlantPart()
+    spindle: SpindlePart | None = None
     parameters: dict[str, Any] | None = None  # checked by parameter_file.py

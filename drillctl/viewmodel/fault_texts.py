@@ -118,6 +118,14 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("a command came that is not the return to zero, the only one allowed after a limit or emergency stop"),
         Message("acknowledge, and return to zero (KMD_POWROT) before anything else"),
     ),
+    Fault.SPINDLE_SPEED: FaultWords(
+        Message("the spindle did not come to its speed, or to a standstill, in the time that it is given"),
+        Message("look at the converter's display and limits, and at [spindle] in the machine's file"),
+    ),
+    Fault.SPINDLE_LOST: FaultWords(
+        Message("the spindle has lost the speed that it had reached"),
+        Message("look at the converter's display, the bits and the feed; raise the heads before it turns again"),
+    ),
     Fault.HOMING_NO_SWITCH: FaultWords(
         Message("initialisation went the whole range and a tenth more, and the origin switch did not answer"),
         Message("check the switch, its wiring and its polarity, and that the carriage moves freely"),

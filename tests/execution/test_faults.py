@@ -133,6 +133,22 @@ def off_the_switch() -> Bench:
     return b
 
 
+def spindle_that_does_not_turn(after: str = "KMD_CZEKAJ 9") -> Bench:
+    machine = shipped("eight-axis")
+    assert machine.spindle is not None
+    b = Bench(replace(machine, spindle=replace(machine.spindle, reached_s=0.01, dip_s=0.01)))
+    b.card.stuck_low = machine.input_words[0].mask
+    return b.queue(f"KMD_WRZECIONO 30000; {after}")
+
+
+def spindle_that_is_braked() -> Bench:
+    b = spindle_that_does_not_turn("KMD_RUCHd x=2000")
+    stuck, b.card.stuck_low = b.card.stuck_low, 0
+    b.done_at(1)
+    b.card.stuck_low = stuck
+    return b
+
+
 def from_the_wiring(fault: Fault) -> Callable[[], Bench]:
     """Ports and processes are lost between ticks, where the wiring sees it and says so."""
 
@@ -164,6 +180,8 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.TICKER_LOST: from_the_wiring(Fault.TICKER_LOST),
     Fault.PORT_SLOW: from_the_wiring(Fault.PORT_SLOW),
     Fault.ONLY_ZERO: bound_to_zero,
+    Fault.SPINDLE_SPEED: spindle_that_does_not_turn,
+    Fault.SPINDLE_LOST: spindle_that_is_braked,
     Fault.HOMING_NO_SWITCH: homing_by_index(1, "x_min", 0),
     Fault.HOMING_OFF_SWITCH: off_the_switch,
     Fault.HOMING_ON_SWITCH: homing_by_index(3, "x_min", 1),

@@ -15,6 +15,7 @@ from drillctl.execution.fastforward.plan import foresee, is_stroke, signatures
 from drillctl.execution.fastforward.strokes import Recording, Strokes
 from drillctl.execution.fastforward.world import PlantFacts
 from drillctl.execution.motion import SETTLING
+from drillctl.execution.spindle import at_speed
 from drillctl.kmd import Condition, Op
 from drillctl.trace.tapes import ImagePool
 
@@ -49,6 +50,7 @@ class Engine:
             and all(self._world.stands(index, _travel(axis)) for index, axis in enumerate(m.axes))
             and not any(sensors & pair == pair for pair in m.pairs)
             and not (sensors & (m.action_mask | m.shared) or m.estops)
+            and not (m.spindle is not None and m.speed_reached and not at_speed(m, sensors))
         )
 
     def foresee(self, commands: NDArray[np.void]) -> Batch | None:

@@ -126,7 +126,9 @@ def _undisturbed(m: Controller, inputs: int) -> int:
     """Returns for how many ticks the current command goes on, and nothing but its axes may change how."""
     if m.stage != Stage.RUNNING or not m.busy or m.requests.waiting or inputs != m.inputs:
         return 0
-    if m.fault or m.gap or m.late or m.served or m.unseen or m.hot_until or (m.lifting and heads_clear(m)):
+    if m.fault or m.gap or m.late or m.served or m.unseen or m.hot_until or m.dip_ticks:
+        return 0
+    if m.lifting and heads_clear(m):
         return 0
     ticks = m.time_limit - m.elapsed if m.time_limit else LONGEST
     if not m.moving:
