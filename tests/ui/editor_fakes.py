@@ -45,13 +45,15 @@ def press(widget: urwid.Widget, *keys: str) -> list[str]:
 
 @dataclass
 class Shell:
-    """Answers yes where ``says_yes``; types ``types`` where it is asked for a text."""
+    """Answers yes where ``says_yes``; types ``types`` where it is asked for a text; takes line ``picks`` of a list."""
 
     says_yes: bool = False
     types: str = ""
+    picks: int = 0
     told: list[tuple[str, list[str]]] = field(default_factory=list)
     asked: list[str] = field(default_factory=list)
     opened: list[urwid.Widget] = field(default_factory=list)
+    offered: list[str] = field(default_factory=list)
     closed: int = 0
 
     def say(self, text: str) -> None:
@@ -68,6 +70,10 @@ class Shell:
     def ask_text(self, title: str, prompt: str, text: str, accept: Callable[[str], None]) -> None:
         self.asked.append(prompt)
         accept(self.types)
+
+    def choose(self, title: str, lines: Sequence[str], chosen: Callable[[int], object]) -> None:
+        self.offered = [*lines]
+        chosen(self.picks)
 
     def open(self, screen: urwid.Widget) -> None:
         self.opened.append(screen)

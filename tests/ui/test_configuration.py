@@ -11,6 +11,7 @@ from drillctl.machine.settings import settings
 from drillctl.machine.source import Source
 from drillctl.ui.models.machine_fields import FIELD_WORDS, words_of
 from drillctl.ui.screens.configuration import ConfigurationScreen
+from drillctl.ui.screens.field_panel import hint_of
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.table_actions import label_of
 from drillctl.ui.screens.table_list import EDITORS, TableList
@@ -55,7 +56,7 @@ def test_every_setting_of_a_machine_has_words() -> None:
 
 
 def test_a_field_has_its_unit_and_bounds_and_the_focused_one_its_meaning(screen: ConfigurationScreen) -> None:
-    assert row_of(screen, "Interrupt frequency") == ["500", "Hz", "1..9999"]
+    assert row_of(screen, "Interrupt frequency") == ["500", "Hz", "1..9999", "F12", "measures"]
     assert row_of(screen, "Mode") == ["SIMULATED", "REAL", "|", "SIMULATED"]
     assert row_of(screen, "X: scale") == ["1200", "columns/inch", "1..9999"]
     assert "Ticks a second" in text_of(screen)
@@ -97,11 +98,14 @@ def test_the_old_value_typed_again_is_no_change(screen: ConfigurationScreen) -> 
     assert not screen.draft.changed
 
 
-def test_choices_go_round_and_a_field_without_any_stays(screen: ConfigurationScreen) -> None:
+def test_choices_are_listed_and_a_field_without_any_says_so(screen: ConfigurationScreen, shell: Shell) -> None:
     press(screen, "f6")
-    assert not screen.draft.changed
-    press(screen, "down", "f6", "f6")
-    assert row_of(screen, "Mode")[0] == "SIMULATED"
+    assert not screen.draft.changed and shell.told.pop() == ("", ["this field has no list of values: type one"])
+    press(screen, "down", "f6")
+    assert shell.offered == ["  REAL", "* SIMULATED"] and row_of(screen, "Mode")[0] == "REAL" and screen.draft.changed
+    shell.picks = 1
+    press(screen, "f6")
+    assert row_of(screen, "Mode")[0] == "SIMULATED" and not screen.draft.changed
 
 
 def test_the_machine_is_chosen_and_a_refusal_told(screen: ConfigurationScreen, console: Console, shell: Shell) -> None:
@@ -275,6 +279,7 @@ def test_the_tick_rate_that_this_computer_carries_is_measured_and_stands_beside(
     press(screen, "f12")
     assert "this computer carries 1000 Hz" in text_of(screen, (158, 40))
     assert "this computer carries 1000 Hz" in text_of(screen, (80, 24))
+    assert row_of(screen, "Interrupt frequency")[-2:] == ["here", "1000"]
     bench.refusal = ("Linux only",)
     press(screen, "f12")
     assert shell.told == [("Not measured", ["Linux only"])]
@@ -313,3 +318,11 @@ def test_what_a_change_does_is_told_in_figures_of_the_machine(tmp_path: Path) ->
     assert "time between two ticks: 2 ms now, then 1 ms" in told
     assert files.effects(before, before) == [] == files.effects(before, "nonsense [")
     assert ("pcb-drill", ("x", "y", "z")) in files.users("phase", "two-phase-forced")
+
+
+def test_a_long_list_of_values_is_counted_in_the_row_and_told_by_f6() -> None:
+    ramps = tuple(f"a-ramp-{number}" for number in range(5))
+    assert hint_of(FieldView(("axes", "x", "ramp"), "x", "a-ramp-0", ramps), None) == [("dark", "5 values: F6")]
+    assert hint_of(FieldView(("axes", "x", "ramp"), "x", "a-ramp-0", ramps[:2]), None) == [
+        ("dark", "a-ramp-0 | a-ramp-1")
+    ]

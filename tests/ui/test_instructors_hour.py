@@ -26,7 +26,8 @@ OK = "< OK"
 def plant() -> Iterator["named.Act"]:
     """The dynamic one, with a drill that is blunt after 20 holes."""
     yield Act(menu("plant"), ("blunt",))
-    yield Act(("F6",), (f"| {word('dynamic')} |",))
+    yield Act(("F6",), (f"2   {word('dynamic: motors have inertia, and can lose steps')}",))
+    yield Act(("2",), (f"| {word('dynamic')} |",))
     yield Act(("Enter",), (OK,))
     yield Act(("blunt=20", "Enter"), (word("dynamic, faults: {count}").format(count=1),), gone=(OK,))
 

@@ -20,15 +20,17 @@ MEANINGS = {
     **dict.fromkeys(("up", "down", "page up", "page down"), UP_OR_DOWN),
     **dict.fromkeys(("left", "right"), SIDEWAYS),
     **dict.fromkeys(("+", "=", "-"), MORE_OR_LESS),
-    "enter": {"choose", "toggle", "edit", "ask", "found", "go", "upwards", "isolate"},  # on what the cursor is on
-    " ": {"hold_or_resume", "pause", "follow", "toggle"},  # switches over: held or going on, on or off
+    # what the cursor is on
+    "enter": {"choose", "toggle", "edit", "ask", "found", "go", "upwards", "isolate", "try_out"},
+    " ": {"hold_or_resume", "pause", "follow", "toggle"},  # switches between two states
     "tab": {"go", "next_motor", "next_kind", "other_side", "sideways", "turn_page", "complete"},  # on to the next
     "delete": {"remove", "delete", "fewer", "hide"},  # what the cursor is on is taken away
     "insert": {"insert", "more", "add", "show_all"},  # something comes to what is there
     "f2": {"save", "use"},  # what was edited holds from now on
     "f3": {"diff", "compare"},  # what differs
     "f5": {"run_all", "test", "try_out", "choose"},  # what is shown is run
-    "f6": {"cycle", "change_bit", "choose_format", "swap", "show_machine"},  # another choice
+    # asks what else to use
+    "f6": {"choose_value", "change_bit", "choose_format", "choose_plant", "choose_port", "choose_run"},
     "g": {"go_to", "go_there", "go_to_hole"},  # goes to a hole or a tick
     "l": {"recent", "list_workpieces"},  # the list of what can be loaded
     "m": {"cycle", "mirror"},  # mirrored; in Files it is one of the options

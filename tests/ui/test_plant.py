@@ -85,7 +85,11 @@ def test_the_fault_under_the_cursor_is_explained_at_every_size_and_all_are_where
 
 def test_a_refusal_of_the_other_plant_is_told() -> None:
     plants, shell = Plants(answer=(Message("a real machine hangs on gpio"),)), Shell()
-    press(PlantScreen(FakeConsole(), shell, plants), "f6")
+    drawn = PlantScreen(FakeConsole(), shell, plants)
+    press(drawn, "f6")
+    assert plants.done == [] and [line[0] for line in shell.offered] == ["*", " "], "ideal is in force"
+    shell.picks = 1
+    press(drawn, "f6")
     assert plants.done == [("swap",)]
     assert shell.told == [("Nothing changed", ["a real machine hangs on gpio"])]
 
@@ -134,7 +138,7 @@ def test_from_the_menu_to_a_table_that_loses_steps_and_to_seeing_it(
     program = Whole((100, 32), Library.standard())
     lost = re.compile(r"Lost +(\S+) (\S+) (\S+)")
     try:
-        program.press(*keys("plant"), "f6", "esc")
+        program.press(*keys("plant"), "f6", "2", "esc")
         program.go_on(1)
         assert "| dynamic |" in program.text()
         program.press(*keys("phase_editor"), "enter")

@@ -88,6 +88,10 @@ def test_a_failure_is_told_with_its_remedy_and_another_machine_has_no_report() -
 @pytest.mark.parametrize("yes", [False, True])
 def test_the_machine_is_changed_after_a_yes_only(real: bool, method: str, yes: bool) -> None:
     ports, shell = Ports(replace(PORT, real=real), answer=("the machine is at work",)), Shell(says_yes=yes)
+    shell.picks = int(real)  # what is in force
+    press(screen(ports, shell), "f6")
+    assert shell.asked == [] == ports.done and shell.offered[int(real)].startswith("* ")
+    shell.picks = int(not real)
     press(screen(ports, shell), "f6")
     assert len(shell.asked) == 1 and ports.done == ([method] if yes else [])
     assert shell.told == ([("Nothing changed", ["the machine is at work"])] if yes else [])
@@ -110,6 +114,6 @@ def test_a_yes_drives_it_and_a_refusal_is_told() -> None:
 
 
 def test_without_a_port_for_the_card_nobody_is_asked_and_the_reason_told() -> None:
-    ports, shell = Ports(replace(PORT, configured=""), answer=("no port drives the card",)), Shell()
+    ports, shell = Ports(replace(PORT, configured=""), answer=("no port drives the card",)), Shell(picks=1)
     press(screen(ports, shell), "f6")
     assert shell.asked == [] and shell.told == [("Nothing changed", ["no port drives the card"])]

@@ -280,7 +280,13 @@ def test_another_file_is_opened_or_refused_with_its_reason(square: TraceFile, mo
     program.press("enter")
     assert program.cursor() == 1
     program.press("f6")
+    assert "1   the machine's own run" in program.text()
+    program.press("1")
     assert "following" in program.text()
+    program.press("f6")
+    assert "1 * the machine's own run" in program.text()
+    program.press("2", *"b.trace", "enter")
+    assert program.runs.opened[-1].endswith("b.trace")
 
 
 @pytest.mark.parametrize("wanted", [True, False], ids=["waited for", "given up"])

@@ -18,7 +18,7 @@ PLANTS_IN_WORDS = (
     N_("What stands behind the simulated machine. Ideal motors turn at once"),
     N_("to where their windings pull; dynamic ones have inertia, friction:"),
     N_("they lag, swing, and lose steps when they are driven too fast."),
-    N_("F6 changes to the other plant. Enter asks for the faults of the"),
+    N_("F6 offers both plants. Enter asks for the faults of the"),
     N_("dynamic one, several with a space between, and for its seed:"),
     N_("the same faults and seed give the same run again."),
     N_("A fault has one number N; the list says its range and its meaning."),

@@ -11,20 +11,28 @@ import urwid
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History, Undoable
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
-from drillctl.ui.screens.field_panel import TICK_RATE, about_field, effect_lines
+from drillctl.ui.screens.field_panel import (
+    HINT_COLUMNS,
+    LABEL_COLUMNS,
+    TICK_RATE,
+    VALUE_COLUMNS,
+    about_field,
+    carried_words,
+    effect_lines,
+    field_row,
+    hint_of,
+)  # fmt: skip
 from drillctl.ui.screens.scale_guide import ScaleGuide
-from drillctl.ui.screens.shell import Shell, asked_to_leave
+from drillctl.ui.screens.shell import Shell, asked_to_leave, choose_another
 from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
 from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
-from drillctl.ui.widgets.texts import Edit, Line, Text, WholeText
+from drillctl.ui.widgets.texts import Edit, Line, Text
 from drillctl.viewmodel.bench import Bench
 from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.tables import FieldView, TableEditing
 
-LABEL_COLUMNS, VALUE_COLUMNS = 28, 18
-HINT_COLUMNS = 32  # in fewer the hint of the field under the cursor stands below the fields
 MOST_EFFECTS = 3  # below the fields, where there is no panel
 
 
@@ -36,7 +44,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
     keys = (
         Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
         Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
-        Key(("f6",), "F6", "cycle", N_("the next choice, where a field has choices"), N_("Choice")),
+        Key(("f6",), "F6", "choose_value", N_("another value, from a list, where a field has choices"), N_("Choice")),
         Key(("f2",), "F2", "save", N_("saves to your own copy; a wrong value is never saved"), N_("Save")),
         Key(("f3",), "F3", "diff", N_("what differs from the shipped file"), N_("Diff")),
         Key(("f5",), "F5", "choose", N_("drives this machine, as it was saved"), N_("Drive it")),
@@ -54,7 +62,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         bench: Bench | None = None,
     ):  # fmt: skip
         self._bench = bench
-        self._carried = ""  # what this computer carries, once it was measured
+        self._hz: int | None = None  # what this computer carries, once it was measured
         self._console, self._shell, self._tables, self._name = console, shell, tables, name
         self._actions = TableActions(console, shell, tables, "machines")
         self._heading, self._below = Text(""), Text("")
@@ -91,7 +99,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         if (bool(beside), narrow) != (self._has_panel, self._narrow):
             self._has_panel, self._narrow = bool(beside), narrow
             self._look()
-        lines = about_field(self._draft, self._field, self._carried, beside - BORDER_COLUMNS) if beside else []
+        lines = about_field(self._draft, self._field, self._hz, beside - BORDER_COLUMNS) if beside else []
         return with_panel(super().render((left, rows), focus), _("This field"), lines, beside, rows)
 
     def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
@@ -107,15 +115,20 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
             self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._edits) - 1)))
             self._look()
 
-    def cycle(self) -> None:
-        """Puts the next choice into a field that has choices."""
+    def choose_value(self) -> None:
+        """Offers the values of a field that has choices."""
         field = self._field
         if field is None or not field.choices:
+            self._shell.say(_("this field has no list of values: type one"))
             return
-        now = self._draft.shown(field)
-        at = field.choices.index(now) if now in field.choices else -1
-        self._edits[self._list.focus_position].set_edit_text(field.choices[(at + 1) % len(field.choices)])
-        self._take()
+        now, edit = self._draft.shown(field), self._edits[self._list.focus_position]
+        at = field.choices.index(now) if now in field.choices else None
+
+        def chosen(index: int) -> None:
+            edit.set_edit_text(field.choices[index])
+            self._take()
+
+        choose_another(self._shell, label_of(field), field.choices, at, chosen)
 
     def save(self) -> None:
         """Saves all fields, or none if one of them can't be taken."""
@@ -173,7 +186,8 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
             if problems:
                 self._shell.message(_("Not measured"), [translated(problem) for problem in problems])
             elif found and found[0] is not None:
-                self._carried = _("this computer carries {hz} Hz").format(hz=found[0])
+                self._hz = found[0]
+                self._rows[:] = map(self._row, self._draft.fields, self._edits)
                 self._look()
 
         self._shell.work(work, measured)
@@ -192,7 +206,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         self._draft = ConfigurationDraft(self._tables, self._tables.read("machines", self._name))
         self._edits = [Edit(edit_text=field.value) for field in self._draft.fields]
         self._history = History(self._typed())
-        self._rows[:] = [_row(field, edit) for field, edit in zip(self._draft.fields, self._edits, strict=True)]
+        self._rows[:] = [*map(self._row, self._draft.fields, self._edits)]
         if self._edits:
             self._list.set_focus(min(at, len(self._edits) - 1))
         self._look()
@@ -215,6 +229,9 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         self._draft.type(field, str(edit.edit_text))
         self._history.do(self._typed())
         self._look()
+
+    def _row(self, field: FieldView, edit: Edit) -> urwid.Widget:
+        return field_row(field, edit, self._hz)
 
     def _typed(self) -> tuple[str, ...]:
         return tuple(str(edit.edit_text) for edit in self._edits)
@@ -248,24 +265,9 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong]
         lines: list[Line] = []
         if not self._has_panel:
-            lines = [[_(words_of(field).meaning)], *([hint] if (hint := _hint(field)) and self._narrow else [])]
-            carried: list[Line] = [[self._carried]] if self._carried and field.place == TICK_RATE else []
+            hint = hint_of(field, self._hz) if self._narrow else []
+            lines = [[_(words_of(field).meaning)], *([hint] if hint else [])]
+            carried: list[Line] = [[carried_words(self._hz)]] if self._hz and field.place == TICK_RATE else []
             effects = effect_lines(self._draft)[:MOST_EFFECTS] if self._draft.changed and not problems else []
             lines += [*carried, *effects]
         return [*lines, *(problems or [[("good", _("sound"))]])]
-
-
-def _row(field: FieldView, edit: Edit) -> urwid.Widget:
-    hint = _hint(field)
-    label, box = Text(label_of(field)), urwid.AttrMap(edit, "field", "focus")
-    if not hint:  # free text has the whole line
-        return urwid.Columns([(LABEL_COLUMNS, label), box], 1)
-    return urwid.Columns([(LABEL_COLUMNS, label), (VALUE_COLUMNS, box), WholeText(hint)], 1)
-
-
-def _hint(field: FieldView) -> Line:
-    """Unit and bounds, or what can be chosen; that it is locked. Nothing for a field of free text."""
-    unit = _(words_of(field).unit)
-    allowed = "" if field.locked else " | ".join(field.choices) or field.bounds
-    sign: Line = [("warning", _("locked") + "  ")] if field.locked else []
-    return [*sign, ("dark", f"{unit}  {allowed}" if unit else allowed)] if sign or allowed else []

@@ -11,7 +11,7 @@ import urwid
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.fault_effects import PLANTS_IN_WORDS, effect_lines, effect_words
 from drillctl.ui.screens.folded_screen import FoldedScreen
-from drillctl.ui.screens.shell import Shell
+from drillctl.ui.screens.shell import Shell, choose_another
 from drillctl.ui.widgets.dialogs import Answered, Field
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
@@ -31,7 +31,7 @@ class PlantScreen(FoldedScreen):
 
     title = N_("Plant and faults")
     keys = (
-        Key(("f6",), "F6", "swap", N_("ideal or dynamic motors, in turn; the machine starts anew"), N_("Plant")),
+        Key(("f6",), "F6", "choose_plant", N_("ideal or dynamic motors; the machine starts anew"), N_("Plant")),
         Key(
             ("enter",),
             "Enter",
@@ -92,7 +92,13 @@ class PlantScreen(FoldedScreen):
         self._at = max(0, min(self._at + by, len(self._plant.words) - 1))
         self._invalidate()
 
-    def swap(self) -> None:
+    def choose_plant(self) -> None:
+        """Offers the ideal and the dynamic plant."""
+        now = None if self._plant.real_port else [*KINDS].index(self._plant.kind)
+        lines = [_("ideal: motors go where they are sent"), _("dynamic: motors have inertia, and can lose steps")]
+        choose_another(self._shell, _("Plant"), lines, now, lambda index: self._swap())
+
+    def _swap(self) -> None:
         """Changes to the other plant; a refusal is told."""
         problems = self._changed(self._control.swap())
         if problems:

@@ -9,7 +9,7 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.screens.folded_screen import FoldedScreen
-from drillctl.ui.screens.shell import Shell
+from drillctl.ui.screens.shell import Shell, choose_another
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
@@ -28,7 +28,7 @@ class PortScreen(FoldedScreen):
     title = N_("Port")
     keys = (
         Key(("f5",), "F5", "test", N_("opens the configured port and asks it; nothing moves"), N_("Test")),
-        Key(("f6",), "F6", "swap", N_("real or simulated machine, in turn; asks first"), N_("Real or not")),
+        Key(("f6",), "F6", "choose_port", N_("the real machine or the simulated one; asks first"), N_("Real or not")),
     )
 
     def __init__(self, console: Console, shell: Shell, control: PortControl):
@@ -80,12 +80,12 @@ class PortScreen(FoldedScreen):
         self._report = self._control.test()
         self._invalidate()
 
-    def swap(self) -> None:
-        """Asks, then changes to the machine that is not driven now: the real one, or the simulated one."""
-        if self._port.real:
-            self._go_simulated()
-        else:
-            self._go_real()
+    def choose_port(self) -> None:
+        """Offers the simulated machine and the real one on the configured port."""
+        real = _("the real machine on {port}").format(port=self._port.configured or "-")
+        ways = (self._go_simulated, self._go_real)
+        lines = (_("the simulated machine"), real)
+        choose_another(self._shell, _("Port"), lines, int(self._port.real), lambda index: ways[index]())
 
     def _go_real(self) -> None:
         """Asks, then changes to the real machine; its position is not known then."""

@@ -32,7 +32,7 @@ class RampEditor(TableEditor):
         Key(("left",), N_("Left"), "sideways", N_("a number to the left"), argument=-1),
         Key(("right", "tab"), N_("Right"), "sideways", N_("a number to the right"), argument=1),
         Key(("up",), N_("Up"), "upwards", N_("a state up"), argument=-1),
-        Key(("down", "enter"), N_("Down"), "upwards", N_("a state down"), argument=1),
+        Key(("down",), N_("Down"), "upwards", N_("a state down"), argument=1),
         Key(("backspace",), "Backspace", "rub_out", N_("takes the last digit away")),
         Key(("insert",), "Ins", "more", N_("a pair of states more; numbers are proposed"), N_("Add")),
         Key(("delete",), "Del", "fewer", N_("takes the outermost pair of states away"), N_("Remove")),

@@ -13,7 +13,7 @@ from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS
 from drillctl.ui.screens.scope_measure import POSITION
 from drillctl.ui.screens.scope_search import Searching
 from drillctl.ui.screens.scope_view import ScopeLayout, ScopeLook, scope_lines
-from drillctl.ui.screens.shell import Shell
+from drillctl.ui.screens.shell import Shell, choose_another
 from drillctl.ui.widgets.keys import called
 from drillctl.ui.widgets.texts import Size, boxed
 from drillctl.viewmodel.console import Console, MachineView, Problems, Watch
@@ -87,6 +87,11 @@ class Scope(Searching, urwid.Widget):
         """Shows the machine's own run and follows it."""
         self._live = True
         self._look_at(self._runs.running())
+
+    def choose_run(self) -> None:
+        """Offers the machine's own run, and a trace file."""
+        ways, lines = (self.show_machine, self.open), (_("the machine's own run"), _("a trace file"))
+        choose_another(self._shell, _("Runs"), lines, 0 if self._live else None, lambda index: ways[index]())
 
     def open(self) -> None:
         """Asks for a trace file, then shows its run."""

@@ -63,5 +63,5 @@ SCOPE_KEYS = (
     Key(("enter",), "Enter", "isolate", N_("shows only the rows of this row's group")),
     Key(("insert",), "Ins", "show_all", N_("shows all rows again")),
     Key(("ctrl o",), "Ctrl-O", "open", N_("opens a trace file"), N_("Open")),
-    Key(("f6",), "F6", "show_machine", N_("the run of the machine at hand again"), N_("Machine")),
+    Key(("f6",), "F6", "choose_run", N_("another run: the machine's own, or a trace file"), N_("Runs")),
 )

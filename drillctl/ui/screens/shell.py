@@ -113,6 +113,16 @@ def asked_to_leave(screen: urwid.Widget, shell: Shell, key: str, give_up: Callab
     return True
 
 
+def choose_another(
+    shell: Shell, title: str, lines: Sequence[str], now: int | None, chosen: Callable[[int], object]
+) -> None:
+    """Offers lines to choose from; the one in force, number ``now``, is marked ``*``. ``chosen`` is called with the
+    number of any other one.
+    """
+    marked = [f"{'*' if index == now else ' '} {line}" for index, line in enumerate(lines)]
+    shell.choose(title, marked, lambda index: None if index == now else chosen(index))
+
+
 def asked_if_real(control: ManualControl, shell: Shell, what: str, act: Callable[[], None], warning: str = "") -> None:
     """Calls ``act`` after a yes; without a question on a simulated machine if there is no ``warning``."""
     port = control.real_port()

@@ -27,6 +27,7 @@ CHARTS, PANEL_TEXT_ROWS = 3, 13  # of a panel: its charts, and the rows of every
 LEAST_CHART_ROWS, MOST_CHART_ROWS = 3, 12
 TABLE_KEYS = (
     Key(("f5",), "F5", "try_out", N_("tries the table on motors of a bench: which moves lose steps"), N_("Try")),
+    Key(("enter",), "Enter", "try_out", N_("as F5")),
     *UNDO_KEYS,
     Key(("f2",), "F2", "save", N_("saves to your own copy; a table with a problem is never saved"), N_("Save")),
     Key(("f3",), "F3", "diff", N_("what differs from the shipped table"), N_("Diff")),
