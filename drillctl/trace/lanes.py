@@ -51,8 +51,9 @@ class Column:
 
     def append(self, ticks: Values, values: Values) -> None:
         """Adds later rows (n,), n > 0, without those that repeat the value before."""
-        before = self.values[-1] if self._count else values[0] - 1
-        news = np.diff(values, prepend=before) != 0
+        news = np.empty(len(values), bool)
+        news[0] = not self._count or values[0] != self._rows[1, self._count - 1]
+        news[1:] = values[1:] != values[:-1]
         count = self._count + int(np.count_nonzero(news))
         if count > self._rows.shape[1]:
             grown = np.zeros((2, 2 * count), np.int64)
@@ -90,8 +91,8 @@ class Column:
         """
         if not self._count:
             return np.zeros(len(edges) - 1, np.int64), np.zeros(len(edges) - 1, np.int64)
-        rows = np.maximum(np.searchsorted(self.ticks, edges), 1)
-        return self.values[rows[1:] - 1], np.diff(rows)
+        rows = np.maximum(self.ticks.searchsorted(edges), 1)
+        return self.values[rows[1:] - 1], rows[1:] - rows[:-1]
 
     def find(self, tick: int, direction: int, onset: bool) -> int | None:
         """Returns the next change after `tick`, or the last one before it; None where there is none.
@@ -107,7 +108,7 @@ class Column:
         return self._row_after(tick) - 1
 
     def _row_after(self, tick: int) -> int:
-        return int(np.searchsorted(self.ticks, tick, side="right"))
+        return int(self.ticks.searchsorted(tick, side="right"))
 
 
 class Lanes:

@@ -76,3 +76,13 @@ def test_a_part_that_is_as_before_is_not_asked_for_its_rows() -> None:
         frame = urwid.CanvasJoin([(still, None, False, 4), (leaf(6, 2, word), None, False, 6)])
         assert word.encode() in b"".join(text for _look, _set, text in rows.of(frame)[0])
     assert still.asked == 1
+
+
+def test_a_part_in_two_looks_has_rows_for_each() -> None:
+    seen = []
+    for look in ("good", "danger"):
+        canvas = urwid.CompositeCanvas(leaf(4, 1, "one"))
+        canvas.fill_attr_apply({None: look})
+        seen.append(canvas)
+    frame = urwid.CanvasJoin([(canvas, None, False, 4) for canvas in seen])
+    assert {run[0] for run in CanvasRows().of(frame)[0]} >= {"good", "danger"}

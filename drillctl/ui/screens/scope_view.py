@@ -6,8 +6,7 @@ that nothing is told by colour alone.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-
-import numpy as np
+from typing import NamedTuple
 
 from drillctl.language import Message
 from drillctl.language.words import N_, _, ngettext, translated
@@ -65,6 +64,23 @@ class ScopeLayout:
         return cls(names, max(1, columns - names - VALUES - tables), tables)
 
 
+class _Waves(NamedTuple):
+    """What all rows of a drawing share. ``at``: the cursor's column; ``end``: the last edge, a tick."""
+
+    source: ScopeSource
+    look: ScopeLook
+    layout: ScopeLayout
+    moment: Moment
+    edges: Ints
+    at: int
+    end: int
+
+    def known(self, row: int) -> Ints:
+        """The edges up to which a signal is known."""
+        known_to = self.source.known_to(row)
+        return self.edges if known_to >= self.end else self.edges[: self.edges.searchsorted(known_to, side="right")]
+
+
 def title(signal: ScopeSignal) -> str:
     """The name of a signal's row, with its group where that is needed."""
     return signal.name if signal.group in BESIDE_NAME else f"{signal.group}.{signal.name}"
@@ -80,8 +96,9 @@ def scope_lines(source: ScopeSource, look: ScopeLook, columns: int, rows: int) -
     foot = folded(_foot(source, look, moment, columns, bool(layout.tables)), columns)
     room = max(1, rows - len(head) - len(foot) - 1)
     edges = look.view.edges()
+    at = look.view.column_of(look.view.cursor)
     waves = [_ruler(look, layout, edges)]
-    waves += _rows(source, look, layout, moment, edges, room)
+    waves += _rows(_Waves(source, look, layout, moment, edges, at, int(edges[-1])), room)
     waves += [[""]] * (room + 1 - len(waves))
     if layout.tables:
         waves = _beside(waves, _tables(moment.axes, room + 1))
@@ -114,49 +131,48 @@ def _ruler(look: ScopeLook, layout: ScopeLayout, edges: Ints) -> Line:
     return [" " * layout.names, ("title", labels), ("title", f"{_('at cursor'):>{VALUES}}"[:VALUES])]
 
 
-def _rows(
-    source: ScopeSource, look: ScopeLook, layout: ScopeLayout, moment: Moment, edges: Ints, room: int
-) -> list[Line]:
+def _rows(waves: _Waves, room: int) -> list[Line]:
     """The lines of the rows: one each, or as many as a curve has."""
-    curves = {row: _curve(source, look, layout, edges, row) for row, part in look.rows.window(room) if part}
+    window = waves.look.rows.window(room)
+    curves = {row: _curve(waves, row) for row, part in window if part}
     lines = []
-    for row, part in look.rows.window(room):
-        first = _row(source, look, layout, moment, edges, row) if not part else []
-        lines.append(_on_curve(first, curves[row][part], look, layout) if row in curves else first)
+    for row, part in window:
+        first = _row(waves, row) if not part else []
+        lines.append(_on_curve(first, curves[row][part], waves) if row in curves else first)
     return lines
 
 
-def _curve(source: ScopeSource, look: ScopeLook, layout: ScopeLayout, edges: Ints, row: int) -> list[tuple[str, str]]:
-    known_edges = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
-    return curve_lines(source, row, known_edges, layout.waves, look.rows.heights[row], look.plain)
+def _curve(waves: _Waves, row: int) -> list[tuple[str, str]]:
+    look = waves.look
+    return curve_lines(waves.source, row, waves.known(row), waves.layout.waves, look.rows.heights[row], look.plain)
 
 
-def _on_curve(row: Line, drawn: tuple[str, str], look: ScopeLook, layout: ScopeLayout) -> Line:
+def _on_curve(row: Line, drawn: tuple[str, str], waves: _Waves) -> Line:
     """A line of a curve, the cursor's column in it marked; the first has the row's name and its value."""
     label, text = drawn
-    at = look.view.column_of(look.view.cursor)
+    at, names = waves.at, waves.layout.names
     curve: Line = [("good", text[:at]), ("focus", text[at : at + 1]), ("good", text[at + 1 :])]
     if row:
         return [row[0], *curve, row[-1]]
-    return [("dark", f"  {label:{layout.names - 2}}"[: layout.names]), *curve, " " * VALUES]
+    return [("dark", f"  {label:{names - 2}}"[:names]), *curve, " " * VALUES]
 
 
-def _row(source: ScopeSource, look: ScopeLook, layout: ScopeLayout, moment: Moment, edges: Ints, row: int) -> Line:
+def _row(waves: _Waves, row: int) -> Line:
+    source, look, layout, moment, _edges, at, _end = waves
     signal, value = source.signals()[row], moment.values[row]
     here = row == look.rows.at
     name = f"{'>' if here else ' '}{title(signal):{layout.names - 1}}"[: layout.names]
     shown = UNKNOWN if value is None else source.shown(row, value, moment.tick)
-    wave = f"{_wave(source, look, edges, row):{layout.waves}}"
-    at = look.view.column_of(look.view.cursor)
+    wave = f"{_wave(waves, row):{layout.waves}}"
     cursor: Line = [("lit", wave[:at]), ("focus", wave[at : at + 1]), ("lit", wave[at + 1 :])]
     text = fitted(shown, VALUES - 1, signal.shape == "words", SIGNS[look.plain]).strip()
     return [("focus" if here else "body", name), *cursor, ("body", f"{text:>{VALUES}}")]
 
 
-def _wave(source: ScopeSource, look: ScopeLook, edges: Ints, row: int) -> str:
+def _wave(waves: _Waves, row: int) -> str:
     """The row as far as the signal is known; beyond, where there should be more, a question mark."""
-    known_edges = edges[: int(np.searchsorted(edges, source.known_to(row), side="right"))]
-    unknown = UNKNOWN * (len(edges) - max(1, len(known_edges)))
+    source, look, known_edges = waves.source, waves.look, waves.known(row)
+    unknown = UNKNOWN * (len(waves.edges) - max(1, len(known_edges)))
     if len(known_edges) < 2:
         return unknown
     strip, shape = source.strip(row, known_edges), source.signals()[row].shape

@@ -36,10 +36,11 @@ SIGNS = {False: Signs("▁", "▔", "│", "▒", "·", "…", "▼"), True: Sig
 def wire_line(strip: Strip, exact: bool, plain: bool = False) -> str:
     """A character a column: low, high, an edge, or busy with several. ``exact``: no column has more than a tick, so
     that each shows its level."""
-    signs = SIGNS[plain]
-    edges = np.where(exact, 0, np.minimum(strip.changes, 2))
-    codes = np.where(edges > 0, edges + 1, strip.values != 0)
-    return "".join(np.array(signs[:4])[codes].tolist())
+    codes = (strip.values != 0).astype(np.int64)
+    if not exact:
+        edges = np.minimum(strip.changes, 2)
+        codes = np.where(edges > 0, edges + 1, codes)
+    return "".join(map(SIGNS[plain].__getitem__, codes.tolist()))
 
 
 def word_line(strip: Strip, shown: Callable[[int, int], str], may_cut: bool, plain: bool = False) -> str:

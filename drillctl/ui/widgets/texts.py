@@ -4,6 +4,7 @@ Rule: whatever they are given, a terminal only prints: what it would obey is esc
 these; tests/ui/test_hidden_characters.py holds that no screen makes urwid's own.
 """
 
+import re
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Literal, TypeVar
@@ -20,6 +21,9 @@ Charsets = list[tuple[Literal["0", "U"] | None, int]]
 Run = tuple[Hashable, Literal["0", "U"] | None, bytes]  # attribute, character set, text
 Looks = Mapping[Hashable, Hashable]  # attributes that stand for others
 Size = tuple[()] | tuple[int] | tuple[int, int]  # as urwid hands it to a widget: nothing, columns, or a box
+# Whether all characters are of the alphabets, lines, blocks and braille that take one column each: urwid counts the
+# columns of any other text character by character.
+_NARROW = re.compile("[\x00-\x7f\xa1-\xac\xae-\u017f\u2500-\u259f\u2800-\u28ff]*").fullmatch
 DRAWN = 1024  # lines that are kept as they were drawn last: several screens of a large terminal
 KEPT = LINES.replace("\t", "")  # urwid gives a tab no columns
 Markup = TypeVar("Markup")
@@ -243,7 +247,7 @@ def _encoded(words: str, room: int, encoding: str) -> tuple[bytes, Charsets, int
 
 def _fitting(words: str, room: int) -> tuple[int, int]:
     """How many characters of a text fit into so many columns, and how many columns they take."""
-    if words.isascii():
+    if _NARROW(words):
         return min(len(words), room), min(len(words), room)
     end, width = urwid.calc_text_pos(words, 0, len(words), room)
     return end, width
@@ -257,4 +261,4 @@ def width_of(line: Line) -> int:
 @lru_cache(DRAWN)
 def _columns(text: str) -> int:
     shown_text = visible(text)
-    return len(shown_text) if shown_text.isascii() else urwid.calc_width(shown_text, 0, len(shown_text))
+    return len(shown_text) if _NARROW(shown_text) else urwid.calc_width(shown_text, 0, len(shown_text))
