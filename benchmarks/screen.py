@@ -163,9 +163,9 @@ def _late(terminal: Terminal) -> int:
 
 
 def _cpu_s(pid: int) -> float:
-    """Of the process so far."""
-    fields = Path(f"/proc/{pid}/stat").read_text("ascii").rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    """Of the process so far, by the scheduler's own count: that of /proc/PID/stat is in hundredths of a second."""
+    threads = Path(f"/proc/{pid}/task").glob("*/schedstat")
+    return sum(int(thread.read_text("ascii").split()[0]) for thread in threads) / 1e9
 
 
 if __name__ == "__main__":

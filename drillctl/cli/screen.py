@@ -68,7 +68,8 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
     streams.speak(arguments.lang, plain)
     pace = arguments.pace or ("real" if sys.platform.startswith("linux") else None)
     library = replace(options.library(arguments), tell=tell_nobody)  # the second line says it
-    running = replace(options.running(arguments, arguments.port or SIMULATED), pace=pace, sliced=not arguments.pace)
+    running = options.running(arguments, arguments.port or SIMULATED)
+    running = replace(running, pace=pace, sliced=not arguments.pace, waits=False)  # the screen's loop waits
     console = MachineConsole(
         library, options.machine(arguments), running, arguments.tools, arguments.tick_hz, bool(arguments.port)
     )

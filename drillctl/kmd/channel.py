@@ -24,6 +24,7 @@ from drillctl.language import Message
 
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
 MOST_READS = 1000
+NOTHING = -1  # no value of the lock
 EXISTING = os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC
 
 CHANNEL = np.dtype(
@@ -82,6 +83,7 @@ class Channel:
             os.close(handle)
         self.fields: NDArray[np.void] = np.frombuffer(self.memory, dtype=CHANNEL, count=1)
         self._numbers = {name: self.fields[name] for name in NUMBERS}  # views: looked up at every tick
+        self._copied, self._copy = NOTHING, self.fields["status"][0]  # the lock at the newest copy, and the copy
         if create:
             self.fields["magic"] = MAGIC
             place.replace(file)
@@ -89,11 +91,16 @@ class Channel:
             raise OSError(Message("not a channel of this program").at(file))
 
     def status(self) -> np.void:
-        """Returns a whole copy of the newest status record. Raises OSError if the ticker died while it wrote one."""
+        """Returns a whole copy of the newest status record, to be read only: the same one until another is published.
+        Raises OSError if the ticker died while it wrote one.
+        """
         for _ in range(MOST_READS):
-            before = int(self.fields["lock"][0])
+            before = self["lock"]
+            if before == self._copied:
+                return self._copy
             copy = self.fields["status"][0].copy()
-            if before % 2 == 0 and int(self.fields["lock"][0]) == before:
+            if before % 2 == 0 and self["lock"] == before:
+                self._copy, self._copied = copy, before
                 return copy
         raise OSError(Message("the status record was left half written").at(self.file))
 

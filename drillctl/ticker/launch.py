@@ -40,6 +40,7 @@ class RunSettings:
     engine  ``tick`` or ``fast``; None: fast where possible
     kept    by a screen, from job to job: its desk may be silent for longer between jobs
     sliced  a simulated card at real pace runs by the simulated clock (sliced_clock.py), which is never late
+    waits   a turn of the link to a ticker of its own waits a moment; False: the caller waits between two turns itself
     """
 
     port: str = SIMULATED
@@ -51,6 +52,7 @@ class RunSettings:
     taped: bool = False
     kept: bool = False
     sliced: bool = False
+    waits: bool = True
 
 
 def port_of_mode(machine: Machine) -> str:
@@ -140,7 +142,8 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
     idle_ns = DESK_IDLE_NS if running.kept else DESK_SAFE_NS
     try:
         return PacedLink(
-            machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns, _is_sliced(running)
+            machine, driver, plant, status_file, running.traced, running.derived, keeper, idle_ns, _is_sliced(running),
+            running.waits,
         )
     except OSError as error:
         why = message_of(error).at(error.filename) if error.filename else message_of(error)

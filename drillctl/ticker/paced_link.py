@@ -44,11 +44,12 @@ class PacedLink:
     keeper   a ring that takes the changes of all signals in place of ``trace``; whoever made it empties it
     idle_ns  how long the ticker tolerates the desk's silence at rest, without a job
     sliced   by the simulated clock, in slices of ticks; of a simulated machine
+    waits    a turn sleeps for TURN_S; False: whoever calls it waits between two turns
     """
 
     def __init__(self, machine: Machine, port: Driver, plant: Plant | None, file: Path,
                  traced: bool, derived: bool, keeper: RingRecorder | None = None,
-                 idle_ns: int = DESK_IDLE_NS, sliced: bool = False):  # fmt: skip
+                 idle_ns: int = DESK_IDLE_NS, sliced: bool = False, waits: bool = True):  # fmt: skip
         self.measured = plant is not None
         self.plant_lanes = plant.lanes if plant else ()
         self.plant_header = header_of(plant)
@@ -62,6 +63,7 @@ class PacedLink:
         self._ring = RingRecorder(len(self._signals)) if self._signals else None
         self._changes: list[np.ndarray] = []
         self._port = port
+        self._waits = waits
         self._unguarded = False
         self._noticed: list[Message] = []
         self._half_line = b""
@@ -114,14 +116,20 @@ class PacedLink:
         while self._slot.waiting:
             if self._ticker.gone or time.monotonic() > until_s:
                 return Message("the ticker does not answer")
-            self.turn()
+            time.sleep(TURN_S)
+            self._look()
         return self._slot.reply()
 
     def turn(self) -> None:
-        """Sleeps for TURN_S, beats the desk's heartbeat and checks on the guard. A lost guard stops the job; a ticker
-        that falls silent after that is killed here.
+        """Sleeps for TURN_S, unless the caller waits itself, and looks at the processes."""
+        if self._waits:
+            time.sleep(TURN_S)
+        self._look()
+
+    def _look(self) -> None:
+        """Beats the desk's heartbeat and checks on the guard. A lost guard stops the job; a ticker that falls silent
+        after that is killed here.
         """
-        time.sleep(TURN_S)
         now_ns = self._beat()
         self._drain()
         if not self._unguarded and not self._channel["ended"] and self._guard_is_lost(now_ns):

@@ -35,7 +35,7 @@ from drillctl.ui.widgets.themes import DEFAULT_THEME, depth_of, palette
 from drillctl.viewmodel.console import Console, Problems, Watch
 
 BEAT_S = 0.05
-REST_BEAT_S = 0.2  # while nothing is at work, until a key is pressed; at work a desk silent for 0.4 s is taken for lost
+REST_BEAT_S = 0.35  # at rest, until a key is pressed; at work a desk silent for 0.4 s is taken for lost
 FIRST_LOOK_S = 0.1  # the first frame stands before the disk is looked over for jobs that were cut off
 TURNING_S = 0.035  # of a beat that a machine gets which runs free and is at work; keys and picture have the rest
 

@@ -124,6 +124,14 @@ def whole(record: np.void) -> bool:
     return len(values.union(*(record[name].tolist() for name in ("position", "target", "steps")))) == 1
 
 
+def test_a_status_is_copied_once_for_each_that_is_published(channel: Channel) -> None:
+    channel.publish(numbered(1))
+    first = channel.status()
+    assert channel.status() is first
+    channel.publish(numbered(2))
+    assert channel.status()["tick"] == 2 and first["tick"] == 1
+
+
 def test_no_status_is_ever_torn(channel: Channel) -> None:
     """One process writes as fast as it can until another has read enough."""
 

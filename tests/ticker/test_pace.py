@@ -20,7 +20,9 @@ from drillctl.plant.dynamic.coefficients import coefficients
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.portio.simulated import SimulatedCard
 from drillctl.replay.compare import replay, taped_again
+from drillctl.ticker import paced_link
 from drillctl.ticker.fast_ticker import FastTicker
+from drillctl.ticker.launch import RunSettings, start
 from drillctl.ticker.link import Link, LocalLink
 from drillctl.ticker.paced_link import PacedLink
 from drillctl.ticker.sampler import vcd_layout
@@ -183,3 +185,20 @@ def test_who_watches_the_beat_knows_of_a_longer_tick(tmp_path: Path) -> None:
         assert not made.lost() and not made.status()["fault"]
     finally:
         made.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="real pace")
+@pytest.mark.parametrize("waits", [True, False])
+def test_a_turn_sleeps_unless_the_caller_waits_between_turns(
+    waits: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    running = RunSettings(pace="real", kept=True, sliced=True, waits=waits)
+    made = start(MACHINE, running, tmp_path / "status")
+    slept: list[float] = []
+    try:
+        with monkeypatch.context() as patched:
+            patched.setattr(paced_link.time, "sleep", slept.append)
+            made.turn()
+    finally:
+        made.close()
+    assert bool(slept) == waits
