@@ -16,7 +16,7 @@ from drillctl.trace.stretches import SignalRecorder
 from drillctl.trace.target import Target
 from drillctl.trace.vcd import write_vcd_run
 
-COMMANDS_AT_ONCE = 64  # repeated: a batch of them is a few ten thousand ticks
+COMMANDS_AT_ONCE = 96  # repeated: a batch of them is a few ten thousand ticks
 
 
 def write_recorded_vcd(record: Trace | Segments, machine: Machine, target: Target) -> None:

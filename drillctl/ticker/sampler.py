@@ -80,6 +80,11 @@ class Sampler:
         if self._derived:
             self._sample_axes(index + 1 + QUIET, tick)
 
+    def sample_inputs(self) -> None:
+        """Before a tick that has other inputs than the last one, and is within a stretch."""
+        for card in self._cards:
+            self.recorder.set(2 * card, self._m.tick, word(self._m.inputs, card))
+
     def sample_outputs(self, images: NDArray[np.uint64], first: int) -> None:
         """After ticks from ``first`` on that have these output images (ticks,), in which nothing else has changed."""
         assert isinstance(self.recorder, Recorder)

@@ -1,13 +1,13 @@
 """A ticker on the dynamic plant that runs stretches of known outputs in one call, with the same result to the byte.
 
-Rule: the plant stops a stretch at the first tick that changes an input, and ``tick`` goes on from there. Only where
-nothing live is attached, and no derived signals are recorded.
+Rule: the plant stops a stretch at the first tick that changes an input, and ``tick`` goes on from there, unless nothing
+acts on that change. Only where nothing live is attached, and no derived signals are recorded.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from drillctl.execution.fastforward.stretch import Images, foresee, leave
+from drillctl.execution.fastforward.stretch import Images, foresee, goes_on, leave
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.ticker.ticker import NEVER, Ticker
 
@@ -43,10 +43,16 @@ class StretchTicker(Ticker):
         return m.tick - first
 
     def _pass(self, shown: Images) -> None:
-        """Runs the plant on these output images (ticks,), up to the first tick that changes an input."""
-        m = self.controller
-        first, done = m.tick, self._dynamic.run(shown)
-        leave(m, done)
+        """Runs the plant on these output images (ticks,), up to the first tick after which an input is for ``tick``."""
+        m, plant, first, done = self.controller, self._dynamic, self.controller.tick, 0
+        while True:
+            ran = plant.run(shown[done:])
+            leave(m, ran)
+            done += ran
+            self.note_touch()
+            if done == len(shown) or not goes_on(m, plant.inputs):
+                break
+            if self.sampler is not None:
+                self.sampler.sample_inputs()
         if self.sampler is not None:
             self.sampler.sample_outputs(shown[:done], first)
-        self.note_touch()

@@ -46,7 +46,7 @@ class LineWriter:
     def __init__(self, file: TextIO, times: Times, variables: Sequence[Variable], loop: ModuleType) -> None:
         self._file, self._times, self._variables, self._loop = file, times, variables, loop
         self._signals = sorted({variable.number for variable in variables})
-        self._present, self._changed = np.zeros((2, len(self._signals)), np.int64)
+        self._coming, self._present, self._changed = np.zeros((3, len(self._signals)), np.int64)
         self._shown = np.array([each.shown & self._mask(each) for each in variables], np.int64)
         texts = [_texts(variable) for variable in variables]
         firsts = accumulate(map(len, texts), initial=0)
@@ -75,8 +75,8 @@ class LineWriter:
         self._state[WHY] = FULL
         while self._state[WHY] == FULL:
             used = self._loop.lines(
-                ticks, values, at, ends, self._present, self._changed, self._rows, self._shown, self._texts,
-                self._begins, first, times, self._out, self._room, self._state,
+                ticks, values, at, ends, self._coming, self._present, self._changed, self._rows, self._shown,
+                self._texts, self._begins, first, times, self._out, self._room, self._state,
             )  # fmt: skip
             self._file.write(self._out[:used].tobytes().decode())
         if self._state[WHY] == NO_TEXT:
@@ -86,7 +86,8 @@ class LineWriter:
     def _row(self, variable: Variable, first: int, texts: Sequence[bytes]) -> list[int]:
         source = self._signals.index(variable.number)
         count = 0 if variable.var.kind == "integer" else len(texts)
-        return [source, variable.shift, self._mask(variable), variable.invert, first, count]
+        mask = self._mask(variable)
+        return [source, variable.shift, mask, variable.invert, first, count, mask << variable.shift]
 
     @staticmethod
     def _mask(variable: Variable) -> int:

@@ -15,7 +15,8 @@ MASK = 2
 INVERT = 3
 FIRST = 4
 COUNT = 5
-FIELDS = 6
+BITS = 6
+FIELDS = 7
 STAMP_BYTES = 24  # at most, of a time stamp
 NUMBER_BYTES = 33  # at most, of a number before its text
 
@@ -70,26 +71,45 @@ def text(out: MutableSequence[int], used: int, texts: Sequence[int], begin: int,
     return used
 
 
-def take(tick: int, ticks: Sequence[int], values: Sequence[int], at: MutableSequence[int], ends: Sequence[int],
-         present: MutableSequence[int], changed: MutableSequence[int]) -> None:  # fmt: skip
-    """Puts the values of a tick into ``present`` and passes them; of several of one signal the last counts."""
+def come(ticks: Sequence[int], at: Sequence[int], ends: Sequence[int], beyond: int,
+         coming: MutableSequence[int]) -> int:  # fmt: skip
+    """Puts the tick of each signal's next change into ``coming``, ``beyond`` where it has none; returns the least."""
+    least = beyond
+    for signal in range(len(at)):
+        coming[signal] = ticks[at[signal]] if at[signal] < ends[signal] else beyond
+        least = min(least, coming[signal])
+    return least
+
+
+def take(tick: int, beyond: int, ticks: Sequence[int], values: Sequence[int], at: MutableSequence[int],
+         ends: Sequence[int], coming: MutableSequence[int], present: MutableSequence[int],
+         changed: MutableSequence[int]) -> int:  # fmt: skip
+    """Puts the values of a tick into ``present`` and passes them; of several of one signal the last counts. Returns
+    the tick of the change that comes next.
+    """
+    least = beyond
     for signal in range(len(at)):
         changed[signal] = 0
-        while at[signal] < ends[signal] and ticks[at[signal]] == tick:
+        while coming[signal] == tick:
             changed[signal] |= present[signal] ^ values[at[signal]]
             present[signal] = values[at[signal]]
             at[signal] += 1
+            coming[signal] = ticks[at[signal]] if at[signal] < ends[signal] else beyond
+        least = min(least, coming[signal])
+    return least
 
 
 def lines(ticks: Sequence[int], values: Sequence[int], at: MutableSequence[int], ends: Sequence[int],
-          present: MutableSequence[int], changed: MutableSequence[int], variables: Sequence[int],
-          shown: MutableSequence[int], texts: Sequence[int], begins: Sequence[int], first: int, times: Sequence[int],
-          out: MutableSequence[int], room: int, state: MutableSequence[int]) -> int:  # fmt: skip
+          coming: MutableSequence[int], present: MutableSequence[int], changed: MutableSequence[int],
+          variables: Sequence[int], shown: MutableSequence[int], texts: Sequence[int], begins: Sequence[int],
+          first: int, times: Sequence[int], out: MutableSequence[int], room: int,
+          state: MutableSequence[int]) -> int:  # fmt: skip
     """Writes changes into ``out`` and returns how many bytes of it are used.
 
     ticks, values  (n,) the changes of all signals, one signal after the other: rising ticks
     at, ends  (signals,) where in them each signal's next change is, and where its last is passed
-    present, changed  (signals,) values, and their bits that change in a tick: both are overwritten
+    coming, present, changed  (signals,) the tick of the next change, values, and their bits that change in a tick: all
+               three are overwritten
     variables  FIELDS whole numbers a variable
     shown  (variables,) what each shows
     texts, begins  bytes of all texts, and where each begins; the last one's end behind them
@@ -98,28 +118,22 @@ def lines(ticks: Sequence[int], values: Sequence[int], at: MutableSequence[int],
     state  TIME of the last stamp, WHY it ended, WHICH variable
     """
     used = 0
-    signals = len(at)
     count = len(shown)
     beyond = first + len(times)
     full = len(out) - room
     state[WHY] = DONE
-    while True:
-        tick = beyond
-        for signal in range(signals):
-            if at[signal] < ends[signal] and ticks[at[signal]] < tick:
-                tick = ticks[at[signal]]
-        if tick == beyond:
-            return used
+    tick = come(ticks, at, ends, beyond, coming)
+    while tick < beyond:
         if used > full:
             state[WHY] = FULL
             return used
-        take(tick, ticks, values, at, ends, present, changed)
         time = times[tick - first]
+        tick = take(tick, beyond, ticks, values, at, ends, coming, present, changed)
         row = -FIELDS
         for variable in range(count):
             row += FIELDS
             source = variables[row]
-            if not changed[source] >> variables[row + SHIFT] & variables[row + MASK]:
+            if not changed[source] & variables[row + BITS]:
                 continue
             now = (present[source] >> variables[row + SHIFT] & variables[row + MASK]) ^ variables[row + INVERT]
             if now == shown[variable]:
@@ -138,3 +152,4 @@ def lines(ticks: Sequence[int], values: Sequence[int], at: MutableSequence[int],
                 state[WHICH] = variable
                 return used
             used = text(out, used, texts, begins[place], begins[place + 1])
+    return used

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
+from drillctl.execution.fastforward.stretch import Images
 from drillctl.generation.job import names_of
-from drillctl.kmd import Fault, Queue, parse_program
+from drillctl.kmd import Fault, Op, Queue, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.plant import PlantChoice
 from drillctl.plant.dynamic import law
@@ -127,6 +128,20 @@ def test_a_ramp_is_within_a_stretch(monkeypatch: pytest.MonkeyPatch) -> None:
     fast = check(LIBRARY.machine("pcb-drill"), PlantChoice("dynamic"), text, {}, 6000)
     assert fast.controller.done == 7
     assert sum(ticked) < 100
+
+
+def test_a_sensor_that_nothing_acts_on_ends_no_stretch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stroke down leaves the upper sensor, and meets the board: one stretch up to the lower sensor."""
+    passed = []
+
+    def noted(self: StretchTicker, shown: Images) -> None:
+        passed.append(self.controller.command.opcode)
+        run(self, shown)
+
+    run = StretchTicker._pass
+    monkeypatch.setattr(StretchTicker, "_pass", noted)
+    check(LIBRARY.machine("pcb-drill"), PlantChoice("dynamic"), "KMD_INICJALIZACJA\nKMD_WIERTLO_DOL", {}, 2600)
+    assert passed.count(Op.WIERTLO_DOL) == 1
 
 
 def test_drilling_ends_in_time_within_a_stretch() -> None:

@@ -102,6 +102,19 @@ def leave(m: Controller, ticks: int) -> None:
         m.image |= axis.bits
 
 
+def goes_on(m: Controller, inputs: int) -> bool:
+    """Returns whether a stretch that was left at an input's change goes on as it was foreseen; then the controller has
+    seen ``inputs``, as the next tick would have latched them.
+    """
+    changed, sensors = inputs ^ m.inputs, (inputs ^ m.polarity) & m.sensor_mask
+    if not m.moving or changed & (m.action_mask | m.shared) or any(sensors & pair == pair for pair in m.pairs):
+        return False
+    if not all(_is_quiet(axis, sensors, m.position_known) for axis in m.axes):
+        return False
+    m.inputs, m.sensors = inputs, sensors
+    return True
+
+
 def counting_ticks(m: Controller, inputs: int, most: int) -> int:
     """Returns for how many of the next ticks, at most ``most``, the axes count and no column is put out; 0 where
     anything else may happen. ``inputs`` as for ``foresee``.

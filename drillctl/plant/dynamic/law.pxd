@@ -13,7 +13,7 @@ cdef Py_ssize_t SINES, QUARTER
 
 @cython.locals(decay=cython.double, emf=cython.double, keep=cython.double, push=cython.double, detent=cython.double, forward=cython.double, backward=cython.double,
                advance=cython.double, to_a=cython.double, to_b=cython.double, to_c=cython.double, to_d=cython.double, a=cython.double, b=cython.double, c=cython.double,
-               d=cython.double, speed=cython.double, cycles=cython.double, places=cython.double, quarter=cython.Py_ssize_t, base=cython.double, turned=cython.double,
+               d=cython.double, speed=cython.double, places=cython.double, cycle=cython.double, pace=cython.double, quarter=cython.Py_ssize_t, base=cython.double, turned=cython.double,
                _=cython.Py_ssize_t, place=cython.double,
                entry=cython.Py_ssize_t, part=cython.double, sin=cython.double, cos=cython.double, back=cython.double, goal=cython.double, pull=cython.double, hold=cython.double)
 cpdef void unipolar(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept

@@ -64,7 +64,12 @@ QUARTER = 256
 def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second is spent in it
     rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]
 ) -> None:
-    """One tick of a unipolar motor of two phases: all its substeps. ``sine`` and ``slope`` as in coefficients.py."""
+    """One tick of a unipolar motor of two phases: all its substeps. ``sine`` and ``slope`` as in coefficients.py.
+
+    A substep takes as long as the chain of operations from one place to the next. So the place is kept in entries of
+    ``sine`` (a power of two: the same bits), and which entry comes next is worked out beside the chain, from the
+    present speed; where that is wrong, it is worked out again.
+    """
     decay = rows[at + DECAY]
     emf = rows[at + EMF]
     keep = rows[at + KEEP]
@@ -82,20 +87,25 @@ def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second
     c = rows[at + CURRENTS + 2]
     d = rows[at + CURRENTS + 3]
     speed = rows[at + SPEED]
-    cycles = rows[at + CYCLES]
     places = SINES
     quarter = QUARTER
-    base = cycles // 1.0
+    cycle = 1.0 * places
+    pace = advance * places
+    place = rows[at + CYCLES] * places
+    base = place // cycle * places
+    entry = 0
     for _ in range(int(rows[at + SUBSTEPS])):
-        turned = cycles - base
-        if turned < 0.0 or turned >= 1.0:
-            base = cycles // 1.0
-            turned = cycles - base
-        place = turned * places
-        entry = int(place)
-        part = place - entry
+        turned = place - base
+        if turned < 0.0 or turned >= cycle:
+            base = place // cycle * places
+            turned = place - base
+        part = turned - entry
+        if part < 0.0 or part >= 1.0:
+            entry = int(turned)
+            part = turned - entry
         sin = sine[entry] + slope[entry] * part
         cos = sine[entry + quarter] + slope[entry + quarter] * part
+        entry = int(turned + pace * speed)
 
         back = emf * speed
         goal = to_a + back * sin
@@ -120,13 +130,13 @@ def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second
             speed += backward
         else:
             speed = 0.0
-        cycles += advance * speed
+        place += pace * speed
     rows[at + CURRENTS] = a
     rows[at + CURRENTS + 1] = b
     rows[at + CURRENTS + 2] = c
     rows[at + CURRENTS + 3] = d
     rows[at + SPEED] = speed
-    rows[at + CYCLES] = cycles
+    rows[at + CYCLES] = place / cycle
 
 
 def reluctance(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> None:
