@@ -211,7 +211,7 @@ def test_the_recorder_sees_place_speed_and_currents(drill: Machine) -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("blunt", "not known; there are stuck.SENSOR=N"),
+        ("blunt", "not known; there are stuck.WIRE=N"),
         ("sharp=1", "not known"),
         ("blunt=much", "not known"),
         ("blunt.x=1", "written blunt=N"),
@@ -219,7 +219,7 @@ def test_the_recorder_sees_place_speed_and_currents(drill: Machine) -> None:
         ("blunt=-1", "from 0 to 1000"),
         ("jammed.x=0.5", "from 1 to 1000"),
         ("jammed.q=2", "pcb-drill has no axis 'q'; it has x, y, z"),
-        ("stuck.x=1", "has no sensor 'x'; it has x_min"),
+        ("stuck.x=1", "has no wire 'x'; it has x_min"),
     ],
 )
 def test_a_fault_that_makes_no_sense_is_refused(text: str, reason: str, drill: Machine) -> None:
