@@ -1,12 +1,13 @@
-"""Writes docs/KMD.md, FAULTS.md, STATES.md, GEARS.md and API.md from tables and docstrings in the code. A test
-compares.
-"""
+"""Writes the pages of docs/ that tables, docstrings and the command line's parser already say. A test compares."""
 
 import inspect
 from pathlib import Path
 from typing import Any
 
+from drillctl import __version__
 from drillctl.api import PUBLIC, load
+from drillctl.cli import DESCRIPTION, EPILOG, parser
+from drillctl.cli.parsing import Parser
 from drillctl.execution.conditions import TABLE, Event
 from drillctl.execution.controller import CONDITIONS, Stage
 from drillctl.generation.boiler_drum.gears import GEARS_MM_MIN, LETTERS, MM_PER_M, GearRow, gear_rows
@@ -209,7 +210,40 @@ def _signature(found: Any) -> str:
     return f"({', '.join(name for name in names if name != 'self')})"
 
 
+def man_page() -> str:
+    """roff of the whole command line, from its parser (man(7))."""
+    top = parser()
+    lines = [f'.TH DRILLCTL 1 "" "drillctl {__version__}" "User Commands"', ".SH NAME"]
+    lines += [f"drillctl \\- {_roff(DESCRIPTION[:1].lower() + DESCRIPTION[1:].rstrip('.'))}"]
+    lines += [".SH SYNOPSIS", ".B drillctl", "[VERB] [OPTION]...", ".SH VERBS"]
+    for name, verb in top.verbs().items():
+        for inner_name, inner in (verb.verbs() or {"": verb}).items():
+            lines += [f'.SS "drillctl {name}{inner_name and " "}{inner_name}"', _roff(inner.description or "")]
+            lines += _options(inner)
+    lines += [".SH EXIT STATUS", _roff(EPILOG.removeprefix("exit: "))]
+    lines += [".SH FILES", "drillctl where prints the folders in use.", ""]
+    return "\n".join(lines)
+
+
+def _options(verb: Parser) -> list[str]:
+    lines = []
+    for action in verb._actions:
+        if action.help and action.help != "==SUPPRESS==" and "help" not in action.dest:
+            name = ", ".join(action.option_strings) or str(action.metavar or action.dest)
+            value = f" {action.metavar or action.dest.upper()}" if action.option_strings and action.nargs != 0 else ""
+            told = action.help % {"default": action.default, "prog": "drillctl"}
+            lines += [".TP", f".B {_roff(name + value)}", _roff(told)]
+    return lines
+
+
+def _roff(text: str) -> str:
+    """Without the marks of docstrings; what begins a request, a backslash and a minus are escaped."""
+    words = " ".join(text.replace("``", "").split()).replace("\\", "\\e").replace("-", "\\-")
+    return f"\\&{words}" if words[:1] in (".", "'") else words
+
+
 PAGES = {
+    "drillctl.1": man_page,
     "KMD.md": commands_page,
     "FAULTS.md": faults_page,
     "STATES.md": states_page,

@@ -33,7 +33,7 @@ def drillctl_lines() -> list[list[str]]:
     return [shlex.split(line, comments=True) for line in lines if line.startswith(".venv/bin/drillctl")]
 
 
-@pytest.mark.parametrize("name", ["KMD.md", "FAULTS.md", "STATES.md", "GEARS.md", "API.md"])
+@pytest.mark.parametrize("name", ["KMD.md", "FAULTS.md", "STATES.md", "GEARS.md", "API.md", "drillctl.1"])
 def test_generated_page_is_current(name: str) -> None:
     assert (ROOT / "docs" / name).read_text("utf-8") == generator().PAGES[name]()
 

@@ -12,12 +12,14 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
     report.py     a run as a page for a browser        store.py     stores of workpieces by number
     sweep.py      thousands of variants of a machine   tune.py      the fastest ramp that loses no steps
     grade.py      submissions of a lab sheet judged    parameters.py parameters of a machine, listed and set
+    example_files.py  examples listed and copied       where.py     folders of tables, settings, journals
+    completion.py verbs completed by a shell           table_files.py tables listed, shown and copied
 
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
 tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), board_trials.py
 (--board of sweep and tune), drawing.py (a picture to a file or the terminal),
-parsing.py (argparse with hints), refusals.py (errors as lines and JSON), streams.py (stdout and stderr), examples.py
-(for --help).
+parsing.py (argparse with hints), verbosity.py (-q and -v), refusals.py (errors as lines and JSON), streams.py (stdout
+and stderr), examples.py (for --help).
 """
 
 import sys
@@ -25,8 +27,10 @@ from collections.abc import Sequence
 
 from drillctl import __version__
 from drillctl.cli import (
+    completion,
     convert,
     estimate,
+    example_files,
     grade,
     inspect,
     latency,
@@ -44,6 +48,8 @@ from drillctl.cli import (
     sweep,
     tables,
     tune,
+    verbosity,
+    where,
 )  # fmt: skip
 from drillctl.cli.examples import EXAMPLES
 from drillctl.cli.parsing import Parser
@@ -53,7 +59,7 @@ from drillctl.jobs.interrupts import caught, exit_code, leave
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (
     run, resume, estimate, inspect, convert, store, replay, tables, parameters, ports, latency, screen, scope, plot,
-    report, sweep, tune, grade,
+    report, sweep, tune, grade, example_files, where, completion,
 )  # fmt: skip
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (
@@ -66,13 +72,15 @@ def parser() -> Parser:
     """Returns the parser of the whole command line."""
     top = Parser("drillctl", description=DESCRIPTION, epilog=EPILOG)
     top.examples = EXAMPLES["drillctl"]
-    top.add_argument("--version", action="version", version=f"drillctl {__version__}")
+    top.add_argument("-V", "--version", action="version", version=f"drillctl {__version__}")
     verbs = top.add_subparsers(title="verbs", metavar="VERB", dest="verb", required=True)
     for verb in VERBS:
         verb.add(verbs)
     for name, one in top.verbs().items():
         for inner in (one, *one.verbs().values()):
             inner.examples = EXAMPLES[name]
+            if not inner.verbs():
+                verbosity.add(inner)
     return top
 
 
@@ -102,12 +110,13 @@ def _called(words: Sequence[str]) -> int:
     except SystemExit:
         streams.delivered(0)  # a reader that has gone is found out here, and not while the interpreter ends
         raise
+    verbosity.set_from(arguments)
     return int(arguments.call(arguments))
 
 
 def _with_verb(argv: Sequence[str]) -> Sequence[str]:
-    """Adds the verb ``screen`` where there is none; options alone belong to it, except --help and --version."""
-    alone = not argv or (argv[0].startswith("-") and argv[0] not in ("-h", "--help", "--version"))
+    """Adds the verb ``screen`` where there is none; options alone belong to it, except -h and -V."""
+    alone = not argv or (argv[0].startswith("-") and argv[0] not in ("-h", "--help", "-V", "--version"))
     return ["screen", *argv] if alone else argv
 
 

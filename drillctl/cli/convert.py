@@ -38,7 +38,6 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     )
     part = "write only the first N ticks of a trace in segments"
     verb.add_argument("--to-tick", type=options.up_to(10**12), metavar="N", help=part)
-    verb.add_argument("-q", "--quiet", action="store_true", help="don't say what was written")
     options.add_machine(verb)
     jobs.add_job(verb)
     verb.set_defaults(call=call)
@@ -51,8 +50,7 @@ def call(arguments: argparse.Namespace) -> int:
         _trace(arguments)
     else:
         _text(arguments, _WRITERS.get(ending, _excellon))
-    if not arguments.quiet:
-        streams.tell(f"{arguments.to} is written")
+    streams.note(f"{arguments.to} is written")
     return 0
 
 

@@ -74,6 +74,18 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl grade 01 submissions/* --csv grades.csv",
         "drillctl grade my-sheet/ submissions/* --junit grades.xml",
     ),
+    "examples": (
+        "drillctl examples",
+        "drillctl examples my-examples",
+    ),
+    "where": (
+        "drillctl where",
+        "drillctl where --json",
+    ),
+    "completion": (
+        "drillctl completion bash",
+        "drillctl completion zsh",
+    ),
     "sweep": (
         "drillctl sweep --hz 500:600:50 --steps 10 --out rates.csv",
         "drillctl sweep --board examples/relay.drl --hz 440 --out board.csv",

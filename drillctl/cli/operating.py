@@ -30,7 +30,7 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
         if not asks and not (paced and _has_watcher(arguments)):
             return session.run(view.show)
         if paced:
-            streams.tell(HELP)
+            streams.note(HELP)
         with TerminalKeys(sys.stdin) as keys:
             prompt = ToolPrompt(keys.entered, sys.stderr) if asks else None
             return replace(session, tool_change=prompt, operator=keys if paced else None).run(view.show)

@@ -220,7 +220,7 @@ def report_outcome(done: "JobResult", as_json: bool, problems: Sequence[str] = (
     from drillctl.ui.terminal.reports import summary_lines
 
     for notice in done.notices:
-        streams.tell(f"{notice}")
+        streams.note(f"{notice}")
     lines = [json_text(done.outcome.as_dict(), 2)] if as_json else summary_lines(done.outcome)
     code = 1 if done.outcome.fault or done.trouble or problems else 0
     code = streams.delivered(code if done.signal is None else exit_code(done.signal), "\n".join(lines) + "\n")

@@ -41,5 +41,5 @@ def call(arguments: argparse.Namespace) -> int:
         found = compared(arguments.run, arguments.other, library) if arguments.other else None
         text = report_page(reports, language, found)
         page.write(lambda stream: stream.write(text))
-    streams.tell(f"{arguments.out} is written")
+    streams.note(f"{arguments.out} is written")
     return 1 if found and found.tick is not None else 0

@@ -83,7 +83,7 @@ def _tell(session: "Session") -> None:
     from drillctl.jobs.site import site_of
 
     journal = f"; journal {session.journal}" if session.journal else ""
-    streams.tell(f"{site_of(session.running)}{journal}")
+    streams.note(f"{site_of(session.running)}{journal}")
 
 
 def _write_trace(job: "Job", done: "JobResult", trace: "Output | None") -> None:

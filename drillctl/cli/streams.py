@@ -19,6 +19,8 @@ UNDELIVERED = 1
 STANDARD_ERROR = 2
 RETURN = "\r"  # a bar of tqdm begins its line anew with it
 
+_is_quiet = False
+
 
 class _Heedless(io.FileIO):
     """A stream that accepts everything and drops what it can't write."""
@@ -52,7 +54,8 @@ class _Bar:
     def __init__(self, stream: TextIO):
         self._stream = stream
         self.encoding, self.fileno = stream.encoding, stream.fileno
-        self.isatty, self.flush = stream.isatty, stream.flush
+        self.flush = stream.flush
+        self.isatty = (lambda: False) if _is_quiet else stream.isatty
 
     def write(self, text: str) -> None:
         as_it_is(self._stream, visible(text, LINES + RETURN))
@@ -72,6 +75,18 @@ def speak(language: str | None, plain: bool = False) -> None:
 
     if problem := words.use(language or words.language_of(), plain):
         tell(problem)
+
+
+def quiet(wanted: bool) -> None:
+    """Leaves notices and progress out from now on, or says them again."""
+    global _is_quiet  # noqa: PLW0603  one for the process, as the streams are
+    _is_quiet = wanted
+
+
+def note(line: str) -> None:
+    """One line on standard error that nobody has to read: not said where ``quiet`` was asked for."""
+    if not _is_quiet:
+        tell(line)
 
 
 def prepare() -> None:

@@ -123,7 +123,7 @@ def _work(question: "Question", results: "Results", pool: "WorkerPool") -> None:
     from drillctl.lab.sweep import sweep
 
     if results.rows:
-        streams.tell(f"{results.path}: {results.rows} of {question.machines} machines are done")
+        streams.note(f"{results.path}: {results.rows} of {question.machines} machines are done")
     stream = streams.bar(sys.stderr)
     with tqdm(total=question.machines, initial=results.rows, unit="machine", disable=None, file=stream) as bar:
         for rows in sweep(question, results, pool):

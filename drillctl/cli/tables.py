@@ -1,15 +1,16 @@
-"""``drillctl machines`` and ``drillctl tables check FILE...``: which machines there are, and
-whether a table is valid.
+"""``drillctl machines`` and ``drillctl tables``: which machines there are, and whether a table is valid; the other
+actions of tables are in table_files.py.
 """
 
 import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drillctl.cli import options, streams
+from drillctl.cli import options, streams, table_files
 from drillctl.language import json_text
 
 MACHINES = "Lists the machines that can be driven: name, interrupt frequency, axes, description."
+TABLES = "Lists, shows and copies tables (phase tables, ramps, motors, dynamics, machines), and checks them."
 CHECK = "Checks table files. One that can't be used is refused with its line, a dangerous one is warned about."
 
 if TYPE_CHECKING:
@@ -22,12 +23,13 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     options.add_tables(machines)
     machines.add_argument("--json", action="store_true", help="print one JSON array")
     machines.set_defaults(call=list_machines)
-    tables = verbs.add_parser("tables", help="check phase tables, ramps, motors and machines", description=CHECK)
+    tables = verbs.add_parser("tables", help="list, show, copy and check tables", description=TABLES)
     actions = tables.add_subparsers(metavar="ACTION", required=True)
     check = actions.add_parser("check", help="check table files", description=CHECK)
     check.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a phase table, ramp, motor or machine")
     options.add_tables(check)
     check.set_defaults(call=check_tables)
+    table_files.add(actions)
 
 
 def list_machines(arguments: argparse.Namespace) -> int:

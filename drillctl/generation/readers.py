@@ -3,6 +3,7 @@
 Rule: the first reader that recognises a file reads it. A machine with jobs of a form of its own adds a row.
 """
 
+import logging
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -15,6 +16,8 @@ from drillctl.generation.queues import is_queue, load_queue
 from drillctl.generation.waits import Waits, unwatched
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.machine import Machine
+
+LOG = logging.getLogger(__name__)
 
 
 class Reader(NamedTuple):
@@ -39,4 +42,5 @@ def load_job(path: Path, machine: Machine, setup: JobSetup, waits: Waits = unwat
     """
     settings = setup.work_settings(machine)
     reader = next(reader for reader in READERS if reader.recognises(path, machine))
+    LOG.info("%s is read as %s", path, reader.what)
     return reader.load(path, machine, setup, settings, waits)

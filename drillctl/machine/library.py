@@ -4,6 +4,7 @@ Rule: the first folder that has the file wins; a name never leaves its folder. A
 that is not the shipped one (from ``./tables``, or the user's own folder) is reported to ``tell``.
 """
 
+import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -23,6 +24,8 @@ from drillctl.machine.phase import parse_phase
 from drillctl.machine.ramp_figures import axis_figures, machine_figures, ramp_figures
 from drillctl.machine.ramp_file import computed_figures, parse_ramp
 from drillctl.machine.source import LARGEST_TABLE_BYTES, Source
+
+LOG = logging.getLogger(__name__)
 
 
 def shipped_tables() -> Path:
@@ -152,6 +155,7 @@ class Library:
     def _parse(self, source: Source) -> Machine:
         shipped = shipped_tables() in real_path(source.file).parents
         machine = parse_machine(source, shipped, Parts(self.folders, source.file))
+        LOG.info("machine %s is read from %s", machine.name, ", ".join(dict.fromkeys(machine.files)))
         if local := self.local(machine.files):
             self.tell(local)
         return machine if shipped else replace(machine, shipped=_same_as_shipped(machine.files))

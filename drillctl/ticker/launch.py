@@ -3,6 +3,7 @@
 Rule: everything that can be refused is refused here, before anything moves.
 """
 
+import logging
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -23,6 +24,7 @@ from drillctl.ticker.realtime import most_ticks_hz
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace.ring import RingRecorder
 
+LOG = logging.getLogger(__name__)
 FREE, REAL = "free", "real"
 SIMULATED = "simulated"
 FILE = "FILE"  # how an address that is one begins in the registry
@@ -125,6 +127,7 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
     check_rate(machine, running)
     plant = plant_of(machine, running)
     driver = open_port(running.port, port_layout(machine), _card(plant, running, pace) if plant else None)
+    LOG.info("%s on port %s, pace %s, plant %s", machine.name, running.port, pace, running.plant)
     if _goes_fast(running, pace, driver, plant, keeper):
         return LocalLink(
             FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)

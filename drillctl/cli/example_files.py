@@ -1,0 +1,67 @@
+"""``drillctl examples [DIR]``: the example boards, queues and lab sheets that come with the program, listed, or copied
+into a folder.
+"""
+
+import argparse
+import shutil
+from pathlib import Path
+
+from drillctl.cli import streams
+from drillctl.files.shipped import shipped
+from drillctl.language import Message
+
+LISTED = (".drl", ".kmd", ".sentences")
+NOT_COPIED = ("__pycache__", "INSTRUCTOR.md")
+
+
+def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Adds the verb to the command line."""
+    verb = verbs.add_parser("examples", help="list the examples, or copy them", description=__doc__)
+    verb.add_argument("folder", nargs="?", type=Path, metavar="DIR", help="copy them into this folder, which is made")
+    verb.set_defaults(call=call)
+
+
+def call(arguments: argparse.Namespace) -> int:
+    """Lists each example with what it is; or copies all, where nothing in the folder would be replaced."""
+    if arguments.folder is not None:
+        _copy(arguments.folder)
+        streams.note(f"{arguments.folder}: boards, queues and lab sheets are copied there")
+        return 0
+    for file in sorted(shipped("examples", "examples").iterdir()):
+        if file.suffix in LISTED:
+            print(f"{file.name:24} {_first_words(file)}")
+    for page in sorted(shipped("sheets", "docs/lab").glob("[0-9]*.md")):
+        print(f"{page.stem:24} lab sheet {page.read_text('utf-8').splitlines()[0].removeprefix('# ')}")
+    return 0
+
+
+def _copy(folder: Path) -> None:
+    """Raises OutputError, before anything is copied, where a name is taken; or for a folder that can't be made."""
+    from drillctl.files.outputs import OutputError
+    from drillctl.language import message_of
+
+    examples, sheets = shipped("examples", "examples"), shipped("sheets", "docs/lab")
+    wanted = {**_files(examples, folder), **_files(sheets, folder / "lab")}
+    taken = next((target for target in wanted if target.exists() or target.is_symlink()), None)
+    if taken is not None:
+        raise OutputError(Message("is there already; give another folder").at(taken))
+    try:
+        for target, source in wanted.items():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
+    except OSError as error:
+        raise OutputError(message_of(error).at(folder)) from error
+
+
+def _files(source: Path, folder: Path) -> dict[Path, Path]:
+    """Where each file of a tree is to be copied to."""
+    files = (file for file in sorted(source.rglob("*")) if file.is_file() and not set(file.parts) & set(NOT_COPIED))
+    return {folder / file.relative_to(source): file for file in files}
+
+
+def _first_words(file: Path) -> str:
+    """The first comment of an example."""
+    for line in file.read_text("utf-8").splitlines():
+        if line[:1] in (";", "#") and line[1:].strip():
+            return line[1:].strip()
+    return ""
