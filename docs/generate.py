@@ -25,7 +25,8 @@ Every operation of a machine is a queue of these elementary commands. `axis=step
 axes; distances are steps, times are ticks. `KMD_GOTOdXdY`, `KMD_GOTO_X_Y` and `KMD_WIERTLO_DOL` are the paper's; the
 others are in its style. Names are Polish: *wiertło* drill, *dół* down, *góra* up, *baza* base, *ruch* motion, *linia*
 line, *prędkość* speed, *czekaj* wait, *wyjście* output, *wejście* input, *wrzeciono* spindle, *narzędzie* tool, *fazy
-wyłączone* phases off, *koniec* end, *powrót* return. `axis=ticks` gives a head its own feed: the least ticks
+wyłączone* phases off, *koniec* end, *powrót* return,
+*krok* step, *dom* home, *suw* stroke. `axis=ticks` gives a head its own feed: the least ticks
 between its steps.
 """
 STATES_INTRO = """

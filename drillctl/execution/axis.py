@@ -32,7 +32,7 @@ class Axis:
         "direction_sign", "drive", "drive_patterns", "followers", "forcing", "halt_mask", "halves", "high", "hold_bits",
         "hold_patterns", "interval", "least", "length", "limits", "low", "made", "met", "min_interval", "most",
         "motion", "position", "ramp", "ramped_from", "reach", "seek_mask", "span", "state", "strokes", "target",
-        "travelled", "up", "wait", "wires",
+        "top", "travelled", "up", "wait", "wires",
     )  # fmt: skip
 
     def __init__(self, table: AxisTable, limits: tuple[int, int, int], reach: tuple[int, int] | None = None):
@@ -46,7 +46,8 @@ class Axis:
         self.low, self.high, self.span = table.low_steps, table.high_steps, table.span_steps
         self.limits = limits  # input bits of the end sensors: index 1 for +, -1 for - (0 unused)
         self.reach = reach or (self.low, self.high)  # where it can be sent: its range short of its limit sensors
-        self.up = max(0, self.reach[0])  # the return to zero ends here; a head fed by a distance waits here
+        self.top = max(0, self.reach[0])  # the return to zero ends here
+        self.up = self.top  # a head fed by a distance waits here; KMD_SUW changes it
         self.wires = sum(1 << bit for bit in table.wire_bits)
         self.forcing, self.halves = forcing_bits(table), winding_halves(table)
         self.drive_patterns = column_images(table, forcing=True)

@@ -15,6 +15,7 @@ from drillctl.execution.lifted_travel import lift_then_go, lifted_and_gone
 from drillctl.execution.reach import refused, target_of
 from drillctl.execution.return_to_zero import begin_return, carry_return
 from drillctl.execution.spindle import spindle_reached, start_spindle
+from drillctl.execution.tool_change import begin_step, fault_of_step, heads_home, home_heads, set_stroke
 from drillctl.kmd import Command, Fault, Op
 from drillctl.kmd.commands import Flag
 from drillctl.ports import with_bits
@@ -30,7 +31,9 @@ def start_next(m: Controller) -> bool:
             m.elapsed = 0
             fault = _start(m, command)
             if fault:
-                raise_fault(m, fault)
+                raise_fault(m, fault_of_step(m, fault))
+            elif m.step_limit:
+                m.time_limit = m.step_limit
             return True
     return False
 
@@ -51,7 +54,7 @@ def finish(m: Controller) -> None:
         m.time_limit = 0
         m.done = m.command.sequence
     elif fault != GOES_ON:
-        raise_fault(m, fault)
+        raise_fault(m, fault_of_step(m, fault))
 
 
 def _move(m: Controller, command: Command) -> int:
@@ -180,6 +183,9 @@ _STARTED: Mapping[int, Handler] = {
     Op.KONIEC: _nothing,
     Op.POWROT: begin_return,
     Op.GORA_X_Y: lift_then_go,
+    Op.KROK: begin_step,
+    Op.WIERTLO_DOM: home_heads,
+    Op.SUW: set_stroke,
 }
 _ENDED: Mapping[int, Handler] = {
     Op.WIERTLO_DOL: heads_lowered,
@@ -191,4 +197,5 @@ _ENDED: Mapping[int, Handler] = {
     Op.KONIEC: _end,
     Op.POWROT: carry_return,
     Op.GORA_X_Y: lifted_and_gone,
+    Op.WIERTLO_DOM: heads_home,
 }

@@ -58,6 +58,8 @@ class Controller:
     speed_reached  the speed that was reached and is watched, 0 for none; ``dip_ticks`` for how long it is missed now
     stopped_by  the gravest of these events since the last acknowledgement: STOP, FAULT or ESTOP
     elapsed   ticks of the current command, hold not counted
+    step      the row of the tool change that is carried out, or was last, from 1
+    step_limit, step_fault  its time limit in ticks and its fault, 0 outside a step
     underruns wakes in which a job's next command was missing
     running   sequence of the command that was current in this tick, 0 = none
     served    the requests served in this tick, as bits; unseen: the same of a wake that was no tick
@@ -106,6 +108,7 @@ class Controller:
         self.busy = False
         self.elapsed = self.time_limit = 0
         self.homing_row = self.homing_fault = self.return_row = 0
+        self.step = self.step_limit = self.step_fault = 0
 
         self.tick = self.underruns = self.moving = self.running = self.served = self.gap = self.late = 0
         self.unseen = self.hot_until = self.cut_off = 0

@@ -36,6 +36,27 @@ def heads_raised(m: Controller, command: Command) -> int:
     return Fault.NONE if _at_sensors(m, command, UP) else Fault.HEAD_NOT_UP
 
 
+def drive_to_sensors(m: Controller, command: Command, direction: int) -> int:
+    """Sends each head to its sensor at that end, also where its place is known. Returns a fault code."""
+    for index, axis in enumerate(m.axes):
+        if _is_head(m, command, index, axis):
+            sensor = axis.limits[direction] & ~m.shared
+            if not sensor:
+                return Fault.BAD_COMMAND
+            axis.seek_mask, axis.clear_mask, axis.halt_mask = sensor, 0, 0
+            if not m.sensors & sensor:
+                axis.set_target(_head_target(m, axis, direction, sensor), command.floor_ticks)
+    return Fault.NONE
+
+
+def reached_sensors(m: Controller, command: Command, direction: int) -> bool:
+    """Ends what ``drive_to_sensors`` began: returns whether every head has reached its sensor."""
+    heads = [axis for index, axis in enumerate(m.axes) if _is_head(m, command, index, axis)]
+    for axis in heads:
+        axis.seek_mask = 0
+    return all(m.sensors & axis.limits[direction] for axis in heads)
+
+
 def _drive_head(m: Controller, command: Command, direction: int) -> int:
     """Sends each head to its sensor at that end; without one, to the distance that the machine's file gives."""
     for index, axis in enumerate(m.axes):

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
+from drillctl.execution.tool_change import leave_step, whole_strokes
 from drillctl.kmd import Fault
 from drillctl.machine import HomingStep, Way
 
@@ -19,6 +20,9 @@ def begin_homing(m: Controller) -> None:
     """The first row starts; the position is unknown until the last has ended."""
     m.position_known = False
     m.homing_row = 0
+    m.step = 0
+    leave_step(m)
+    whole_strokes(m)
     m.homing_fault = _start_row(m)
 
 

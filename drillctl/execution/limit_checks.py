@@ -34,7 +34,7 @@ def guard(m: Controller) -> None:
                 return
     if m.time_limit and m.elapsed >= m.time_limit:
         m.time_limit = 0
-        raise_fault(m, Fault.DRILLING_TIME)
+        raise_fault(m, m.step_fault or Fault.DRILLING_TIME)
         return
     if m.speed_reached and m.spindle is not None and speed_is_lost(m):
         m.speed_reached = m.dip_ticks = 0

@@ -32,6 +32,6 @@ def _send(m: Controller, command: Command) -> bool:
     moving = False
     for axis in m.return_rows[m.return_row]:
         axis.seek_mask = axis.clear_mask = axis.halt_mask = 0
-        axis.set_target(axis.up, max(command.floor_ticks, m.machine.return_interval))
+        axis.set_target(axis.top, max(command.floor_ticks, m.machine.return_interval))
         moving = moving or axis.counting
     return moving

@@ -9,6 +9,7 @@ whoever paces counts ticks while it lasts, though nothing moves. A column of a p
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
+from drillctl.execution.tool_change import leave_step, whole_strokes
 from drillctl.kmd import Fault
 from drillctl.kmd.queue import RequestBit, bit_and_value, pace_of
 from drillctl.machine.levels import STOP
@@ -157,6 +158,8 @@ def _end_job(m: Controller) -> None:
     m.epoch += 1
     m.busy = m.lifting = False
     m.time_limit = 0
+    leave_step(m)
+    whole_strokes(m)
 
 
 def _hold_current(m: Controller) -> None:

@@ -45,7 +45,7 @@ class Feeder:
 
     def gate_tools(self) -> None:
         """Nothing passes a tool change before it is opened."""
-        self._gates = sequences.tool_changes(self.program).tolist()
+        self._gates = sequences.asked_changes(self.program).tolist()
 
     def awaited_tool(self) -> int | None:
         """The tool at whose closed gate the program stands, or None."""

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from drillctl.generation.boiler_drum.part import is_part_file, is_workpiece, load_part
+from drillctl.generation.eight_axis.board import is_board_by_parameters
+from drillctl.generation.eight_axis.board import load_board as load_board_by_parameters
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.board import load_board
@@ -32,6 +34,7 @@ READERS = (
     Reader("a queue of commands", is_queue, load_queue),
     Reader("a part program", is_part_file, load_part),
     Reader("a workpiece", is_workpiece, load_part),
+    Reader("a drill file, by parameters", is_board_by_parameters, load_board_by_parameters),
     Reader("a drill file", lambda path, machine: True, load_board),  # of any name
 )
 

@@ -4,6 +4,8 @@ Rule: a hole is what a stroke down with a tag begins and the next stroke up ends
 stroke belong to it (pecks, spots). Whoever reads a program for its holes asks here.
 """
 
+from enum import IntFlag
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,16 @@ from drillctl.kmd import RECORD, Op
 from drillctl.kmd.commands import Flag
 
 Records = NDArray[np.void]
+
+
+class Change(IntFlag):
+    """How a tool is changed: the second argument of KMD_NARZEDZIE, which execution does not read."""
+
+    NONE = 0
+    AUTOMATIC = 1  # by the machine
+    WITHIN = 2  # among the holes of one tool of the file: another bit of the same diameter
+
+
 LOWERING = (Op.WIERTLO_DOL, Op.RUCH)  # a board's program moves its heads by these
 LIFTING = (Op.WIERTLO_GORA, Op.GORA_X_Y)  # and raises them by these, which end a hole
 
@@ -43,8 +55,15 @@ def holes(program: Records) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def tool_changes(program: Records) -> NDArray[np.intp]:
-    """The indices of the commands that change a tool."""
-    return np.flatnonzero(program["opcode"] == Op.NARZEDZIE)
+    """The indices of the commands that change a tool, one for each tool of the file."""
+    within = program["args"][:, 1] & Change.WITHIN > 0
+    return np.flatnonzero((program["opcode"] == Op.NARZEDZIE) & ~within)
+
+
+def asked_changes(program: Records) -> NDArray[np.intp]:
+    """The indices of the commands before which an operator changes a tool by hand."""
+    automatic = program["args"][:, 1] & Change.AUTOMATIC > 0
+    return np.flatnonzero((program["opcode"] == Op.NARZEDZIE) & ~automatic)
 
 
 def drill_up(program: Records) -> Records:

@@ -54,6 +54,9 @@ class Op(IntEnum):
     KONIEC = 18
     POWROT = 19
     GORA_X_Y = 20
+    KROK = 21
+    WIERTLO_DOM = 22
+    SUW = 23
 
 
 class Flag(IntFlag):
@@ -165,6 +168,19 @@ _ALL = (
         "KMD_GORA_X_Y", Op.GORA_X_Y, ArgumentForm.XY_HEADS, Message("X Y [axis[=ticks] ...]"),
         Message("raise the heads; once all of them are clear of the board, X and Y start to a place, in steps from "
                 "the working base"), _BASE,
+    ),
+    Spec(
+        "KMD_KROK", Op.KROK, ArgumentForm.NUMBER, Message("step"),
+        Message("begin this step of the machine's tool change, whose time limit and fault hold from here on; 0: none"),
+    ),
+    Spec(
+        "KMD_WIERTLO_DOM", Op.WIERTLO_DOM, ArgumentForm.AXES, _AXES,
+        Message("raise the head until its upper sensor answers, even where its place is known"),
+    ),
+    Spec(
+        "KMD_SUW", Op.SUW, ArgumentForm.MOVES, _PLACES,
+        Message("set how far KMD_WIERTLO_GORA raises these heads, in steps from machine zero, until the next "
+                "initialisation or stop"),
     ),
 )  # fmt: skip
 

@@ -50,6 +50,13 @@ class Fault(IntEnum):
     HOMING_ON_SWITCH = 52
     HOMING_NO_INDEX = 53
     HOMING_EARLY_INDEX = 54
+    CHANGE_Z_NOT_HOME = 60
+    CHANGE_FOOT = 61
+    CHANGE_NOT_THERE = 62
+    CHANGE_HEIGHT = 63
+    CHANGE_CHUCK = 64
+    TOOL_NOT_LEFT = 65
+    TOOL_NOT_TAKEN = 66
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +95,13 @@ _ALL = (
     FaultSpec(Fault.HOMING_ON_SWITCH, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_NO_INDEX, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_EARLY_INDEX, Reaction.STOP, False),
+    FaultSpec(Fault.CHANGE_Z_NOT_HOME, Reaction.STOP, False),
+    FaultSpec(Fault.CHANGE_FOOT, Reaction.STOP, True),
+    FaultSpec(Fault.CHANGE_NOT_THERE, Reaction.STOP, True),
+    FaultSpec(Fault.CHANGE_HEIGHT, Reaction.STOP, True),
+    FaultSpec(Fault.CHANGE_CHUCK, Reaction.STOP, True),
+    FaultSpec(Fault.TOOL_NOT_LEFT, Reaction.STOP, True),
+    FaultSpec(Fault.TOOL_NOT_TAKEN, Reaction.STOP, True),
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

@@ -41,6 +41,7 @@ STATUS = np.dtype(
         ("fault", "u1"),
         ("fault_kept", "u1"),  # 1: the position was known and still is
         ("position_known", "u1"),
+        ("step", "u1"),  # the row of the tool change that is carried out, or was last, from 1; 0 for none
         ("cut_off", "u1"),  # 1: what was switched on by hand and would burn a winding was switched off
         ("hot_ticks", "<u4"),  # ticks until that happens; 0: nothing of that kind is on
         ("job", "u1"),  # 1 from a program's first command to KMD_KONIEC

@@ -20,6 +20,7 @@ from drillctl.machine.settings import settings_of, wire_settings_of
 from drillctl.machine.shape import Bit, DrillPart, MachineFile, PlantPart, Steps
 from drillctl.machine.source import Source
 from drillctl.machine.spindle import spindle_of
+from drillctl.machine.tool_change import tool_changer
 
 # Names that a trace gives to its own signals and scopes: an axis must not have the same name.
 TRACE_NAMES = frozenset({"in", "out", "kmd", "request", "hand", "late", "fault", "pace", "sensors", "plant"})
@@ -69,6 +70,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         input_words=input_words,
         drill_clear_steps=drill.clear,
         spindle=spindle_of(source, raw, outputs.words, input_words),
+        tool_changer=tool_changer(source, raw),
     )
     check_parameters(source, machine)
     return machine

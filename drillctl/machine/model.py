@@ -16,6 +16,7 @@ from drillctl.machine.parameters import Parameters
 from drillctl.machine.phase import PhaseTable
 from drillctl.machine.ramp import RampTable
 from drillctl.machine.spindle import Spindle
+from drillctl.machine.tool_change import ToolChanger
 from drillctl.ports import CARD_BITS
 
 MM_PER_INCH = 25.4
@@ -169,6 +170,7 @@ class Machine:
     input_words: tuple[Word, ...] = field(default=(), repr=False)
     drill_clear_steps: int | None = field(default=None, repr=False)  # down to here a head is clear of the board
     spindle: Spindle | None = field(default=None, repr=False)  # None: its speed is not measured
+    tool_changer: ToolChanger | None = field(default=None, repr=False)
 
     @property
     def file(self) -> str:
@@ -265,7 +267,7 @@ class Machine:
         strokes = (f"{axis.name}: whole strokes\n" for axis in self.axes if axis.ramp.whole_strokes)
         slow = tuple((number, step.interval) for number, step in enumerate(self.homing) if step.interval)
         clear = () if self.drill_clear_steps is None else ("clear", self.drill_clear_steps)
-        set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow, clear)
+        set_by_file = (self.only_zero_after, self.return_interval, self.parameters, slow, clear, self.tool_changer)
         later = (*self.inputs, *self.reactions, *self.indexes, *set_by_file)
         outputs = (*self.levels, *self.output_words, *self.input_words, self.spindle)
         return "".join((*strokes, *(f"{value!r}\n" for value in (*later, *outputs) if value)))

@@ -32,16 +32,20 @@ NOT_KEPT: Mapping[str, Message] = {
     **dict.fromkeys(HOMING, Message("the position is not known during initialisation")),
     "DRILL_NOT_DOWN": _HEAD,
     "HEAD_NOT_UP": _HEAD,
+    "CHANGE_Z_NOT_HOME": _HEAD,
 }
 # Why a machine can't go home by its sensors after a fault.
 NO_RETURN: Mapping[str, Message] = {
     **dict.fromkeys(HOMING, Message("the return to zero has just failed")),
     "HEAD_NOT_UP": Message("the return to zero begins by raising the head"),
+    "CHANGE_Z_NOT_HOME": Message("the return to zero begins by raising the head"),
     "SENSOR_CONTRADICTION": Message("the return to zero needs sensors that can be trusted"),
 }
 ANY = (
     "LIMIT", "SOFT_LIMIT", "HOMING_REQUIRED", "DRILLING_TIME", "INPUT_TIMEOUT", "LINE_MISMATCH", "BAD_COMMAND",
     "LATE_TICK", "ONLY_ZERO", "SPINDLE_SPEED", "SPINDLE_LOST",
+    "LATE_TICK", "ONLY_ZERO", "CHANGE_FOOT", "CHANGE_NOT_THERE", "CHANGE_HEIGHT", "CHANGE_CHUCK", "TOOL_NOT_LEFT",
+    "TOOL_NOT_TAKEN",
 )  # fmt: skip
 FAULT_NAMES = sorted({*ANY, *FIXED, *NOT_KEPT, *NO_RETURN})
 

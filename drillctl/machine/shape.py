@@ -110,6 +110,30 @@ class HomingRow(Strict, frozen=True):
     interval: Annotated[int, msgspec.Meta(ge=0, le=1_000_000)] = 0
 
 
+class ToolChangerPart(Strict, frozen=True):
+    """``[tool_changer]``: how the spindles meet the magazine."""
+
+    order: Literal["together", "in turn"] = "together"
+    spindle_pitch_mm: Annotated[float, msgspec.Meta(gt=0, le=1000)] = 100
+    magazine_pitch_mm: Annotated[float, msgspec.Meta(gt=0, le=1000)] = 100
+
+
+class ToolChangeRow(Strict, frozen=True):
+    """``[[tool_change]]``: one step of an automatic tool change."""
+
+    do: Literal["home", "foot", "x", "y", "xy", "height", "chuck", "delay", "left", "taken"]
+    limit_s: Annotated[float, msgspec.Meta(gt=0, le=3600)]
+    fault: Literal[
+        "CHANGE_Z_NOT_HOME", "CHANGE_FOOT", "CHANGE_NOT_THERE", "CHANGE_HEIGHT", "CHANGE_CHUCK", "TOOL_NOT_LEFT",
+        "TOOL_NOT_TAKEN",
+    ]  # fmt: skip
+    part: Literal["old", "new"] | None = None
+    to: Literal["old", "new", "parking"] | None = None
+    level: Level | None = None
+    delay_s: Annotated[float, msgspec.Meta(gt=0, le=600)] | None = None
+    in_turn: bool = False
+
+
 class ConfigurationPart(Strict, frozen=True):
     """``[configuration]``: the settings of the paper's configuration screen."""
 
@@ -170,6 +194,8 @@ class MachineFile(Strict, frozen=True):
     output: list[OutputRow] = []
     homing: list[HomingRow] = []
     drill: DrillPart | None = None
+    tool_changer: ToolChangerPart | None = None
+    tool_change: Annotated[list[ToolChangeRow], msgspec.Meta(max_length=100)] = []
     plant: PlantPart = PlantPart()
     spindle: SpindlePart | None = None
     parameters: dict[str, Any] | None = None  # checked by parameter_file.py

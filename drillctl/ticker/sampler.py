@@ -37,7 +37,8 @@ REQUEST_WORDS = tuple(
 )
 _FAULT_NAMES = {0: "-", **{fault.value: fault.name for fault in Fault if fault}}
 _FAULT_WORDS = tuple(_FAULT_NAMES.get(code, str(code)) for code in range(max(Fault) + 1))  # codes have gaps
-_COMMAND_WORDS = tuple(BY_OP[Op(op)].name if op else "-" for op in range(len(Op)))
+_COMMAND_NAMES = {0: "-", **{op.value: spec.name for op, spec in BY_OP.items()}}
+_COMMAND_WORDS = tuple(_COMMAND_NAMES.get(code, str(code)) for code in range(max(Op) + 1))
 
 
 class Keeper(Protocol):

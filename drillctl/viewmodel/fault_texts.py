@@ -146,6 +146,34 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("the encoder's index was on already where the axis had just left its origin switch"),
         Message("check whether the index is stuck; move the switch by half a turn, so that the index comes later"),
     ),
+    Fault.CHANGE_Z_NOT_HOME: FaultWords(
+        Message("in a tool change a spindle did not reach its upper sensor, or not in the time of the step"),
+        Message("free the spindle and its chuck, check the upper sensor, then initialise and resume the job"),
+    ),
+    Fault.CHANGE_FOOT: FaultWords(
+        Message("in a tool change the presser foot did not answer in the time of the step"),
+        Message("check the presser foot and its air, then resume the job"),
+    ),
+    Fault.CHANGE_NOT_THERE: FaultWords(
+        Message("in a tool change X or Y did not reach the magazine or the parking place in the time of the step"),
+        Message("see that nothing blocks the table, or give the step more time (limit_s), then resume the job"),
+    ),
+    Fault.CHANGE_HEIGHT: FaultWords(
+        Message("in a tool change a spindle did not reach the change height in the time of the step"),
+        Message("look at the magazine under the spindles, or give the step more time (limit_s), then resume the job"),
+    ),
+    Fault.CHANGE_CHUCK: FaultWords(
+        Message("in a tool change a chuck did not open or close in the time of the step"),
+        Message("check the chuck and its air, look which tools are where, set the magazine record, then resume"),
+    ),
+    Fault.TOOL_NOT_LEFT: FaultWords(
+        Message("after the chuck had opened over the magazine the tool sensor still saw a tool in it"),
+        Message("take the tool out by hand, set the magazine record, then resume the job"),
+    ),
+    Fault.TOOL_NOT_TAKEN: FaultWords(
+        Message("after the chuck had closed over the magazine the tool sensor saw no tool in it"),
+        Message("look whether the place has a tool, or it fell; set the magazine record, then resume the job"),
+    ),
 }
 
 

@@ -10,9 +10,14 @@ from drillctl.execution.motion import STOPPING
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
 from drillctl.machine import EncoderIndex, HomingStep
 from drillctl.machine.model import Input
+from drillctl.machine.tool_change import ChangeStep, ToolChanger
 from tests.support.bench import Bench, shipped
 
 REST_COLUMNS = 3  # the paper's rotor rests every third column
+CHANGE_FAULTS = (
+    "CHANGE_Z_NOT_HOME", "CHANGE_FOOT", "CHANGE_NOT_THERE", "CHANGE_HEIGHT", "CHANGE_CHUCK", "TOOL_NOT_LEFT",
+    "TOOL_NOT_TAKEN",
+)  # fmt: skip
 LONG_MOVE = "KMD_GOTO_X_Y 300 200; KMD_CZEKAJ 9"
 
 
@@ -160,6 +165,17 @@ def from_the_wiring(fault: Fault) -> Callable[[], Bench]:
     return provoke
 
 
+def step_too_slow(fault: Fault) -> Callable[[], Bench]:
+    """A step of a tool change whose move takes longer than its time limit."""
+
+    def provoke() -> Bench:
+        changer = ToolChanger("together", 1.0, 1.0, (ChangeStep("xy", 0.05, fault.name, to="parking"),))
+        b = Bench(replace(shipped("pcb-drill"), tool_changer=changer)).ready()
+        return b.queue("KMD_KROK 1; " + LONG_MOVE).tick(3)
+
+    return provoke
+
+
 PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.LIMIT: limit,
     Fault.RANGE: wrong_count,
@@ -187,6 +203,7 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.HOMING_ON_SWITCH: homing_by_index(3, "x_min", 1),
     Fault.HOMING_NO_INDEX: homing_by_index(4, "x_index", 0),
     Fault.HOMING_EARLY_INDEX: homing_by_index(3, "x_index", 1),
+    **{fault: step_too_slow(fault) for fault in Fault if fault.name in CHANGE_FAULTS},
 }
 every_fault = pytest.mark.parametrize("fault", PROVOKED, ids=lambda fault: fault.name)
 

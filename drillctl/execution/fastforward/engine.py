@@ -45,6 +45,7 @@ class Engine:
         sensors = (self._world.inputs ^ m.polarity) & m.sensor_mask
         return (
             m.machine.cards in DTYPES
+            and not m.step_limit
             and len(self.pool.images) < LARGEST_POOL
             and all(_rests(axis) for axis in m.axes)
             and all(self._world.stands(index, _travel(axis)) for index, axis in enumerate(m.axes))
