@@ -137,5 +137,14 @@ def panel() -> Iterator[Act | str]:
     yield "panel-help"
 
 
+def production() -> Iterator[Act | str]:
+    """The eight-axis drill with a board, and the form of its tools."""
+    yield from opened()
+    yield Act(("Esc",), ("Z6",))
+    yield "machine"
+    yield Act(("5",), ("tool.1.number",))
+    yield "parameters"
+
+
 def _waits_for(tool: str) -> str:
     return word("The job waits for {tool}; the machine is at rest.").format(tool=tool)

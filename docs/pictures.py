@@ -38,6 +38,7 @@ ASKING = ("--pace", "free", "--tools", "ask")
 DYNAMIC = (*ASKING, "--plant", "dynamic")
 FRAMES, BETWEEN_S = 14, 0.12  # of an animated picture
 DRUM = ("--pace", "free", "--machine", "boiler-drum")
+EIGHT = ("--pace", "free", "--machine", "eight-axis")
 
 
 class Session(NamedTuple):
@@ -74,6 +75,7 @@ EVERY_SCREEN = (
     Session(scripts.editors),
     Session(scripts.looking),
     Session(scripts.devices),
+    Session(scripts.production, options=EIGHT),
     Session(scripts.panel, options=DRUM, first="No workpiece is called."),
 )
 

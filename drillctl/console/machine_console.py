@@ -17,6 +17,7 @@ from drillctl.console.job_request import align
 from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operator_state import WorkingBase
+from drillctl.console.production import MachineProduction
 from drillctl.console.readiness import BUSY, busy, occupied, ticks_change_something
 from drillctl.console.running_job import RunningJob, took_a_base
 from drillctl.console.scope import RunRecording
@@ -122,6 +123,10 @@ class MachineConsole:
         """The stores of the machine in use, where it has them."""
         return self._workpieces if self._workpieces.present else None
 
+    def production(self) -> MachineProduction | None:
+        """The parameters and records of the machine in use, where it has parameters."""
+        return MachineProduction(self, self._library) if self.machine.parameters is not None else None
+
     def machines(self) -> Sequence[tuple[str, str]]:
         """Name and description of every machine; for one that can't be loaded the reason in place of the latter."""
         return machine_list(self._library)
@@ -135,9 +140,7 @@ class MachineConsole:
         return self.change(MachineInUse.go_real)
 
     def change(self, how: Callable[[MachineInUse], Problems]) -> Problems:
-        """Changes the machine or its port by ``how``; refused while something moves. Board and base are forgotten where
-        another ticker runs afterwards.
-        """
+        """Changes machine or port by ``how``, at rest; board and base are forgotten where another ticker runs then."""
         if not self.link.lost() and (problems := occupied(self.link, self.at_work)):
             return problems
         before = self.link, self.machine
@@ -177,9 +180,7 @@ class MachineConsole:
 
     def take_up(self, journal: str, elsewhere: bool = False, watch: Watch = unwatched) -> Problems:
         """Plans what is left of a job, as ``drillctl resume`` does; ``elsewhere`` is its option. May take seconds."""
-        if problems := self.busy():
-            return problems
-        return self._boards.take_up(Path(journal), self.machine, self.used.site, elsewhere, watch)
+        return self.busy() or self._boards.take_up(Path(journal), self.machine, self.used.site, elsewhere, watch)
 
     def go_on(self) -> Problems:
         """Drills what was taken up, from the base that it was begun at."""

@@ -80,6 +80,7 @@ def machine_view(
         cut_off=bool(status["cut_off"]),
         pace=int(status["pace_percent"]) / 100,
         paused=link.gate.paused,
+        production=machine.parameters is not None,
     )
     return _without_ticker(view) if link.lost() else view
 

@@ -7,11 +7,19 @@ ui/models and ui/widgets, and nothing of the program around it; the program reac
 from collections.abc import Sequence
 
 from drillctl.ui.boiler_drum import BOILER_DRUM
+from drillctl.ui.eight_axis import MACHINE, MachineScreen
 from drillctl.ui.pcb_drill import PCB_DRILL
 from drillctl.ui.screens.shell import MachineScreens
 from drillctl.viewmodel.console import MachineView
 
-FAMILIES = (BOILER_DRUM, PCB_DRILL)  # asked from the first on; the last takes every machine
+FILES, DRILLING, *OTHERS = PCB_DRILL.menus
+# A machine with parameters drills boards too: it has a first screen and an entry of its own, and all else of those.
+EIGHT_AXIS = PCB_DRILL._replace(
+    recognises=lambda view: view.production,
+    menus=(FILES, DRILLING._replace(items=(*DRILLING.items, MACHINE)), *OTHERS),
+    makers={**PCB_DRILL.makers, "drilling": MachineScreen},
+)
+FAMILIES = (BOILER_DRUM, EIGHT_AXIS, PCB_DRILL)  # asked from the first on; the last takes every machine
 
 
 def screens_of(view: MachineView, families: Sequence[MachineScreens] = FAMILIES) -> MachineScreens:

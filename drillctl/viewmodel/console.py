@@ -17,6 +17,7 @@ from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress
 
 if TYPE_CHECKING:
+    from drillctl.viewmodel.production import Production
     from drillctl.viewmodel.workpieces import Workpieces
 
 Problems = tuple[Message, ...]
@@ -81,6 +82,7 @@ class MachineView:
     plant: str = ""  # the dynamic plant with its faults, ``dynamic blunt=20``; empty for another
     stores: bool = False  # its jobs are workpieces in stores (viewmodel/workpieces.py)
     words: tuple[tuple[str, int], ...] = ()  # numbers on several bits of a card: those put out, then those read
+    production: bool = False  # it has parameters and records (viewmodel/production.py)
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 
@@ -141,6 +143,9 @@ class Console(Protocol):
 
     def workpieces(self) -> "Workpieces | None":
         """The stores of workpieces; None for a machine that has none."""
+
+    def production(self) -> "Production | None":
+        """The parameters and records of a production machine; None for a machine that has none."""
 
     def machines(self) -> Sequence[tuple[str, str]]:
         """Name and description of every machine that can be chosen."""

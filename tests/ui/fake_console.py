@@ -10,6 +10,7 @@ from drillctl.ui.app import App
 from drillctl.viewmodel.console import AxisView, BoardView, HolesView, MachineView, Problems, ToolView, Watch
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
+from drillctl.viewmodel.production import Production
 from drillctl.viewmodel.records import Estimate, FaultReport, Progress, ToolEstimate
 
 MOTIONS = {"go_on", "start", "run_queue", "initialise", "return_to_zero", "jog", "go_to", "set_base", "resume"}
@@ -55,6 +56,7 @@ class FakeConsole:
     loaded: BoardView | None = None
     job: Progress | None = None
     answer: Problems = ()
+    made: Production | None = None
     asked: list[tuple[object, ...]] = field(default_factory=list)
     recent_jobs: list[RecentJob] = field(default_factory=list)
     unfinished_jobs: list[UnfinishedJob] = field(default_factory=list)
@@ -75,6 +77,9 @@ class FakeConsole:
 
     def workpieces(self) -> None:
         """A board's machine has no stores."""
+
+    def production(self) -> Production | None:
+        return self.made
 
     def machines(self) -> Sequence[tuple[str, str]]:
         return [("pcb-drill", "the paper's"), ("boiler-drum", "the large one")]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.ui import boiler_drum, pcb_drill, screens
+from drillctl.ui import boiler_drum, eight_axis, pcb_drill, screens
 from drillctl.ui.boiler_drum.programming import HEX_KEYS
 from drillctl.ui.widgets.keys import FRAME_KEYS, STOP, Key
 
@@ -46,7 +46,7 @@ KEYS_PAGE = Path(__file__).resolve().parents[2] / "docs" / "KEYS.md"
 
 
 def tables() -> Iterator[tuple[str, tuple[Key, ...]]]:
-    for package in (screens, pcb_drill, boiler_drum):
+    for package in (screens, pcb_drill, boiler_drum, eight_axis):
         for found in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
             for name, value in vars(importlib.import_module(found.name)).items():
                 if isinstance(value, type) and value.__module__ == found.name and hasattr(value, "keys"):

@@ -13,7 +13,7 @@ from drillctl.language import words
 from drillctl.ui.boiler_drum import menus as drum_menus
 from drillctl.ui.next_step import step_line
 from drillctl.ui.pcb_drill.menus import MENUS
-from drillctl.ui.pcb_drill.next_step import ACTIONS, ROWS
+from drillctl.ui.screens.board_steps import ACTIONS, ROWS
 from drillctl.ui.screens.shell import Step
 from drillctl.ui.screens.step_rows import Row
 from drillctl.ui.widgets.menus import Item

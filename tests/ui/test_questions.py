@@ -173,7 +173,7 @@ def test_every_screen_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     try:
         for name in SCREENS:
             screen = show(program.app, name)
-            program.press("?" if name != "queue_editor" else "f1")
+            program.press("?" if name not in ("queue_editor", "parameters") else "f1")
             assert words._(EXPLAINED[screen.title][0]) in program.text(), name
             program.press("q")
             program.press("enter")  # opens an editor from a list

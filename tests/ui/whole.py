@@ -19,6 +19,7 @@ from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
 from drillctl.ui import app, background
+from drillctl.ui.eight_axis import MachineScreen
 from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions
 from tests.ui.fake_console import Paper
@@ -26,9 +27,9 @@ from tests.ui.fake_console import Paper
 BLINKER = Path(__file__).resolve().parents[2] / "examples" / "blinker.drl"
 SCREENS = (
     "drilling", "files", "phase_editor", "ramp_editor", "queue_editor", "signals", "scope", "configuration", "port",
-    "plant", "panel",
+    "plant", "panel", "machine", "parameters",
 )  # fmt: skip
-MACHINES = {"panel": "boiler-drum"}  # of screens that the first machine has not
+MACHINES = {"panel": "boiler-drum", "machine": "eight-axis", "parameters": "eight-axis"}  # of others than the first
 PARTS = re.compile(r"/drillctl/(ui|console)/")
 Event = str | tuple[str, int, int, int]
 
@@ -114,7 +115,13 @@ def show(shell: app.App, name: str) -> urwid.Widget | None:
     """Opens a screen by its name, on a machine that has it."""
     if name in MACHINES:
         shell.take_machine(MACHINES[name])
-    return shell.show(name)
+    if name not in ("machine", "parameters"):
+        return shell.show(name)
+    machine = shell.show("drilling")
+    assert isinstance(machine, MachineScreen)
+    if name == "parameters":
+        machine.form("tool")
+    return shell.screens[-1]
 
 
 class Whole:

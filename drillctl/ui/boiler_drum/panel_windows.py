@@ -14,8 +14,9 @@ from drillctl.ui.boiler_drum.program_list import facts, heading, list_lines
 from drillctl.ui.boiler_drum.wall import depth_text, wall_lines
 from drillctl.ui.screens.machine_lines import lamp, phase_line
 from drillctl.ui.widgets import borders
+from drillctl.ui.widgets.drawn import Drawn
 from drillctl.ui.widgets.sizes import Layout
-from drillctl.ui.widgets.texts import Line, Size, boxed, packed
+from drillctl.ui.widgets.texts import Line, packed
 from drillctl.ui.widgets.windows import Window
 from drillctl.viewmodel.console import AxisView, MachineView
 from drillctl.viewmodel.records import Progress
@@ -36,28 +37,6 @@ class Shown(NamedTuple):
     sentence: int
     done: int
     figures: str
-
-
-class Drawn(urwid.Widget):
-    """A box of lines that ``lines`` gives for its columns and rows."""
-
-    _sizing = frozenset([urwid.Sizing.BOX])
-
-    def __init__(self, lines: Callable[[int, int], list[Line]]):
-        super().__init__()
-        self._lines = lines
-        self._values: tuple[object, ...] = ()
-
-    def depend(self, *values: object) -> None:
-        """Takes what the lines are made of, and draws them anew if that is something else than at the last call."""
-        if values != self._values:
-            self._values = values
-            self._invalidate()
-
-    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
-        """Draws the lines that fit."""
-        assert len(size) == 2
-        return boxed(self._lines(*size), *size)
 
 
 class PanelWindows(urwid.WidgetWrap[urwid.Widget]):

@@ -2,7 +2,6 @@
 
     drilling.py    the machine at work: its keys (what they do: screens/board_controls.py)
     drilling_windows.py its windows, by the size of the terminal
-    window_lines.py lines that the machine's window shares in its forms
     side_window.py the paper's window at the right of it
     machine_window.py the same with large figures, where there is room     tool_list.py    the tools of the board
     motor_strip.py the motors side by side
@@ -12,7 +11,7 @@
     files_layout.py where its parts stand, by the size of the terminal
     job_forms.py   the boxes that ask for options
     examples.py    the example boards and the lab sheets
-    menus.py       the menus Files and Drilling                            next_step.py    what the machine waits for
+    menus.py       the menus Files and Drilling
 
 PCB_DRILL is the row of ui/machines.py.
 """
@@ -20,7 +19,7 @@ PCB_DRILL is the row of ui/machines.py.
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.menus import MENUS
-from drillctl.ui.pcb_drill.next_step import next_step
+from drillctl.ui.screens.board_steps import next_step
 from drillctl.ui.screens.shell import MachineScreens
 from drillctl.ui.screens.unfinished import offer_unfinished
 

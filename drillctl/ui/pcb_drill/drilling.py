@@ -11,7 +11,6 @@ from drillctl.language.words import N_
 from drillctl.ui.pcb_drill.drilling_windows import DrillingWindows
 from drillctl.ui.pcb_drill.examples import offer_examples
 from drillctl.ui.pcb_drill.files import Files
-from drillctl.ui.pcb_drill.next_step import next_step
 from drillctl.ui.screens.board_controls import BOARD_KEYS, BoardControls
 from drillctl.ui.screens.jog_controls import JOG_KEYS
 from drillctl.ui.screens.shell import Shell
@@ -45,7 +44,7 @@ class Drilling(BoardControls, urwid.WidgetWrap[urwid.Widget]):
 
     def __init__(self, console: Console, shell: Shell, plain: bool = False):
         self._room = DrillingWindows(plain)
-        BoardControls.__init__(self, console, shell, self._room, next_step)
+        BoardControls.__init__(self, console, shell, self._room)
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._room, footer=self._footer))
         self.refresh(console.view())
 

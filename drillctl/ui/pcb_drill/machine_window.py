@@ -4,7 +4,7 @@ Rule: a function of the machine's view and the job's progress; nothing is told b
 """
 
 from drillctl.language.words import _, ngettext
-from drillctl.ui.pcb_drill.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
+from drillctl.ui.screens.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
 from drillctl.ui.widgets.pages import apart, numbered_pages
 from drillctl.ui.widgets.text_graphics import gauge, large
 from drillctl.ui.widgets.texts import Line

@@ -10,8 +10,8 @@ from collections.abc import Callable
 import urwid
 
 from drillctl.language.words import _
-from drillctl.ui.pcb_drill.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
 from drillctl.ui.screens.machine_lines import phase_line, phase_table
+from drillctl.ui.screens.window_lines import hole_text, labelled, lamps, tick_lines, time_text, tool_text
 from drillctl.ui.widgets.pages import numbered_pages
 from drillctl.ui.widgets.texts import Line, Size, boxed
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView

@@ -4,16 +4,16 @@ Rule: every motion is one key of the screen's table or one entry of the menu, an
 line. Drilling itself asks first. A part of the screens on which boards are drilled.
 """
 
-from collections.abc import Callable
 from typing import Protocol
 
 from drillctl.language import Message
 from drillctl.language.number_text import clock, pair_mm
 from drillctl.language.words import N_, _, ngettext
+from drillctl.ui.screens.board_steps import next_step
 from drillctl.ui.screens.board_view import STEP, BoardPicture
 from drillctl.ui.screens.jog_controls import JogControls
 from drillctl.ui.screens.machine_lines import tool_name
-from drillctl.ui.screens.shell import Shell, Step
+from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.tick_rate import ask_tick_hz
 from drillctl.ui.screens.unfinished import offer_job
 from drillctl.ui.widgets.keys import Key
@@ -49,15 +49,11 @@ class BoardWindows(Protocol):
 
 
 class BoardControls(JogControls):
-    """The part of a screen that carries the requests out; the screen has the keys and lays the windows out.
-    ``next_step`` says what the machine waits for.
-    """
+    """The part of a screen that carries the requests out; the screen has the keys and lays the windows out."""
 
-    def __init__(
-        self, console: Console, shell: Shell, windows: BoardWindows, next_step: Callable[[Console, MachineView], Step]
-    ):
+    def __init__(self, console: Console, shell: Shell, windows: BoardWindows):
         super().__init__(console)
-        self._shell, self._windows, self._next_step = shell, windows, next_step
+        self._shell, self._windows = shell, windows
         self._was_at_work = False
         self._footer = Text("")
 
@@ -96,7 +92,7 @@ class BoardControls(JogControls):
 
     def _refused(self) -> bool:
         """Whether no motion can be begun just now; then the bottom line says why, and nothing is asked."""
-        refuses = self._next_step(self._console, self._console.view()).refuses
+        refuses = next_step(self._console, self._console.view()).refuses
         if refuses:
             self._answer((Message(refuses),))
         return bool(refuses)

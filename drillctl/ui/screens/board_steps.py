@@ -1,5 +1,5 @@
-"""What a machine that drills boards waits for, after what every machine does (ui/screens/step_rows.py): a table from
-its condition, and the board that is loaded, to a sentence with the keys that do it.
+"""What a machine that drills boards waits for, after what every machine does (step_rows.py): a table from its
+condition, and the board that is loaded, to a sentence with the keys that do it.
 """
 
 from collections.abc import Mapping

@@ -1,5 +1,4 @@
-"""Lines of the machine's window: hole, tool, time, lamps, ticks. Shared by its narrow form (side_window.py) and its
-wide one (machine_window.py).
+"""Lines of a machine's window: hole, tool, time, lamps, ticks. Every family of machines that drills boards has them.
 
 Rule: functions of the machine's view and the job's progress.
 """

@@ -1,0 +1,191 @@
+"""The form of a group of parameters: a field each with what it may be, below what the one under the cursor means and
+does, and what is wrong.
+
+Rule: what can't be is said as it is typed, and nothing is saved while there is such a field. What is saved is taken by
+the machine, which is started anew.
+"""
+
+from typing import Any
+
+import urwid
+
+from drillctl.language.words import N_, _, translated
+from drillctl.ui.screens.shell import Shell, asked_to_leave
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.texts import Edit, Line, Size, Text, WholeText
+from drillctl.viewmodel.console import Problems
+from drillctl.viewmodel.production import ParameterView, Production
+
+VALUE_COLUMNS, RANGE_COLUMNS = 12, 26
+LEAST_COLUMNS = 76  # in fewer there is no room for the range beside the longest name
+NUMBERED = ("tool", "magazine")  # groups whose rows can be added and removed
+MOST_PROBLEMS = 3
+
+
+class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
+    """The parameters of one group. Not live: the machine has them once they are saved."""
+
+    title = N_("Parameters")
+    keys = (
+        Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
+        Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
+        Key(("f6",), "F6", "cycle", N_("the next choice, where a field has choices"), N_("Choice")),
+        Key(("f2",), "F2", "save", N_("saves, and starts the machine anew with it"), N_("Save")),
+        Key(("insert",), "Ins", "add", N_("one more tool, or place of the magazine"), N_("Add")),
+        Key(("delete",), "Del", "remove", N_("takes a tool or place away; asks first"), N_("Remove")),
+    )
+
+    def __init__(self, production: Production, shell: Shell, group: str, heading: str):
+        self._production, self._shell, self._group, self._heading = production, shell, group, heading
+        self._head, self._below = Text(""), Text("")
+        self._narrow = False  # as drawn last
+        self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
+        self._list = urwid.ListBox(self._rows)
+        super().__init__(urwid.Frame(self._list, header=urwid.AttrMap(self._head, "title"), footer=self._below))
+        self._open()
+
+    @property
+    def changed(self) -> bool:
+        """Whether something typed would be lost when the form is closed."""
+        return bool(self._typed())
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """The form's keys, then the field's own; Esc asks first where something would be lost."""
+        if asked_to_leave(self, self._shell, key, self._give_up):
+            return None
+        if (key != "delete" or self._group in NUMBERED) and called(self, self.keys, key):
+            return None
+        left = super().keypress(size, key)
+        self._look()
+        return left
+
+    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
+        """Goes to the field that is clicked."""
+        taken = bool(super().mouse_event(size, event, button, col, row, focus))
+        self._look()
+        return taken
+
+    def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
+        """Draws the fields; where there are few columns what a field may be is said below alone."""
+        assert len(size) == 2
+        if (size[0] < LEAST_COLUMNS) != self._narrow:
+            self._narrow = size[0] < LEAST_COLUMNS
+            self._draw_rows()
+        return super().render(size, focus)
+
+    def go(self, by: int) -> None:
+        """Moves the cursor by so many fields; it stops at the ends."""
+        if self._fields:
+            self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._fields) - 1)))
+            self._look()
+
+    def cycle(self) -> None:
+        """Puts the next choice into a field that has choices."""
+        field = self._field
+        if field is not None and field.choices:
+            edit = self._edits[self._list.focus_position]
+            now = str(edit.edit_text)
+            at = field.choices.index(now) if now in field.choices else -1
+            edit.set_edit_text(field.choices[(at + 1) % len(field.choices)])
+            self._look()
+
+    def save(self) -> None:
+        """Saves all fields, or none if one of them can't be taken."""
+        if not self.changed:
+            self._shell.say(_("nothing has changed"))
+            return
+        self._done(self._production.enter(self._typed()), _("saved; the machine was started anew"))
+
+    def add(self) -> None:
+        """Asks for the number of one more tool or place, and saves it with everything else unset."""
+        if self._group not in NUMBERED:
+            self._shell.say(_("tools and places of the magazine can be added"))
+        elif self._is_settled():
+            numbers = [int(field.name.split(".")[1]) for field in self._fields]
+            proposed = str(max(numbers, default=0) + 1)
+            self._shell.ask_text(_("Add"), _("Number:"), proposed, self._add)
+
+    def remove(self) -> None:
+        """Asks, then takes away the tool or place that the cursor is in."""
+        field = self._field
+        if field is not None and self._group in NUMBERED and self._is_settled():
+            row = field.name.rpartition(".")[0]
+            number = int(row.partition(".")[2])
+            self._shell.ask(
+                _("Remove {row}?").format(row=row),
+                lambda: self._done(self._production.remove(self._group, number), _("removed")),
+            )
+
+    def _add(self, text: str) -> None:
+        if text.strip().isdecimal():
+            self._done(self._production.add(self._group, int(text)), _("added; its parameters are unset"))
+        else:
+            self._shell.message(_("Refused"), [_("a number is wanted, not {text!r}").format(text=text)])
+
+    def _is_settled(self) -> bool:
+        """Whether nothing is typed that a change of the rows would lose; where something is, it is said."""
+        if self.changed:
+            self._shell.message(_("Refused"), [_("Save first, or take back, what is typed.")])
+        return not self.changed
+
+    def _done(self, problems: Problems, answer: str) -> None:
+        if problems:
+            self._shell.message(_("Not saved"), [translated(problem) for problem in problems])
+        else:
+            self._open()
+            self._shell.say(answer)
+
+    def _give_up(self) -> None:
+        self._open()
+        self._shell.back()
+
+    @property
+    def _field(self) -> ParameterView | None:
+        return self._fields[self._list.focus_position] if self._fields else None
+
+    def _open(self) -> None:
+        at = self._list.focus_position if self._rows else 0
+        self._fields = list(self._production.parameters(self._group))
+        self._edits = [Edit(edit_text=field.value) for field in self._fields]
+        self._draw_rows(at)
+        self._look()
+
+    def _draw_rows(self, at: int | None = None) -> None:
+        at = (self._list.focus_position if self._rows else 0) if at is None else at
+        pairs = zip(self._fields, self._edits, strict=True)
+        self._rows[:] = [_row(field, edit, self._narrow) for field, edit in pairs]
+        if self._rows:
+            self._list.set_focus(min(at, len(self._rows) - 1))
+
+    def _typed(self) -> dict[str, str]:
+        """What differs from the machine's file, by the parameters' names."""
+        pairs = zip(self._fields, self._edits, strict=True)
+        return {field.name: str(edit.edit_text) for field, edit in pairs if edit.edit_text != field.value}
+
+    def _look(self) -> None:
+        changed = _(", changed") if self.changed else ""
+        self._head.set_text(f"{self._heading}{changed}")
+        self._below.set_text([part for line in self._lines() for part in [*line, "\n"]][:-1])
+
+    def _lines(self) -> list[Line]:
+        field = self._field
+        if field is None:
+            return [[_("Nothing is entered yet: Ins adds a row.")]]
+        wrong = [
+            translated(problem)
+            for name, typed in self._typed().items()
+            for problem in self._production.problem(name, typed)
+        ]
+        problems: list[Line] = [[("danger", _("problem: ") + problem)] for problem in wrong[:MOST_PROBLEMS]]
+        return [
+            [("title", field.name), f"  {field.allowed}"],
+            [_(field.meaning)],
+            [("dark", _(field.effect))],
+            *(problems or [[("good", _("sound"))]]),
+        ]
+
+
+def _row(field: ParameterView, edit: Edit, narrow: bool) -> urwid.Widget:
+    box = urwid.AttrMap(edit, "field", "focus")
+    cells: list[Any] = [Text(field.name, wrap="clip"), (VALUE_COLUMNS, box)]
+    return urwid.Columns(cells if narrow else [*cells, (RANGE_COLUMNS, WholeText([("dark", field.allowed)]))], 1)

@@ -1,0 +1,142 @@
+"""The eight-axis drill's screen: what the paper names is on it, its seven buttons, and the forms of its parameters."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from drillctl.language import words
+from drillctl.machine.library import user_tables
+from drillctl.machine.parameter_table import GROUPS, PARAMETERS
+from drillctl.ui.eight_axis import MachineScreen
+from drillctl.ui.eight_axis.machine import BUTTONS
+from drillctl.ui.eight_axis.parameters import ParameterForm
+from drillctl.viewmodel.job_options import JobOptions
+from tests.ui.whole import Whole, at_home, show
+
+SIZES = ((80, 24), (100, 32), (160, 50))
+
+
+@pytest.fixture
+def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Whole]:
+    at_home(tmp_path, monkeypatch)
+    found = Whole()
+    show(found.app, "machine")
+    yield found
+    words.use("en")
+    found.console.close()
+
+
+def all_pages(program: Whole) -> str:
+    """What the screen shows, with every page of its windows."""
+    pages = []
+    for _page in range(6):
+        pages.append(program.text())
+        program.press("tab")
+    return "\n".join(pages)
+
+
+def form(program: Whole, group: str) -> ParameterForm:
+    machine = program.app.screens[0]
+    assert isinstance(machine, MachineScreen)
+    machine.form(group)
+    found = program.app.screens[-1]
+    assert isinstance(found, ParameterForm)
+    return found
+
+
+def go_to(program: Whole, found: ParameterForm, name: str) -> None:
+    """Puts the cursor into a parameter's field, and empties it."""
+    names = [view.name for view in program.console.production().parameters(found._group)]  # type: ignore[union-attr]
+    found.go(-len(names))
+    found.go(names.index(name))
+    program.press("end", *["backspace"] * 12)
+
+
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_at_every_size_there_is_what_the_paper_names(program: Whole, language: str) -> None:
+    words.use(language)
+    view, records = program.console.view(), program.console.production().records()  # type: ignore[union-attr]
+    for size in SIZES:
+        program.paper.size = size
+        first, whole = program.text(), all_pages(program)
+        for axis in view.axes:
+            assert re.search(rf"^│?{axis.name.upper():3} +0\.000 +0\.000", first, re.M)
+        for label in ("Stroke", "Bottom", "Tool", "Diameter", "Offset +-", "Holes", "absolute", "relative"):
+            assert words._(label) in first
+        assert "40.000 mm" in first  # the bottom dead centre, [drill] down
+        for name in (*(name for name, _on in (*view.sensors, *view.outputs)), words._("Magazine"), words._("place")):
+            assert name in whole
+        assert all(f"T{tool.number} " in whole for tool in records.tools)
+
+
+def test_the_seven_buttons_do_the_same_by_key_and_by_click(program: Whole, monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = program.app.screens[-1]
+    calls: list[str] = []
+    for key in BUTTONS:
+        monkeypatch.setattr(screen, key.method, lambda method=key.method: calls.append(method))
+    program.press(*(key.names[0] for key in BUTTONS))
+    rows = program.text().splitlines()
+    for key in BUTTONS:
+        label = f"[{key.printed} {key.short}]"
+        row = next(number for number, text in enumerate(rows) if label in text)
+        program.press(("mouse press", 1, rows[row].index(label) + 1, row))
+    assert calls == 2 * [key.method for key in BUTTONS]
+    assert [key.short for key in BUTTONS] == ["Start", "Home", "Park", "Import", "Tools", "Magazine", "Parameters"]
+
+
+def test_a_form_for_each_group_shows_each_parameter_with_its_help(program: Whole) -> None:
+    assert {row.group for row in PARAMETERS} == set(GROUPS)
+    for number, group in enumerate(GROUPS, start=1):
+        program.press("7", str(number))
+        text = program.text()
+        first = program.console.production().parameters(group)[0]  # type: ignore[union-attr]
+        assert GROUPS[group] in text and first.name in text and first.meaning in text
+        program.press("esc")
+        assert isinstance(program.app.screens[-1], MachineScreen)
+
+
+def test_what_cannot_be_is_said_as_it_is_typed_and_not_saved(program: Whole) -> None:
+    found = form(program, "machining")
+    go_to(program, found, "machining.feed_mm_min")
+    program.press(*"60001")
+    assert "feed_mm_min can't be 60001: the greatest is 60000 mm/min" in program.text()
+    program.press("f2")
+    assert "Not saved" in program.text()
+    program.press("enter", "esc")
+    assert "Leave without saving?" in program.text()
+    program.press("y")
+    assert not user_tables().exists()
+
+
+def test_what_is_saved_is_the_machine_s_and_an_unset_parameter_refuses_the_start(program: Whole) -> None:
+    found = form(program, "machining")
+    go_to(program, found, "machining.feed_mm_min")
+    program.press(*"999")
+    go_to(program, found, "machining.lift_mm_min")
+    program.press("f2")
+    assert "started anew" in program.text()
+    assert (user_tables() / "machines" / "eight-axis.toml").is_file()
+    parameters = program.console.machine.parameters
+    assert parameters is not None and parameters.value("machining", "feed_mm_min") == 999
+    assert parameters.missing() == ("machining.lift_mm_min",)
+    program.press("esc")
+    assert "machining.lift_mm_min" in all_pages(program)
+    refused = program.console.load("any", JobOptions())
+    assert [str(problem).partition(": ")[2] for problem in refused] == [
+        "parameter machining.lift_mm_min is unset; it must be entered first"
+    ]
+
+
+def test_tools_are_added_and_removed(program: Whole) -> None:
+    found = form(program, "tool")
+    program.press("insert", *"17", "enter")
+    assert any(row.name == "tool.17.diameter_mm" for row in program.console.production().parameters("tool"))  # type: ignore[union-attr]
+    go_to(program, found, "tool.17.kind")
+    program.press(*"unset")
+    assert not found.changed
+    program.press("delete")
+    assert "Remove tool.17?" in program.text()
+    program.press("y")
+    assert not any(row.name.startswith("tool.17.") for row in program.console.production().parameters("tool"))  # type: ignore[union-attr]
