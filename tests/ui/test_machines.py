@@ -17,7 +17,7 @@ from tests.ui.fake_console import VIEW, FakeConsole, Program
 from tests.ui.whole import Whole, at_home
 
 UI = PACKAGE / "ui"
-SHARED = ("screens", "models", "widgets", "terminal")
+SHARED = ("screens", "models", "widgets", "terminal", "report")
 PACKAGES = sorted(path.parent.name for path in UI.glob("*/__init__.py") if path.parent.name not in SHARED)
 ROOT_MODULES = sorted(path.stem for path in UI.glob("*.py") if path.stem != "__init__")
 

@@ -10,7 +10,7 @@ from typing import Any
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.screens.shell import Shell, asked_to_leave
+from drillctl.ui.screens.shell import Shell, asked_to_leave, choose_another
 from drillctl.ui.widgets.keys import Key, called
 from drillctl.ui.widgets.texts import Edit, Line, Size, Text, WholeText
 from drillctl.viewmodel.console import Problems
@@ -29,7 +29,7 @@ class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
     keys = (
         Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
         Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
-        Key(("f6",), "F6", "cycle", N_("the next choice, where a field has choices"), N_("Choice")),
+        Key(("f6",), "F6", "choose_value", N_("another value, from a list, where a field has choices"), N_("Choice")),
         Key(("f2",), "F2", "save", N_("saves, and starts the machine anew with it"), N_("Save")),
         Key(("insert",), "Ins", "add", N_("one more tool, or place of the magazine"), N_("Add")),
         Key(("delete",), "Del", "remove", N_("takes a tool or place away; asks first"), N_("Remove")),
@@ -79,15 +79,21 @@ class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
             self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._fields) - 1)))
             self._look()
 
-    def cycle(self) -> None:
-        """Puts the next choice into a field that has choices."""
+    def choose_value(self) -> None:
+        """Offers the values of a field that has choices."""
         field = self._field
-        if field is not None and field.choices:
-            edit = self._edits[self._list.focus_position]
-            now = str(edit.edit_text)
-            at = field.choices.index(now) if now in field.choices else -1
-            edit.set_edit_text(field.choices[(at + 1) % len(field.choices)])
+        if field is None or not field.choices:
+            self._shell.say(_("this field has no list of values: type one"))
+            return
+        edit = self._edits[self._list.focus_position]
+        now = str(edit.edit_text)
+
+        def chosen(index: int) -> None:
+            edit.set_edit_text(field.choices[index])
             self._look()
+
+        at = field.choices.index(now) if now in field.choices else None
+        choose_another(self._shell, field.name, field.choices, at, chosen)
 
     def save(self) -> None:
         """Saves all fields, or none if one of them can't be taken."""
