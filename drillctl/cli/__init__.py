@@ -53,7 +53,7 @@ from drillctl.cli import (
 )  # fmt: skip
 from drillctl.cli.examples import EXAMPLES
 from drillctl.cli.parsing import Parser
-from drillctl.cli.refusals import REFUSED, refuse
+from drillctl.cli.refusals import refuse
 from drillctl.jobs.interrupts import caught, exit_code, leave
 
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
@@ -86,9 +86,6 @@ def parser() -> Parser:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one verb; returns the exit code. Interrupted, it leaves the outputs off: 130, or 143 on SIGTERM."""
-    if sys.platform not in ("linux", "darwin"):
-        print("drillctl: runs on Linux; on macOS and WSL for simulation. Not here.", file=sys.stderr)
-        return REFUSED
     streams.prepare()
     words = _with_verb(sys.argv[1:] if argv is None else argv)
     try:

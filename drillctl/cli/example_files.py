@@ -7,10 +7,12 @@ import shutil
 from pathlib import Path
 
 from drillctl.cli import streams
+from drillctl.files.inputs import read_bytes
 from drillctl.files.shipped import shipped
 from drillctl.language import Message
 
 LISTED = (".drl", ".kmd", ".sentences")
+LARGEST_BYTES = 1 << 20
 NOT_COPIED = ("__pycache__", "INSTRUCTOR.md")
 
 
@@ -31,7 +33,7 @@ def call(arguments: argparse.Namespace) -> int:
         if file.suffix in LISTED:
             print(f"{file.name:24} {_first_words(file)}")
     for page in sorted(shipped("sheets", "docs/lab").glob("[0-9]*.md")):
-        print(f"{page.stem:24} lab sheet {page.read_text('utf-8').splitlines()[0].removeprefix('# ')}")
+        print(f"{page.stem:24} lab sheet {_lines(page)[0].removeprefix('# ')}")
     return 0
 
 
@@ -61,7 +63,9 @@ def _files(source: Path, folder: Path) -> dict[Path, Path]:
 
 def _first_words(file: Path) -> str:
     """The first comment of an example."""
-    for line in file.read_text("utf-8").splitlines():
-        if line[:1] in (";", "#") and line[1:].strip():
-            return line[1:].strip()
-    return ""
+    comments = (line[1:].strip() for line in _lines(file) if line[:1] in (";", "#"))
+    return next(filter(None, comments), "")
+
+
+def _lines(file: Path) -> list[str]:
+    return read_bytes(file, LARGEST_BYTES, Message("an example")).decode().splitlines()

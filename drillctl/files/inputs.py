@@ -15,6 +15,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from drillctl.files import system
 from drillctl.language import Message
 
 Named = str | os.PathLike[str]
@@ -37,12 +38,12 @@ def opened(file: Named, limit: int | None = None) -> io.BufferedReader:
     """
     try:
         check_kind(os.stat(file), file)  # a device may not even be touched; what is opened is looked at again
-        handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        handle = os.open(file, system.flags("O_RDONLY", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC"))
     except ValueError as error:  # a null character, or half of a surrogate pair
         raise OSError(errno.EINVAL, Message("no name that a file can have"), os.fspath(file)) from error
     try:
         check_kind(os.fstat(handle), file)
-        os.set_blocking(handle, True)
+        system.unblocked(handle)
     except OSError:
         os.close(handle)
         raise

@@ -4,12 +4,12 @@ Rule: at every moment the file has its last content or the new one, never a part
 processes come one after the other.
 """
 
-import fcntl
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from drillctl.files import system
 from drillctl.files.outputs import Output, OutputError
 from drillctl.language import Message, message_of
 
@@ -22,14 +22,16 @@ def alone(path: Path) -> Iterator[None]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        fcntl.flock(folder, fcntl.LOCK_EX)
+        folder = system.open_folder(path.parent)
+        if folder >= 0:
+            system.lock(folder, wait=True)
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         raise OutputError(Message("can't be written: {why}", why=message_of(error)).at(path)) from error
     try:
         yield
     finally:
-        os.close(folder)
+        if folder >= 0:
+            os.close(folder)
 
 
 def replace(path: Path, text: str) -> None:

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
 
-from drillctl.files import scratch
+from drillctl.files import scratch, system
 from drillctl.language import Message, Refusal, message_of, verbatim
 
 
@@ -50,10 +50,11 @@ class Output:
                 if self.durable and self._temporary:
                     os.fsync(file.fileno())
             if self._temporary:
-                os.fchmod(self._handle, 0o666 & ~_umask())
+                system.give_usual_rights(self._handle)
+                self._close_early()
                 self._temporary.replace(self._place)
                 if self.durable:
-                    _sync_folder(self._place.parent)
+                    system.sync_folder(self._place.parent)
                 self._temporary = None
                 self.drop()
         except OSError as error:
@@ -65,9 +66,18 @@ class Output:
 
     def drop(self) -> None:
         """Takes the reservation back and leaves nothing behind."""
+        self._close_early()
         if self._temporary:
             self._temporary.unlink(missing_ok=True)
             self._temporary = None
+        self._close()
+
+    def _close_early(self) -> None:
+        """Closes the file, and gives its lock up, before its name changes, on a system that wants it so."""
+        if not system.RENAMES_OPEN_FILES:
+            self._close()
+
+    def _close(self) -> None:
         if self._handle >= 0:
             os.close(self._handle)
             self._handle = -1
@@ -123,18 +133,3 @@ def write_text(path: Path, text: str) -> tuple[Message, ...]:
         if output is not None:
             output.drop()
     return ()
-
-
-def _sync_folder(folder: Path) -> None:
-    """Writes a folder's names to the disk: a file's new place is among them."""
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -5,7 +5,6 @@ locked (flock) while any process of its run lives. ``sweep`` and ``sweep_folders
 belongs to this user, and is not locked.
 """
 
-import fcntl
 import os
 import secrets
 import stat
@@ -13,13 +12,15 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
+from drillctl.files import system
+
 MARK = ".drillctl-tmp"  # how the name of a file ends that is not yet whole
 FOLDERS = "drillctl-run-"
 KEPT_IN_FOLDERS = "status"  # what a run keeps in its folder, beside files with the mark
 LONGEST_STEM = 100  # characters of the name that the file is made for
 MOST_TRIES = 100
-_NEW = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
-_LOOK = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+_NEW = system.flags("O_RDWR", "O_CREAT", "O_EXCL", "O_NOFOLLOW", "O_CLOEXEC")
+_LOOK = system.flags("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC")
 
 
 def make_file(place: Path) -> tuple[int, Path]:
@@ -42,7 +43,7 @@ def lock(handle: int) -> None:
     system without locks.
     """
     with suppress(OSError):
-        fcntl.flock(handle, fcntl.LOCK_EX)
+        system.lock(handle, wait=True)
 
 
 def sweep(folder: Path, pattern: str = f".*{MARK}") -> None:
@@ -60,7 +61,9 @@ class Folder:
         for _ in range(MOST_TRIES):
             self.path = Path(tempfile.mkdtemp(prefix=FOLDERS))
             with suppress(FileNotFoundError):  # it was swept before it was locked
-                self._handle = os.open(self.path, _LOOK | os.O_DIRECTORY)
+                self._handle = system.open_folder(self.path)
+                if self._handle < 0:  # a system that opens no folders; nothing is swept there either
+                    return
                 lock(self._handle)
                 if _is_at(self.path, os.fstat(self._handle)):
                     return
@@ -85,9 +88,9 @@ def sweep_folders() -> None:
     """Removes the folders that killed runs have left where the system keeps temporary files."""
     for folder in Path(tempfile.gettempdir()).glob(f"{FOLDERS}*"):
         with suppress(OSError):
-            handle = os.open(folder, _LOOK | os.O_DIRECTORY)
+            handle = system.open_folder(folder)
             try:
-                if _is_left(handle):
+                if handle >= 0 and _is_left(handle):
                     _remove_folder(folder, handle)
             finally:
                 os.close(handle)
@@ -107,10 +110,10 @@ def _is_left(handle: int) -> bool:
     """Returns whether the file is this user's and no process holds its lock; it is locked from here on, until the
     handle is closed.
     """
-    if os.fstat(handle).st_uid != os.geteuid():
+    if not system.HAS_LOCKS or not system.is_own(os.fstat(handle)):
         return False
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        system.lock(handle)
     except OSError:  # held, or a file system that knows no locks: nobody can say that its run is over
         return False
     return True

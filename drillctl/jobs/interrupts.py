@@ -10,7 +10,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-CAUGHT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+from drillctl.files import system
+
+CAUGHT = system.signals("SIGINT", "SIGTERM", "SIGHUP")
 Handler = Callable[[int, FrameType | None], None]
 
 

@@ -8,17 +8,17 @@ leaves it changed.
 import os
 import select
 import signal
-import termios
 import time
 from types import FrameType, TracebackType
 from typing import Any, TextIO
 
+from drillctl.files import system
 from drillctl.kmd import Request
 
 HELP = "keys: Space holds the job and lets it go on, x stops it, ! is an emergency stop"
 HOLD_OR_RESUME, ENTER = " ", "\n"
 REQUESTS = {"x": Request.STOP, "!": Request.ESTOP}
-HANDED_ON = (signal.SIGTSTP, signal.SIGQUIT)  # nobody else in this program catches them
+HANDED_ON = system.signals("SIGTSTP", "SIGQUIT")  # nobody else in this program catches them
 MOMENT_S = 0.05  # well below the silence that the ticker bears
 MOST_KEYS = 64  # read at once
 INPUT_FLAGS, LOCAL_FLAGS, CHARACTERS = 0, 3, 6  # where termios has them
@@ -83,7 +83,7 @@ class TerminalKeys:
             self._take()
             ready, _, _ = select.select([self._keyboard], [], [], wait_s)
             return os.read(self._keyboard, MOST_KEYS).decode("latin-1") if ready else ""
-        except (OSError, termios.error):  # the terminal was closed: SIGHUP tells
+        except system.TERMINAL_ERRORS:  # the terminal was closed: SIGHUP tells
             return ""
 
     def _in_foreground(self) -> bool:
@@ -96,6 +96,7 @@ class TerminalKeys:
         """Single keys, not shown; again after a shell has had the terminal meanwhile. Ctrl-S is a key like any other:
         a terminal that it stops would stop this process too, and the ticker would hold the machine.
         """
+        termios = system.terminal()
         mode = termios.tcgetattr(self._keyboard)
         if mode == self._ours:
             return
@@ -110,6 +111,7 @@ class TerminalKeys:
     def _give_back(self) -> None:
         before, self._before, self._ours = self._before, None, []
         if before is not None and self._in_foreground():
+            termios = system.terminal()
             termios.tcsetattr(self._keyboard, termios.TCSANOW, before)
 
     def _hand_on(self, number: int, frame: FrameType | None) -> None:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.files import system
 from drillctl.files.scratch import make_file
 from drillctl.kmd.commands import RECORD, Command
 from drillctl.kmd.queue import CAPACITY, MOST_HANDS, Request, Requests, hand_of, pace_of, request_of
@@ -25,7 +26,7 @@ from drillctl.language import Message
 MAGIC = 0x4C54434C4C495244  # "DRILLCTL", little-endian
 MOST_READS = 1000
 NOTHING = -1  # no value of the lock
-EXISTING = os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC
+EXISTING = system.flags("O_RDWR", "O_NOFOLLOW", "O_CLOEXEC")
 
 CHANNEL = np.dtype(
     [

@@ -7,12 +7,10 @@ this user either. docs/lab/INSTRUCTOR.md.
 
 import os
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -22,6 +20,7 @@ from xml.etree import ElementTree
 
 import msgspec
 
+from drillctl.files import system
 from drillctl.files.inputs import read_bytes, toml_of
 from drillctl.files.shipped import shipped
 from drillctl.lab.errors import LabError
@@ -155,8 +154,7 @@ def _run(command: list[str], copy: Path, limit_s: float) -> bool:
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:
-    with suppress(ProcessLookupError):  # it has ended, and all that it started
-        os.killpg(process.pid, signal.SIGKILL)
+    system.end_group(process.pid)
     process.wait()
 
 

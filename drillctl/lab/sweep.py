@@ -5,13 +5,13 @@ so that rows of two questions are never mixed. A torn last line is taken off; an
 a sweep writes, the file is locked.
 """
 
-import fcntl
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from drillctl.files import system
 from drillctl.files.inputs import check_kind
 from drillctl.lab.answers import chunks, head
 from drillctl.lab.errors import LabError
@@ -78,7 +78,7 @@ def _first_lines(question: Question) -> list[bytes]:
 
 def _opened(path: Path) -> BinaryIO:
     """Opens the file for reading and writing, or makes it. Raises OSError, also for a device or a folder."""
-    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK, 0o666)
+    handle = os.open(path, system.flags("O_RDWR", "O_CREAT", "O_NONBLOCK"), 0o666)
     try:
         check_kind(os.fstat(handle), path)
         return os.fdopen(handle, "r+b")
@@ -111,7 +111,7 @@ def _check_rows(rows: list[bytes], names: bytes, question: Question, path: Path)
 
 def _lock(file: BinaryIO, path: Path) -> None:
     try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        system.lock(file.fileno())
     except BlockingIOError as error:
         raise LabError(Message("another sweep is writing it").at(path)) from error
 

@@ -14,6 +14,7 @@ from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait
 from typing import Any
 
+from drillctl.files import system
 from drillctl.lab.answers import answer
 from drillctl.lab.errors import LabError
 from drillctl.lab.question import Question
@@ -70,7 +71,7 @@ def on_cluster(question: Question, chunks: list[range], address: str) -> Rows:
 
 def _serve() -> None:
     """What a worker runs first: it ignores Ctrl-C, which its parent handles, and ends when the parent has."""
-    for number in (signal.SIGINT, signal.SIGHUP):
+    for number in system.signals("SIGINT", "SIGHUP"):
         signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

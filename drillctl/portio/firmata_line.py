@@ -5,13 +5,13 @@ thread: what has arrived is read when ``received`` is called.
 """
 
 import select
-import termios
 import time
 from contextlib import suppress
 from typing import TypeVar
 
 import serial
 
+from drillctl.files import system
 from drillctl.language import Message, verbatim
 from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, BoardMessage, Decoder, Firmware, Version
 from drillctl.ports import LONGEST_WAIT_S, PortLost, PortRefused, PortSlow
@@ -90,7 +90,7 @@ class FirmataLine:
         """Like ``send``, before anything that still waits in the kernel, which is dropped."""
         try:
             self._serial.reset_output_buffer()
-        except (OSError, termios.error) as error:
+        except system.TERMINAL_ERRORS as error:
             raise self._lost(error) from error
         self.send(data)
 

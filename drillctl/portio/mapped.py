@@ -7,12 +7,12 @@ Rule: another driver is the card proper (with its plant, in the ticker's process
 ``read_map`` reads it without a driver.
 """
 
-import fcntl
 import mmap
 import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from drillctl.files import system
 from drillctl.files.inputs import read_start
 from drillctl.language import Message, message_of
 from drillctl.ports import CARD_BITS, SAFE_IMAGE, Driver, PortLayout, PortRefused, word
@@ -132,7 +132,7 @@ def _mapped(file: Path, words: int) -> mmap.mmap:
 
 def _descriptor(file: Path) -> int:
     """Opens the file that is there, or a new one; refuses a link."""
-    flags = os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC
+    flags = system.flags("O_RDWR", "O_NOFOLLOW", "O_CLOEXEC")
     try:
         return os.open(file, flags)
     except FileNotFoundError:
@@ -144,6 +144,6 @@ def _lock(descriptor: int, file: Path) -> None:
     it.
     """
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        system.lock(descriptor)
     except BlockingIOError as error:
         raise PortRefused("mapped", Message("another run is using this card").at(file)) from error

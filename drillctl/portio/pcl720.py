@@ -7,11 +7,11 @@ Rule: outputs can't be read back, so every flush writes all of every card: a dis
 later.
 """
 
-import fcntl
 import os
 from collections.abc import Sequence
 from contextlib import suppress
 
+from drillctl.files import system
 from drillctl.language import Counted, Message, message_of
 from drillctl.ports import SAFE_IMAGE, PortLayout, PortLost, PortRefused, word
 
@@ -92,7 +92,7 @@ def open_pcl720(address: str, layout: PortLayout) -> Pcl720:
 def lock(descriptor: int) -> None:
     """Locks the cards for this program and the processes that inherit the lock. Raises PortRefused."""
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        system.lock(descriptor)
     except BlockingIOError as error:
         os.close(descriptor)
         raise PortRefused("pcl720", Message("another run is using the cards; end it first")) from error

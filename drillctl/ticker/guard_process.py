@@ -10,13 +10,14 @@ import signal
 import time
 from contextlib import suppress
 
+from drillctl.files import system
 from drillctl.kmd.channel import Channel
 from drillctl.ports import Driver, make_safe
 
 SILENCE_NS = 500_000_000
 LOOK_EVERY_MS = 20
 LONGEST_WAIT_S = 10.0
-IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)
+IGNORED = system.signals("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP")
 
 
 def run_guard(channel: Channel, port: Driver, silence_ns: int = SILENCE_NS) -> None:

@@ -8,7 +8,6 @@ halve the median where that is refused.
 import ctypes
 import gc
 import os
-import resource
 import sys
 import time
 from collections.abc import Callable
@@ -59,6 +58,8 @@ def _schedule() -> None:
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
     except PermissionError:
+        import resource  # where there is such a scheduler there are its limits
+
         granted, _ = resource.getrlimit(resource.RLIMIT_RTPRIO)
         if not 0 < granted < PRIORITY:
             raise

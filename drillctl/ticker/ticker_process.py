@@ -14,6 +14,7 @@ from contextlib import suppress
 from drillctl.execution import drop_forcing, look
 from drillctl.execution.clock import PacedClock
 from drillctl.execution.conditions import raise_fault
+from drillctl.files import system
 from drillctl.kmd import Condition, Fault, Request
 from drillctl.kmd.channel import Channel, SharedGate, SharedQueue, SharedRequests
 from drillctl.kmd.commands import MOST_AXES
@@ -35,7 +36,7 @@ SLICE_NS = 60_000_000  # a slice of ticks takes no longer, so that heartbeat and
 LOOK_NS = 20_000_000  # at rest the sensors are read so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
 TOUCH = struct.Struct(f"<iiii{MOST_AXES}d")  # tool, tag, axis, axes, places; below PIPE_BUF, so written whole
-IGNORED = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)  # they are the desk's
+IGNORED = system.signals("SIGINT", "SIGHUP", "SIGQUIT", "SIGTSTP")  # they are the desk's
 
 
 class TickerProcess:

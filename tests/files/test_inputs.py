@@ -161,7 +161,8 @@ ELSEWHERE = {
     "files.scratch": "temporary files that it makes, and the folders they lie in",
     "trace.target": "what it writes",
     "files.outputs": "what it writes",
-    "files.kept": "the folder of a file, to lock it",
+    "files.system": "folders, to lock them or to write their names to the disk",
+    "ui.report.page": "its own style and script, which come with the program",
 }
 OPENING = r"""(?<![\w.])(?<!def )open\(|\bos\.(?:open|fdopen)\(|\.open\("|\.read_(?:text|bytes)\("""
 PARSING = r"\b(?:tomllib|json)\.loads?\("

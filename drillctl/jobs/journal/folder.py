@@ -3,12 +3,12 @@
 Rule: a journal that a run still writes belongs to that run; it is neither offered nor taken away.
 """
 
-import fcntl
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from drillctl.files import system
 from drillctl.files.inputs import opened
 from drillctl.jobs.journal.account import Account
 from drillctl.jobs.journal.chain import JournalError
@@ -95,7 +95,7 @@ def _alone(file: Path) -> Iterator[None]:
     """Within it the journal is locked, so that no run can write it. Raises JournalInUse, OSError."""
     with opened(file) as stream:
         try:
-            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            system.lock(stream.fileno())
         except BlockingIOError as error:
             raise JournalInUse(Message("is being written by a run that is still going on").at(file)) from error
         yield

@@ -3,13 +3,13 @@
 Rule: each line is on the disk before what it announces may happen, and is checked as a reader will check it.
 """
 
-import fcntl
 import os
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
+from drillctl.files import system
 from drillctl.jobs.journal.account import Account, Head, OutOfPlace
 from drillctl.jobs.journal.chain import NO_SEAL, JournalError, sealed
 from drillctl.jobs.journal.reader import (
@@ -41,7 +41,8 @@ class Journal:
         self._broken = False
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
-            flags = os.O_RDWR | os.O_APPEND | os.O_CLOEXEC | (os.O_CREAT if isinstance(start_from, Head) else 0)
+            new = ("O_CREAT",) if isinstance(start_from, Head) else ()
+            flags = system.flags("O_RDWR", "O_APPEND", "O_CLOEXEC", *new)
             self._handle = os.open(file, flags, 0o644)
         except OSError as error:
             raise JournalError(Message("can't be written: {why}", why=message_of(error)).at(file)) from error
@@ -76,7 +77,7 @@ class Journal:
         _check_finished(self.file)
         self._cut(0)
         seal = self._append({NAME: FORMAT, **vars(head), "site": asdict(site)}, NO_SEAL)
-        _sync_folder(self.file.parent)
+        system.sync_folder(self.file.parent)
         return Account(head, site, seal=seal)
 
     def _go_on(self, account: Account, site: Site) -> Account:
@@ -89,7 +90,7 @@ class Journal:
     def _lock(self) -> None:
         """Locks the file. The child processes of a paced run inherit the lock, which lasts until the last has ended."""
         try:
-            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            system.lock(self._handle)
         except OSError as error:
             raise JournalError(Message("is being written by a run that is still going on").at(self.file)) from error
 
@@ -154,11 +155,3 @@ def _check_finished(file: Path) -> None:
             ).at(file)
         )
 
-
-def _sync_folder(folder: Path) -> None:
-    """Makes sure that the name of a new file is on the disk."""
-    handle = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
