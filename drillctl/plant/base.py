@@ -8,6 +8,7 @@ from math import inf
 
 from drillctl.machine import Machine
 from drillctl.plant.carriage import Carriage, Switch
+from drillctl.plant.chucks import Chucks
 from drillctl.plant.effects import Effect
 from drillctl.plant.rotor import Rotor
 from drillctl.plant.spindle import spindle_of
@@ -26,6 +27,7 @@ class Plant:
     described  the plant in a word or some, for a trace's header; ``seed`` is that of its random numbers
     inputs     the input image, 1 where a sensor's wire is high
     touches    how often a head's bit has met its board, coming down; ``met``: the same by axis
+    chucks     those of the heads, with the bits in them
     effects    what the carriages act on beside their sensors, by name (effects.py)
     spindle    a spindle with its converter, where the machine has one that says its speed
     """
@@ -35,14 +37,18 @@ class Plant:
     seed = 0
 
     def __init__(
-        self, machine: Machine, rotors: Sequence[Rotor], carriages: Sequence[Carriage], effects: Mapping[str, Effect]
-    ):
+        self, machine: Machine, rotors: Sequence[Rotor], carriages: Sequence[Carriage], chucks: Chucks,
+        effects: Mapping[str, Effect],
+    ):  # fmt: skip
         self.rotors, self.carriages = tuple(rotors), tuple(carriages)
         self.image = 0
         self._together = _lines([sensor for carriage in self.carriages for sensor in carriage.sensors])
         self.inputs = sum(1 << line.bit for line in machine.inputs if line.active_level == 0)  # nothing is pressed
         self.touches, self.met = 0, [0] * len(self.rotors)
         self.spindle = spindle_of(machine)
+        self.chucks = chucks
+        self.inputs = chucks.shown(self.inputs)
+        self._steps_per_mm = [table.steps_per_mm for table in machine.axes]
         self.effects = effects
         self._effects_on = [[each for each in effects.values() if each.axis == n] for n in range(len(self.rotors))]
         for index in range(len(self.rotors)):
@@ -102,9 +108,21 @@ class Plant:
         if pulses is not None:
             self.inputs = self.inputs & ~pulses.bit | pulses.level(self.position_steps(axis))
 
+    def place_mm(self, axis: int) -> float:
+        """Returns where a carriage is, in millimetres from machine zero."""
+        return self.position_steps(axis) / self._steps_per_mm[axis]
+
+    def _switch_chucks(self, before: int, image: int) -> None:
+        """Opens and closes the chucks whose outputs differ between two output images."""
+        if (before ^ image) & self.chucks.outputs:
+            self.chucks.switch(before, image, self.place_mm)
+            self.inputs = self.chucks.shown(self.inputs)
+
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)
         self.turn_index(index)
+        if self.chucks.slipping and self.chucks.lifted(index, self.place_mm(index)):
+            self.inputs = self.chucks.shown(self.inputs)
         for sensor in self.carriages[index].sensors:
             if sensor.moved_to(steps):
                 self._answer(sensor)
@@ -112,6 +130,8 @@ class Plant:
             if effect.moved_to(steps):
                 self.touches += 1
                 self.met[index] += 1
+            if effect.line.bit:
+                self.inputs = effect.line.put(self.inputs, effect.state)
 
 
 def _lines(sensors: Sequence[Switch]) -> Mapping[int, Sequence[Switch]]:

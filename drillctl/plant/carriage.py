@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.machine import AxisTable, EncoderIndex, Sensor
+from drillctl.machine.model import Input
 
 Places = NDArray[np.float64]
 
@@ -52,6 +53,23 @@ class Switch:
         elif outward <= self._edge - self._hysteresis:
             self.reached = False
         return self.reached
+
+
+class Line:
+    """An input that the plant switches: ``bit`` in the input image, 0 where the machine has no such input."""
+
+    def __init__(self, bit: int = 0, active_level: int = 1):
+        self.bit = bit
+        self._active = active_level
+
+    @classmethod
+    def of(cls, line: Input | None) -> "Line":
+        """From an input of the machine's file."""
+        return cls() if line is None else cls(1 << line.bit, line.active_level)
+
+    def put(self, inputs: int, on: bool) -> int:
+        """Returns the input image with the line on or off."""
+        return inputs | self.bit if on == bool(self._active) else inputs & ~self.bit
 
 
 class Pulses:

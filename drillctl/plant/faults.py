@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from drillctl.language import Message, Refusal, nearest
 from drillctl.machine import Machine
+from drillctl.machine.head_lines import CHUCK, head_output
 
 
 class PlantRefused(Refusal):
@@ -20,7 +21,7 @@ class PlantRefused(Refusal):
 @dataclass(frozen=True, slots=True)
 class FaultKind:
     """What a fault's value means, and its bounds; ``part`` is what it belongs to: a sensor, the wire of a sensor or an
-    encoder's index, an axis, or nothing.
+    encoder's index, an axis, a head with a chuck of its own, or nothing.
     """
 
     part: str
@@ -37,6 +38,9 @@ FAULT_KINDS = {
     "jammed": FaultKind("axis", 1, 1000, Message("friction of the guide, N times the table's")),
     "blunt": FaultKind("", 0, 1000, Message("metres of board that the drill has cut already")),
     "broken": FaultKind("", 1, 1, Message("the drill is off and meets no board")),
+    "breaks": FaultKind("head", 1, 1_000_000, Message("its bit breaks in the N-th hole that it begins")),
+    "missing": FaultKind("head", 1, 999, Message("place N of the magazine has no bit for its spindle")),
+    "dropped": FaultKind("head", 1, 1_000_000, Message("the N-th bit that its chuck takes falls out on the way up")),
 }
 _FORM = re.compile(r"([a-z]+)(?:\.([A-Za-z0-9_-]+))?=(-?\d+(?:\.\d+)?)")
 
@@ -60,6 +64,7 @@ class Faults:
         sensors = [sensor.name for sensor in machine.sensors]
         wires = [*sensors, *(index.name for index in machine.indexes)]
         parts = {"sensor": sensors, "wire": wires, "axis": machine.axis_names, "": [""]}
+        parts["head"] = [machine.axes[head].name for head in machine.drill_axes if head_output(machine, CHUCK, head)]
         self._values: dict[tuple[str, str], float] = {}
         for fault in [parse_fault(text) for text in texts]:
             kind = FAULT_KINDS[fault.name].part

@@ -6,6 +6,7 @@ Rule: it moves at once when its image changes. Speed, ramp and forcing make no d
 from drillctl.machine import Machine
 from drillctl.plant.base import Plant
 from drillctl.plant.carriage import Carriage, Pulses, Switch
+from drillctl.plant.chucks import chucks_of
 from drillctl.plant.effects import effects_of
 from drillctl.plant.rotor import rotor_of
 
@@ -18,13 +19,14 @@ class IdealPlant(Plant):
     def __init__(self, machine: Machine):
         rotors = [rotor_of(table) for table in machine.axes]
         carriages = [_carriage(machine, number) for number in range(len(machine.axes))]
-        super().__init__(machine, rotors, carriages, effects_of(machine))
+        chucks = chucks_of(machine)
+        super().__init__(machine, rotors, carriages, chucks, effects_of(machine, chucks))
 
     def drive(self, image: int) -> None:
         """Takes a new output image: each rotor whose bits changed moves, and its carriage with it."""
         if image == self.image:
             return
-        self.image = image
+        before, self.image = self.image, image
         if self.spindle is not None:
             self.inputs = self.spindle.at_once(image, self.inputs)
         for index, rotor in enumerate(self.rotors):
@@ -33,18 +35,22 @@ class IdealPlant(Plant):
                 rotor.seen = pattern
                 if rotor.pull(pattern):
                     self._carry(index)
+        self._switch_chucks(before, image)
 
     def memory(self, axis: int) -> tuple[bool, ...]:
-        """Returns the state of what an axis acts on, then of its sensors."""
+        """Returns the state of what an axis acts on, then of its sensors, and whether its chuck holds a bit."""
         states = [effect.state for effect in self._effects_on[axis]]
-        return *states, *(sensor.reached for sensor in self.carriages[axis].sensors)
+        reached = [sensor.reached for sensor in self.carriages[axis].sensors]
+        chuck = self.chucks.of(axis)
+        return *states, *reached, chuck is not None and chuck.held
 
     def recall(self, axis: int, memory: tuple[bool, ...]) -> None:
-        """Restores the state that ``memory`` returned."""
+        """Restores the state that ``memory`` returned; no stroke has opened a chuck since."""
         effects = self._effects_on[axis]
         for effect, state in zip(effects, memory, strict=False):
             effect.state = state
-        for sensor, reached in zip(self.carriages[axis].sensors, memory[len(effects) :], strict=True):
+            self.inputs = effect.line.put(self.inputs, state)
+        for sensor, reached in zip(self.carriages[axis].sensors, memory[len(effects) : -1], strict=True):
             if sensor.recall(reached):
                 self._answer(sensor)
         self.turn_index(axis)

@@ -6,6 +6,7 @@ import pytest
 
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant, Plant
+from drillctl.plant.carriage import Line
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.plant.effects import EFFECTS
 from tests.support.bench import Bench, shipped
@@ -17,7 +18,7 @@ class Magazine:
     """A slot for a tool on the first axis; ``state`` is whether the carriage is beyond it."""
 
     def __init__(self) -> None:
-        self.axis, self.state = 0, False
+        self.axis, self.state, self.line = 0, False, Line()
         self.places: list[float] = []
 
     def moved_to(self, steps: float) -> bool:
@@ -34,7 +35,7 @@ def test_a_thing_of_the_table_is_told_where_its_axis_is(
     plant_of: Callable[[Machine], Plant], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     magazine, machine = Magazine(), shipped("pcb-drill")
-    monkeypatch.setitem(EFFECTS, "magazine", lambda _: magazine)
+    monkeypatch.setitem(EFFECTS, "magazine", lambda _machine, _chucks: magazine)
     plant = plant_of(machine)
     b = Bench(machine, plant=plant).ready()
     assert plant.quiet_steps(0)[1] == SLOT

@@ -100,7 +100,7 @@ class Strokes:
         self._m, self._world = m, world
         self.heads = m.machine.drill_axes
         switches = {1 << sensor.bit for sensor in m.machine.sensors if sensor.axis in self.heads}
-        self.mask = sum(switches | {m.indexes[head] for head in self.heads})
+        self.mask = sum(switches | {line[head] for head in self.heads for line in (m.indexes, m.contacts)})
         self._places: dict[Hashable, Place] = {}
 
     def here(self, left: Sequence[str] = ()) -> Place:

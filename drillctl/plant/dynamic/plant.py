@@ -15,6 +15,7 @@ from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
 from drillctl.plant.carriage import Pulses
+from drillctl.plant.chucks import chucks_of
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
@@ -50,10 +51,11 @@ class DynamicPlant(Plant):
         self._wires = array("Q", [*chain.from_iterable(motor.wires() for motor in self.motors), 0])
         for index in axes:
             kernel.supply(self._rows, index * law.ROW, self._wires, index * law.WIRES, 0)
-        effects = effects_of(machine)
+        chucks = chucks_of(machine, known_faults)
+        effects = effects_of(machine, chucks)
         if known_faults.of("broken"):
             effects.pop("board", None)
-        super().__init__(machine, self.motors, self.belts, effects)
+        super().__init__(machine, self.motors, self.belts, chucks, effects)
         self._head = machine.drill_axes[0]
         surface = machine.board_surface[self._head] if "board" in effects else None
         head = machine.axes[self._head]
@@ -104,11 +106,12 @@ class DynamicPlant(Plant):
             self._rows, len(self.motors), self._head, self._wires, bit, kernel.images(images), ticks, kernel.sine,
             kernel.slope,
         )  # fmt: skip
-        self.image = int(images[done - 1])
+        before, self.image = self.image, int(images[done - 1])
         for motor in self.motors:
             motor.follow()
         if self._fluttering or bit[law.LEFT]:
             self._pass_sensors()
+        self._switch_chucks(before, self.image)
         if self.spindle is not None:
             self.inputs = self.spindle.turn(self.image, self.inputs, done / self._tick_hz)
         self._resting = bit[law.STILL] != 0.0 and not self._fluttering and not self._spindle_turns(self.image)

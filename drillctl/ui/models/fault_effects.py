@@ -76,6 +76,21 @@ EFFECTS: Mapping[str, Effect] = {
         N_("Holes count as drilled and none is made. Nothing is reported."),
         ((N_("head"), "0024688642000246886420002468"), (N_("in the board"), "1111111111111111111111111111")),
     ),
+    "breaks": Effect(
+        N_("The bit of this head breaks as it begins its N-th hole."),
+        N_("From then on it touches 3 mm deeper, and makes no more holes."),
+        ((N_("head"), "0024688642000246886420002468"), (N_("in the board"), "1111888111111111111111111111")),
+    ),
+    "missing": Effect(
+        N_("Place N of the magazine holds no bit for this spindle."),
+        N_("Its tool sensor stays off after the chuck has closed there."),
+        ((N_("chuck open"), "______--------______________"), (N_("tool in it"), "____________________________")),
+    ),
+    "dropped": Effect(
+        N_("The N-th bit that the chuck of this head takes falls out again."),
+        N_("Its tool sensor is on, and goes off as the head rises."),
+        ((N_("chuck open"), "______--------______________"), (N_("tool in it"), "______________-----_________")),
+    ),
 }  # fmt: skip
 
 

@@ -1,0 +1,25 @@
+"""The inputs and outputs that each drilling head has of its own, by name: ``tool_1`` is the first head's.
+
+    chuck_N    output: its chuck is open where it is 1
+    tool_N     input: a tool is in its chuck
+    contact_N  input: its bit touches the board
+"""
+
+from drillctl.machine.model import Input, Machine
+
+CHUCK, TOOL, CONTACT = "chuck", "tool", "contact"
+
+
+def head_input(machine: Machine, kind: str, axis: int) -> Input | None:
+    """Returns the input of this kind of a drilling head, or None where it has none."""
+    return next((line for line in machine.inputs if line.name == _name(machine, kind, axis)), None)
+
+
+def head_output(machine: Machine, kind: str, axis: int) -> int:
+    """Returns the bit of a drilling head's output of this kind in the output image, 0 where it has none."""
+    return sum(1 << bit for name, bit in machine.outputs if name == _name(machine, kind, axis))
+
+
+def _name(machine: Machine, kind: str, axis: int) -> str:
+    number = machine.drill_axes.index(axis) + 1 if axis in machine.drill_axes else 0
+    return f"{kind}_{number}"
