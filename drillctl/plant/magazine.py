@@ -59,10 +59,12 @@ class Magazine:
 
 
 def magazine_of(machine: Machine, known_faults: Faults | None = None) -> Magazine | None:
-    """Returns the magazine of a machine whose parameters have places and a change height; None for another."""
-    parameters = machine.parameters
+    """Returns the magazine of a machine with a tool changer, and places and a change height that are set; None for
+    another.
+    """
+    parameters, changer = machine.parameters, machine.tool_changer
     plane = machine.axis_index("x"), machine.axis_index("y")
-    if parameters is None or plane[0] is None or plane[1] is None:
+    if parameters is None or changer is None or plane[0] is None or plane[1] is None:
         return None
     height_mm = parameters.number("system", "change_height_mm")
     places = {
@@ -79,4 +81,5 @@ def magazine_of(machine: Machine, known_faults: Faults | None = None) -> Magazin
         place = known_faults.of("missing", machine.axes[axis].name) if known_faults else None
         if place is not None:
             missing[spindle] = int(place)
-    return Magazine(places, (0.0, 0.0), height_mm, (plane[0], plane[1]), missing)
+    pitches = changer.spindle_pitch_mm, changer.magazine_pitch_mm
+    return Magazine(places, pitches, height_mm, (plane[0], plane[1]), missing)
