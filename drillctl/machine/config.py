@@ -13,7 +13,7 @@ from drillctl.machine.homing import axes_named, homing_steps
 from drillctl.machine.inputs import encoder_indexes, sensors_and_inputs
 from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Sensor, Surroundings
 from drillctl.machine.outputs import outputs_of
-from drillctl.machine.parameter_file import check_parameters, read_parameters
+from drillctl.machine.parameter_file import check_parameters, read_parameters, with_backlash
 from drillctl.machine.parts import Parts
 from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
@@ -73,7 +73,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         tool_changer=tool_changer(source, raw),
     )
     check_parameters(source, machine)
-    return machine
+    return with_backlash(source, raw, machine)
 
 
 def _plain(plant: PlantPart) -> dict[str, float]:

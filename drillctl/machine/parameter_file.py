@@ -6,6 +6,7 @@ Rule: a key that is missing or ``"unset"`` is unset, and the machine can be read
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from drillctl.language import Message, known_words, message_of
@@ -48,6 +49,23 @@ def check_parameters(source: Source, machine: Machine) -> None:
         _check_tools(source, machine.parameters)
         _check_homing(source, machine, machine.parameters)
         _check_reach(source, machine, machine.parameters)
+
+
+def with_backlash(source: Source, raw: MachineFile, machine: Machine) -> Machine:
+    """Returns the machine whose axes have the backlash of their parameters, in whole steps. Raises TableError where the
+    row of an axis names another.
+    """
+    axes = []
+    for index, table in enumerate(machine.axes):
+        entered = machine.parameters.of_axis(table.name).number("backlash_mm") if machine.parameters else None
+        steps = table.backlash_steps if entered is None else round(entered * table.steps_per_mm)
+        written = raw.axis[index].backlash
+        if written and steps != written:
+            reason = Message("axis {name}: backlash {written}, and backlash_mm is {entered:g} mm, {steps} steps",
+                             name=table.name, written=written, entered=entered, steps=steps)  # fmt: skip
+            raise source.error(reason, "axis", index, "backlash")
+        axes.append(replace(table, backlash_steps=steps))
+    return replace(machine, axes=tuple(axes))
 
 
 def _table(source: Source, value: object, place: Place, known: Sequence[str]) -> Mapping[str, Any]:

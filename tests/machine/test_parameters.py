@@ -152,6 +152,17 @@ def test_what_does_not_agree_with_the_machine_is_refused(header: str, key: str, 
     assert refused.value.line is not None
 
 
+def test_the_backlash_of_an_axis_is_that_of_its_parameter_in_whole_steps() -> None:
+    changes = ("[parameters.axis.x]", "backlash_mm", "0.034")
+    axes = machine_of(text_with(changes)).axes
+    assert [axis.backlash_steps for axis in axes[:2]] == [3, 0]  # 0.01 mm a step
+    row = ('name = "x"\n', 'name = "x"\nbacklash = 4\n')
+    with pytest.raises(TableError, match=r"axis x: backlash 4, and backlash_mm is 0\.034 mm, 3 steps"):
+        machine_of(text_with(changes).replace(*row, 1))
+    with pytest.raises(TableError, match="axis x: backlash 4, and backlash_mm is 0 mm, 0 steps"):
+        machine_of(shipped_text().replace(*row, 1))
+
+
 @pytest.mark.parametrize(
     ("written", "reason"),
     [

@@ -66,7 +66,8 @@ def test_at_every_size_there_is_what_the_paper_names(program: Whole, language: s
         for label in ("Stroke", "Bottom", "Tool", "Diameter", "Offset +-", "Holes", "absolute", "relative"):
             assert words._(label) in first
         assert "40.000 mm" in first  # the bottom dead centre, [drill] down
-        for name in (*(name for name, _on in (*view.sensors, *view.outputs)), words._("Magazine"), words._("place")):
+        named = [name for name, _now in (*view.sensors, *view.outputs, *view.words)]
+        for name in (*named, words._("Magazine"), words._("place")):
             assert name in whole
         assert all(f"T{tool.number} " in whole for tool in records.tools)
 

@@ -110,9 +110,12 @@ def _place(place: PlaceRecord) -> Line:
 
 
 def signal_lines(view: MachineView, columns: int) -> list[Line]:
-    """Self-diagnosis: every input, output and drive of the machine by its name, in brackets while it is on."""
+    """Self-diagnosis: every input, output and drive of the machine by its name, in brackets while it is on; numbers of
+    several bits.
+    """
     inputs, outputs = (packed([[lamp(*signal)] for signal in found], columns) for found in (view.sensors, view.outputs))
+    numbers = packed([[f" {name} {value} "] for name, value in view.words], columns)
     return [
-        [("title", _("Inputs"))], *inputs, [("title", _("Outputs"))], *outputs,
+        [("title", _("Inputs"))], *inputs, [("title", _("Outputs"))], *outputs, *(numbers if view.words else []),
         [("title", _("Drives"))], *map(phase_line, view.axes),
     ]  # fmt: skip
