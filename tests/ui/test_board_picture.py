@@ -143,6 +143,7 @@ def test_the_mouse_zooms_pans_and_tells_of_a_hole() -> None:
     picture.render(WHOLE)
     assert picture.mouse_event(WHOLE, "mouse press", 1, column, row, True)
     assert "hole 3, T12 3.000 mm, X 40.000, Y 20.000" in text_of(picture).splitlines()[-1]
+    assert picture.render((23, 10)).text[-1].decode().strip() == "hole 3, T12", "the rest has no room"
     picture.mouse_event(WHOLE, "mouse press", 4, column, row, True)
     assert "zoom 2" in text_of(picture)
     close = text_of(picture)

@@ -153,18 +153,21 @@ class BoardPicture(urwid.Widget):
         return self._layers
 
     def _below(self, board: HolesView, placed: BoardMap, columns: int) -> Line:
-        """Scale bar, zoom and the hole that was clicked; without zoom, then without bar, where they have no room."""
-        bar, told = scale_bar(placed, self._plain), self._told(board)
-        ways = ([*bar, *zoom_told(placed), *told], [*bar, *told], told or bar)
-        return next((line for line in ways if width_of(line) <= columns), ways[-1])
+        """Scale bar, zoom and the hole that was clicked; without zoom, then without bar, then without the hole's place,
+        where they have no room.
+        """
+        bar, (told, brief) = scale_bar(placed, self._plain), self._told(board)
+        ways = ([*bar, *zoom_told(placed), *told], [*bar, *told], told or bar, brief or bar, bar)
+        return next((line for line in ways if width_of(line) <= columns), [])
 
-    def _told(self, board: HolesView) -> Line:
-        """The hole that was clicked: its number in drilling order, its tool, its place."""
+    def _told(self, board: HolesView) -> tuple[Line, Line]:
+        """The hole that was clicked: its number in drilling order, its tool, its place; and without the place."""
         if self._chosen is None:
-            return []
+            return [], []
         tool = board.tools[int(board.tool[self._chosen])]
         x_mm, y_mm = board.xy_mm[self._chosen].tolist()
         size = f" {tool.diameter_mm:.3f} mm" if tool.diameter_mm else ""
         text = _("hole {number}, T{tool}{size}, X {x:.3f}, Y {y:.3f}")
         label = text.format(number=self._chosen + 1, tool=tool.number, size=size, x=x_mm, y=y_mm)
-        return ["  ", ("accent", label)]
+        brief = _("hole {number}, T{tool}").format(number=self._chosen + 1, tool=tool.number)
+        return ["  ", ("accent", label)], ["  ", ("accent", brief)]
