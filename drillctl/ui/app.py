@@ -26,6 +26,7 @@ from drillctl.ui.next_step import step_line
 from drillctl.ui.painter import Painter
 from drillctl.ui.palette import Action, actions
 from drillctl.ui.screen_copy import keep_copy
+from drillctl.ui.screens.own_steps import shown_step
 from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
 from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.finder import Finder
@@ -95,7 +96,7 @@ class App(Boxes):
             self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)
         self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
-        step = self._family.next_step(self._console, view)
+        step = shown_step(self._family.next_step(self._console, view), self.screens[-1], view)
         self.frame.show_step(step_line(step, self.screens[-1], self._family.menus, self.layers.typing))
         if isinstance(self.screens[-1], Live):
             self.screens[-1].refresh(view)

@@ -1,18 +1,16 @@
 """The line that says what the machine waits for: the sentence of a Step, with the keys of the screen on top in it."""
 
-import re
 from collections.abc import Sequence
 
 import urwid
 
 from drillctl.language.words import _
 from drillctl.ui.frame import screen_keys
+from drillctl.ui.screens.own_steps import FIELD
 from drillctl.ui.screens.shell import Step
 from drillctl.ui.widgets.keys import STOP
 from drillctl.ui.widgets.menus import Item, hot_letter
 from drillctl.ui.widgets.texts import Line
-
-FIELD = re.compile(r"\{(\w+)\}")
 
 
 def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: bool = False) -> Line:

@@ -14,8 +14,18 @@ from drillctl.ui.boiler_drum import menus as drum_menus
 from drillctl.ui.next_step import step_line
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.screens.board_steps import ACTIONS, ROWS
+from drillctl.ui.screens.configuration import ConfigurationScreen
+from drillctl.ui.screens.own_steps import shown_step
+from drillctl.ui.screens.phase_editor import PhaseEditor
+from drillctl.ui.screens.plant import PlantScreen
+from drillctl.ui.screens.port import PortScreen
+from drillctl.ui.screens.queue_editor import QueueEditor
+from drillctl.ui.screens.ramp_editor import RampEditor
+from drillctl.ui.screens.scope import Scope
 from drillctl.ui.screens.shell import Step
+from drillctl.ui.screens.signals import Signals
 from drillctl.ui.screens.step_rows import Row
+from drillctl.ui.screens.table_list import TableList
 from drillctl.ui.widgets.menus import Item
 from drillctl.ui.widgets.texts import width_of
 from drillctl.viewmodel.console import MachineView, ToolWanted
@@ -25,6 +35,9 @@ pytestmark = pytest.mark.usefixtures("idle")
 
 drum_steps = import_module("drillctl.ui.boiler_drum.next_step")  # the package has the function of this name
 FIELD = re.compile(r"\{(\w+)\}")
+WITH_STEPS = (
+    PhaseEditor, RampEditor, TableList, QueueEditor, Signals, ConfigurationScreen, PlantScreen, PortScreen, Scope,
+)  # fmt: skip
 CASES = {
     "position not known": ({"position_known": False}, True, "position not known: I initialises; S does, then drills"),
     "no board": ({}, False, "no board: F opens one, E shows the examples"),
@@ -98,3 +111,48 @@ def test_a_row_names_actions_that_the_menus_have() -> None:
         for screen in (Program(FakeConsole()).app.screens[-1], urwid.SolidFill()):
             named = [part[1] for part in step_line(step, screen, MENUS)[1:] if isinstance(part, tuple)]
             assert len(named) == len(FIELD.findall(row.text)) and all(named)
+
+
+@pytest.mark.parametrize("screen", WITH_STEPS)
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_the_steps_of_a_screen_name_its_own_keys_and_fit(language: str, screen: Any) -> None:
+    words.use(language)
+    for row in screen.own_steps:
+        actions = {name: ("", name) for name in FIELD.findall(row.text)}
+        line = step_line(Step(row.attribute, row.text, actions), screen, ())
+        named = [part[1] for part in line[1:] if isinstance(part, tuple)]
+        assert len(named) == len(FIELD.findall(row.text)) and all(named) and width_of(line) <= 80, line
+
+
+class Edited:
+    """A table's editor as its steps see it."""
+
+    own_steps = PhaseEditor.own_steps
+    has_problem = changed = tried = loses = False
+
+
+@pytest.mark.parametrize(
+    ("state", "begins"),
+    [
+        ({}, "change what"), ({"tried": True}, "change what"), ({"changed": True}, "changed:"),
+        ({"changed": True, "tried": True}, "no step is lost"),
+        ({"changed": True, "tried": True, "loses": True}, "steps are lost: "),
+        ({"tried": True, "loses": True}, "steps are lost with"), ({"changed": True, "has_problem": True}, "a problem"),
+    ],
+)  # fmt: skip
+def test_an_editor_says_what_comes_next_but_not_before_what_the_machine_waits_for(
+    state: dict[str, bool], begins: str
+) -> None:
+    editor: Any = Edited()
+    vars(editor).update(state)
+    machine, urgent = Step("warning", "no board"), Step("danger", "a fault", refuses="a fault is latched")
+    assert shown_step(machine, editor, VIEW).text.startswith(begins)
+    assert shown_step(urgent, editor, VIEW) is urgent
+    assert shown_step(machine, editor, replace(VIEW, paused=True)) is machine
+    assert shown_step(machine, urwid.SolidFill(), VIEW) is machine
+
+
+def test_the_screen_with_the_clock_s_keys_names_them_while_it_is_stopped() -> None:
+    screen: Any = QueueEditor
+    step = shown_step(Step("warning", "the clock is stopped"), screen, replace(VIEW, paused=True))
+    assert FIELD.findall(step.text) == ["tick", "run_all"]

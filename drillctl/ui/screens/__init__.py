@@ -4,6 +4,7 @@
     menus.py         the menus Tests, Configuration and Help
     step_rows.py     what a machine waits for: the rows that every machine has
     board_steps.py   and those of a machine that drills boards
+    own_steps.py     what can be done next on a screen itself
     folded_screen.py what screens share that only show lines
     table_list.py    the tables of one kind, to be opened     table_editor.py   what the editors of tables share
     table_actions.py save, reset, compare, copy, delete       phase_editor.py  ramp_editor.py  queue_editor.py

@@ -22,6 +22,7 @@ from drillctl.ui.screens.field_panel import (
     field_row,
     hint_of,
 )  # fmt: skip
+from drillctl.ui.screens.own_steps import CONFIGURATION_STEPS
 from drillctl.ui.screens.scale_guide import ScaleGuide
 from drillctl.ui.screens.shell import Shell, asked_to_leave, choose_another
 from drillctl.ui.screens.table_actions import TableActions, label_of
@@ -40,6 +41,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
     title = N_("Configuration")
+    own_steps = CONFIGURATION_STEPS
     _has_panel = _narrow = False  # as drawn last
     keys = (
         Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),

@@ -11,6 +11,7 @@ import urwid
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.fault_effects import PLANTS_IN_WORDS, effect_lines, effect_words
 from drillctl.ui.screens.folded_screen import FoldedScreen
+from drillctl.ui.screens.own_steps import PLANT_STEPS
 from drillctl.ui.screens.shell import Shell, choose_another
 from drillctl.ui.widgets.dialogs import Answered, Field
 from drillctl.ui.widgets.folding import folded
@@ -30,6 +31,7 @@ class PlantScreen(FoldedScreen):
     """Shows the plant of the machine in use, and the faults that a dynamic one can have."""
 
     title = N_("Plant and faults")
+    own_steps = PLANT_STEPS
     keys = (
         Key(("f6",), "F6", "choose_plant", N_("ideal or dynamic motors; the machine starts anew"), N_("Plant")),
         Key(

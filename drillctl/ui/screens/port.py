@@ -9,6 +9,7 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.screens.folded_screen import FoldedScreen
+from drillctl.ui.screens.own_steps import PORT_STEPS
 from drillctl.ui.screens.shell import Shell, choose_another
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key
@@ -26,6 +27,7 @@ class PortScreen(FoldedScreen):
     """Shows the port of the machine in use, and the report of the last test."""
 
     title = N_("Port")
+    own_steps = PORT_STEPS
     keys = (
         Key(("f5",), "F5", "test", N_("opens the configured port and asks it; nothing moves"), N_("Test")),
         Key(("f6",), "F6", "choose_port", N_("the real machine or the simulated one; asks first"), N_("Real or not")),

@@ -9,6 +9,7 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History, Undoable, completed, usage
+from drillctl.ui.screens.own_steps import QUEUE_STEPS
 from drillctl.ui.screens.queue_lines import finding_lines, reference_lines, stopped_lines
 from drillctl.ui.screens.shell import Shell, asked_if_real, asked_to_leave
 from drillctl.ui.screens.table_editor import Size
@@ -27,6 +28,7 @@ class QueueEditor(Undoable[Draft], urwid.WidgetWrap[urwid.Widget]):
     """A queue as text. ``file`` is where it was opened or saved last; empty for a new one."""
 
     title = N_("Queue of commands")
+    own_steps = QUEUE_STEPS
     keys = (
         Key(("tab",), "Tab", "complete", N_("completes the word before the cursor"), N_("Complete")),
         Key(("f5",), "F5", "run_all", N_("runs the whole queue; goes on where the clock was stopped"), N_("Run")),

@@ -8,6 +8,7 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.viewport import SignalRows, Viewport
+from drillctl.ui.screens.own_steps import SCOPE_STEPS
 from drillctl.ui.screens.scope_curve import height_of
 from drillctl.ui.screens.scope_keys import CLOSER, FURTHER, SCOPE_KEYS
 from drillctl.ui.screens.scope_measure import POSITION
@@ -29,6 +30,7 @@ class Scope(Searching, urwid.Widget):
     _sizing = frozenset([urwid.Sizing.BOX])
     _selectable = True
     title = N_("Scope")
+    own_steps = SCOPE_STEPS
     keys = SCOPE_KEYS
     _following: bool
     _curves_drawn: bool

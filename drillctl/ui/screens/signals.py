@@ -11,6 +11,7 @@ import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.signal_grid import CELL_COLUMNS, about, grid_lines, grid_rows, image_lines, moved
+from drillctl.ui.screens.own_steps import SIGNAL_STEPS
 from drillctl.ui.screens.shell import Shell, asked_if_real
 from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.keys import Key, called
@@ -27,6 +28,7 @@ class Signals(urwid.Widget):
     _sizing = frozenset([urwid.Sizing.BOX])
     _selectable = True
     title = N_("Signals")
+    own_steps = SIGNAL_STEPS
     keys = (
         Key((" ", "enter"), N_("Space"), "toggle", SWITCHES, N_("Switch")),
         Key(("left",), N_("Left"), "sideways", N_("the signal before"), argument=-1),

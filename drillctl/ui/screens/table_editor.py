@@ -10,6 +10,7 @@ import urwid
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.bench_lines import bench_lines, verdicts
 from drillctl.ui.models.editing import History, Undoable
+from drillctl.ui.screens.own_steps import TABLE_STEPS
 from drillctl.ui.screens.shell import Shell, asked_to_leave
 from drillctl.ui.screens.table_actions import TableActions
 from drillctl.ui.widgets.folding import folded
@@ -44,6 +45,7 @@ class TableEditor(Undoable[str], urwid.Widget):
     kind: TableKind
     title: str
     keys: tuple[Key, ...] = TABLE_KEYS
+    own_steps = TABLE_STEPS
     columns = 62  # kept for the table where a panel stands beside it
     _beside_table = False  # whether a panel stands there now
 
@@ -67,6 +69,21 @@ class TableEditor(Undoable[str], urwid.Widget):
     def changed(self) -> bool:
         """Whether the table differs from the saved one."""
         return self.text != self._saved
+
+    @property
+    def has_problem(self) -> bool:
+        """Whether the table can't be saved as it stands on the screen."""
+        return bool(self._checked.problems)
+
+    @property
+    def tried(self) -> bool:
+        """Whether the table was tried on the bench as it stands on the screen."""
+        return self._report is not None
+
+    @property
+    def loses(self) -> bool:
+        """Whether a motor lost steps in that trial."""
+        return self._report is not None and self._report.lost
 
     def drawing(self, columns: int, rows: int) -> list[Line]:
         """The lines of the table in this room; each kind of editor draws in its own way."""

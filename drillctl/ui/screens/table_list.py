@@ -7,6 +7,7 @@ import urwid
 
 from drillctl.language.words import N_, _
 from drillctl.ui.screens.configuration import ConfigurationScreen
+from drillctl.ui.screens.own_steps import LIST_STEPS
 from drillctl.ui.screens.phase_editor import PhaseEditor
 from drillctl.ui.screens.ramp_editor import RampEditor
 from drillctl.ui.screens.shell import Shell, unsaved
@@ -33,6 +34,7 @@ ORIGIN_COLUMNS = 34  # with the motors
 class TableList(urwid.WidgetWrap[urwid.Widget]):
     """The list of the tables of one kind."""
 
+    own_steps = LIST_STEPS
     keys = (
         Key(("enter",), "Enter", "edit", N_("opens the table"), N_("Open")),
         Key(("f7",), "F7", "copy", N_("copies the table under another name"), N_("Copy")),
