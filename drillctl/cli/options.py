@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
-from drillctl.language import Message, json_text
+from drillctl.language import Message, json_text, known_words
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
     from drillctl.jobs.runner import JobResult
     from drillctl.machine import Library, Machine
     from drillctl.plant import PlantChoice
+    from drillctl.ticker.converter.card import ConverterChoice
     from drillctl.ticker.launch import RunSettings
 
 DEFAULT_MACHINE = "pcb-drill"
@@ -116,6 +117,8 @@ def add_running(verb: argparse.ArgumentParser, defaults: Mapping[str, str] = DEF
     verb.add_argument("--plant", choices=("ideal", "dynamic"), help=plant + defaults["plant"])
     wrong = "a fault of the machine on the dynamic plant, e.g. blunt=20; repeatable; --fault list prints all"
     verb.add_argument("--fault", action=_FaultAction, default=[], metavar="NAME=N", help=wrong)
+    turned = "frequency converter of the spindle (--pace real): its table and serial device, delta-gs20:/dev/ttyUSB0"
+    verb.add_argument("--converter", metavar="TABLE:DEVICE", help=turned)
     scatter = f"seed of the random numbers of the dynamic plant; default: {defaults['seed']}"
     verb.add_argument("--seed", type=_seed, metavar="N", help=scatter)
 
@@ -169,7 +172,27 @@ def running(arguments: argparse.Namespace, port: str, traced: bool = False, deri
     from drillctl.plant import IDEAL_PLANT
     from drillctl.ticker.launch import RunSettings
 
-    return RunSettings(port, arguments.pace, traced, derived, plant(arguments) or IDEAL_PLANT)
+    settings = RunSettings(port, arguments.pace, traced, derived, plant(arguments) or IDEAL_PLANT)
+    return replace(settings, converter=converter(arguments))
+
+
+def converter(arguments: argparse.Namespace) -> "ConverterChoice | None":
+    """Returns the converter of ``--converter``; None without it. Raises PortRefused, TableError for its table."""
+    if arguments.converter is None:
+        return None
+    from drillctl.machine.converter import parse_converter
+    from drillctl.machine.source import Source
+    from drillctl.ports import PortRefused
+    from drillctl.ticker.converter.card import ConverterChoice
+
+    name, _, device = arguments.converter.partition(":")
+    tables = library(arguments)
+    file = tables.find("converter", name)
+    if file is None or not device:
+        words = known_words(name, tables.names("converter"))
+        reason = Message("it is TABLE:DEVICE, such as delta-gs20:/dev/ttyUSB0; {words}", words=words)
+        raise PortRefused(f"converter:{arguments.converter}", reason)
+    return ConverterChoice(parse_converter(Source.read(file)), device)
 
 
 def plant(arguments: argparse.Namespace) -> "PlantChoice | None":

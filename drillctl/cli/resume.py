@@ -53,10 +53,11 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
 
     chosen = JobSetup.of_journal(account.head.options, file)
     tables = chosen.tables and Path(chosen.tables)
+    converter = options.converter(argparse.Namespace(converter=arguments.converter, tables=tables))
     machine = options.machine(argparse.Namespace(machine=chosen.machine, tables=tables, tick_hz=chosen.tick_hz))
     with operating.waiting() as wait:
         left = rest_of(file, account, machine, wait).left
-    return Session(left, _running(file, account, arguments), file, account)
+    return Session(left, replace(_running(file, account, arguments), converter=converter), file, account)
 
 
 def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "RunSettings":

@@ -14,6 +14,7 @@ from drillctl.files.inputs import read_bytes, real_path
 from drillctl.files.shipped import shipped
 from drillctl.language import Message, known_words
 from drillctl.machine.config import parse_machine
+from drillctl.machine.converter import parse_converter
 from drillctl.machine.dynamics import parse_dynamics
 from drillctl.machine.errors import TableError
 from drillctl.machine.hazards import phase_hazards
@@ -137,8 +138,9 @@ class Library:
             if key in written:
                 return hazards(self, source)
         kinds = Message("a phase table has [[wire]], a ramp [[state]], a motor [windings], a machine [[axis]]")
+        others = Message("dynamics have inertia_kgm2, a converter protocol")
         raise TableError(
-            source.file, Message("no table of this program: {kinds}, dynamics have inertia_kgm2", kinds=kinds)
+            source.file, Message("no table of this program: {kinds}, {others}", kinds=kinds, others=others)
         )
 
     def _readable_machines(self) -> Iterator[tuple[str, Machine]]:
@@ -175,6 +177,10 @@ class Library:
         parse_motor(source)
         return []
 
+    def _converter_hazards(self, source: Source) -> list[Message]:
+        parse_converter(source)
+        return []
+
     def _dynamics_hazards(self, source: Source) -> list[Message]:
         parse_dynamics(source)
         return []
@@ -189,6 +195,7 @@ _KINDS: Mapping[str, Callable[[Library, Source], list[Message]]] = {
     "windings": Library._motor_hazards,
     "pulse": Library._motor_hazards,
     "inertia_kgm2": Library._dynamics_hazards,
+    "protocol": Library._converter_hazards,
 }
 
 

@@ -18,6 +18,7 @@ from drillctl.portio.registry import check_rate as check_port_rate
 from drillctl.portio.registry import open_port, port_of_card, select
 from drillctl.portio.simulated import SimulatedCard, SwitchedCard
 from drillctl.ports import Driver, PortLayout, PortRefused
+from drillctl.ticker.converter.card import ConverterCard, ConverterChoice, layout_without_words
 from drillctl.ticker.fast_ticker import FAR_SIGHT, FAST, TICK, FastTicker
 from drillctl.ticker.link import Link, LocalLink
 from drillctl.ticker.realtime import most_ticks_hz
@@ -41,6 +42,7 @@ class RunSettings:
     plant   what stands behind a simulated card
     engine  ``tick`` or ``fast``; None: fast where possible
     kept    by a screen, from job to job: its desk may be silent for longer between jobs
+    converter  the spindle's frequency converter; None: its speed is the simulated machine's, or wires of the card
     sliced  a simulated card at real pace runs by the simulated clock (sliced_clock.py), which is never late
     waits   a turn of the link to a ticker of its own waits a moment; False: the caller waits between two turns itself
     """
@@ -55,6 +57,7 @@ class RunSettings:
     kept: bool = False
     sliced: bool = False
     waits: bool = True
+    converter: ConverterChoice | None = None
 
 
 def port_of_mode(machine: Machine) -> str:
@@ -82,7 +85,7 @@ def on_port(running: RunSettings, port: str) -> RunSettings:
 
 def simulated(running: RunSettings) -> RunSettings:
     """The same settings on a simulated card."""
-    return running if not select(running.port)[0].real else replace(running, port=SIMULATED)
+    return running if not select(running.port)[0].real else replace(running, port=SIMULATED, converter=None)
 
 
 def files_of(spec: str) -> tuple[Path, ...]:
@@ -126,8 +129,8 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
     pace = pace_of(running)
     check_rate(machine, running)
     plant = plant_of(machine, running)
-    driver = open_port(running.port, port_layout(machine), _card(plant, running, pace) if plant else None)
     LOG.info("%s on port %s, pace %s, plant %s", machine.name, running.port, pace, running.plant)
+    driver = _opened(machine, running, _card(plant, running, pace) if plant else None, pace)
     if _goes_fast(running, pace, driver, plant, keeper):
         return LocalLink(
             FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
@@ -154,6 +157,23 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
             running.port,
             Message("the ticks have no process of their own: {why}", why=why),
         ) from error
+
+
+def _opened(machine: Machine, running: RunSettings, card: SimulatedCard | None, pace: str) -> Driver:
+    """The port's driver, with the converter's card around it where there is one."""
+    layout = port_layout(machine)
+    if running.converter is None:
+        return open_port(running.port, layout, card)
+    if pace == FREE:
+        reason = Message("a converter needs real time; say --pace real, or leave --converter out")
+        raise PortRefused(running.port, reason)
+    layout = layout_without_words(layout, machine, running.converter)
+    driver = open_port(running.port, layout, card)
+    try:
+        return ConverterCard(driver, machine, running.converter)
+    except PortRefused:
+        driver.close()
+        raise
 
 
 def _card(plant: Plant, running: RunSettings, pace: str) -> SimulatedCard:

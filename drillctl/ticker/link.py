@@ -15,6 +15,7 @@ from drillctl.language import Message
 from drillctl.plant import Plant
 from drillctl.portio.simulated import SwitchedCard
 from drillctl.ports import Driver, close_port
+from drillctl.ticker.converter.card import carried
 from drillctl.ticker.edited_tables import take_tables
 from drillctl.ticker.ticker import Ticker
 from drillctl.trace import Segments, Trace
@@ -205,15 +206,17 @@ class LocalLink:
 
 def hold_input(port: Driver, bit: int, level: int | None) -> bool:
     """Holds an input line where the port is a simulated card that can be held; returns whether it is."""
-    if not isinstance(port, SwitchedCard):
+    card = carried(port)
+    if not isinstance(card, SwitchedCard):
         return False
-    port.hold(bit, level)
+    card.hold(bit, level)
     return True
 
 
 def held_inputs(port: Driver) -> int:
     """The input bits that are held; 0 on a port where none can be."""
-    return port.held if isinstance(port, SwitchedCard) else 0
+    card = carried(port)
+    return card.held if isinstance(card, SwitchedCard) else 0
 
 
 def header_of(plant: Plant | None) -> Header:

@@ -20,6 +20,8 @@ from drillctl.machine.levels import POWER_ON
 from drillctl.plant import Plant
 from drillctl.ports import Driver, close_port
 from drillctl.ticker.child_process import ChildProcess
+from drillctl.ticker.converter.card import ConverterCard
+from drillctl.ticker.converter.process import LOST, ConverterProcess
 from drillctl.ticker.edited_tables import TableSlot
 from drillctl.ticker.guard_process import SILENCE_NS, run_guard
 from drillctl.ticker.link import Touch, header_of, held_inputs, hold_input
@@ -84,6 +86,7 @@ class PacedLink:
         )
         self._ticker = ChildProcess(body.run)
         self._channel["ticker_pid"] = self._ticker.pid
+        self._converter = ConverterProcess(port, self._channel, notice_end) if isinstance(port, ConverterCard) else None
         os.close(touch_end)
         os.close(notice_end)
 
@@ -132,6 +135,8 @@ class PacedLink:
         """
         now_ns = self._beat()
         self._drain()
+        if self._converter is not None and self._converter.look():
+            self.post(Request.STOP)
         if not self._unguarded and not self._channel["ended"] and self._guard_is_lost(now_ns):
             self._unguarded = True
             self._guard.end(patience_s=0)
@@ -176,13 +181,16 @@ class PacedLink:
         with suppress(BlockingIOError):
             *lines, self._half_line = (self._half_line + os.read(self._notices, 4096)).split(b"\n")
             self._noticed += map(message_read, lines)
-        return [*self._noticed, *([UNGUARDED] if self._unguarded else ())]
+        lost = [LOST] if self._converter is not None and self._converter.lost else []
+        return [*self._noticed, *lost, *([UNGUARDED] if self._unguarded else ())]
 
     def close(self) -> None:
         """Asks the ticker to leave and kills it if it doesn't; the guard ends after it. Then closes the port."""
         self._channel["leave"] = 1
         for child in (self._ticker, self._guard):
             child.end(LEAVE_S, meanwhile=self._beat)
+        if self._converter is not None:
+            self._converter.end(self._beat)
         with suppress(OSError):  # a port that was lost; the outcome says so
             close_port(self._port, self._channel["safe_image"])
         os.close(self._touched)

@@ -23,6 +23,7 @@ from drillctl.machine import Machine
 from drillctl.plant import Plant
 from drillctl.ports import Driver, PortSlow, make_safe
 from drillctl.ticker.confirmed_status import ConfirmedStatus
+from drillctl.ticker.converter.card import carried
 from drillctl.ticker.edited_tables import TableSlot, take_tables
 from drillctl.ticker.message_text import message_text
 from drillctl.ticker.realtime import become_punctual
@@ -59,7 +60,7 @@ class TickerProcess:
             machine, port, plant, ring is not None, derived,
             queue=self.queue, requests=self.requests, gate=self.gate, keeper=ring,
         )  # fmt: skip
-        self.vouched = ConfirmedStatus(port)
+        self.vouched = ConfirmedStatus(carried(port))
         self.looked_ns = 0
         self.spared = False  # a real machine's clock stands still, and its forcing was taken off
         self.desk = os.getpid()
