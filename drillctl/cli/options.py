@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import streams
-from drillctl.language import Message, json_text, known_words
+from drillctl.language import Message, json_text
 
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
@@ -180,19 +180,9 @@ def converter(arguments: argparse.Namespace) -> "ConverterChoice | None":
     """Returns the converter of ``--converter``; None without it. Raises PortRefused, TableError for its table."""
     if arguments.converter is None:
         return None
-    from drillctl.machine.converter import parse_converter
-    from drillctl.machine.source import Source
-    from drillctl.ports import PortRefused
-    from drillctl.ticker.converter.card import ConverterChoice
+    from drillctl.ticker.converter.card import choice_of
 
-    name, _, device = arguments.converter.partition(":")
-    tables = library(arguments)
-    file = tables.find("converter", name)
-    if file is None or not device:
-        words = known_words(name, tables.names("converter"))
-        reason = Message("it is TABLE:DEVICE, such as delta-gs20:/dev/ttyUSB0; {words}", words=words)
-        raise PortRefused(f"converter:{arguments.converter}", reason)
-    return ConverterChoice(parse_converter(Source.read(file)), device)
+    return choice_of(arguments.converter, library(arguments))
 
 
 def plant(arguments: argparse.Namespace) -> "PlantChoice | None":

@@ -9,10 +9,11 @@ import time
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from drillctl.language import Message
-from drillctl.machine import Machine
-from drillctl.machine.converter import HUANYANG, Converter
+from drillctl.language import Message, known_words
+from drillctl.machine import Library, Machine
+from drillctl.machine.converter import HUANYANG, Converter, parse_converter
 from drillctl.machine.levels import SPEED_ACTUAL, SPEED_WANTED, Word
+from drillctl.machine.source import Source
 from drillctl.ports import SAFE_IMAGE, Driver, PortLayout, PortRefused, with_bits
 from drillctl.ticker.converter.huanyang import HuanyangLine
 from drillctl.ticker.converter.lines import ConverterError, Line, ModbusLine
@@ -91,6 +92,17 @@ class ConverterCard:
     def _want(self, image: int) -> None:
         on = not self._wiring.switch or image & self._wiring.switch
         self.shared[WANTED] = self._wiring.wanted.value(image) if on else 0
+
+
+def choice_of(text: str, library: Library) -> ConverterChoice:
+    """Returns the converter that ``TABLE:DEVICE`` names. Raises PortRefused, TableError for its table."""
+    name, _, device = text.partition(":")
+    file = library.find("converter", name)
+    if file is None or not device:
+        words = known_words(name, library.names("converter"))
+        reason = Message("a converter is TABLE:DEVICE, such as delta-gs20:/dev/ttyUSB0; {words}", words=words)
+        raise PortRefused(f"converter:{text}", reason)
+    return ConverterChoice(parse_converter(Source.read(file)), device)
 
 
 def carried(port: Driver) -> Driver:
