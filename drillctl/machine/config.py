@@ -9,11 +9,13 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from drillctl.language import Counted, Message, known_words, nearest
+from drillctl.machine.axis_ramp import ramp_and_scale
 from drillctl.machine.homing import axes_named, homing_steps
 from drillctl.machine.inputs import encoder_indexes, sensors_and_inputs
-from drillctl.machine.model import MM_PER_INCH, AxisTable, Configuration, Machine, Sensor, Surroundings
+from drillctl.machine.model import AxisTable, Configuration, Machine, Sensor, Surroundings
 from drillctl.machine.outputs import outputs_of
 from drillctl.machine.parameter_file import check_parameters, read_parameters, with_backlash
+from drillctl.machine.parameters import Parameters
 from drillctl.machine.parts import Parts
 from drillctl.machine.reactions import only_zero_after, reactions
 from drillctl.machine.settings import settings_of, wire_settings_of
@@ -31,7 +33,8 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
     raw = source.records(MachineFile)
     _check_names(source, raw)
     wiring = source.numbers(raw.wiring, Bit, "wiring")
-    axes = tuple(_axis(source, raw, index, wiring, parts) for index in range(len(raw.axis)))
+    parameters = read_parameters(source, raw)
+    axes = tuple(_axis(source, raw, index, wiring, parts, parameters) for index in range(len(raw.axis)))
     _check_wiring(source, wiring, axes)
     outputs = outputs_of(source, raw, wiring)
     _check_locked(source, raw)
@@ -64,7 +67,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         reactions=reactions(source, raw, homing),
         only_zero_after=only_zero_after(source, raw),
         return_interval=raw.return_interval,
-        parameters=read_parameters(source, raw),
+        parameters=parameters,
         levels=outputs.levels,
         output_words=outputs.words,
         input_words=input_words,
@@ -106,11 +109,12 @@ def _check_names(source: Source, raw: MachineFile) -> None:
             raise source.error(reason, "index", number, "name")
 
 
-def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int], parts: Parts) -> AxisTable:
+def _axis(
+    source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int], parts: Parts, parameters: Parameters | None
+) -> AxisTable:
     row = raw.axis[index]
     phase = parts.phase(row.phase, source, ("axis", index, "phase"))
-    scale = raw.tick_hz, MM_PER_INCH / row.columns_per_inch
-    ramp = parts.ramp(row.ramp, scale, source, ("axis", index, "ramp"))
+    ramp, pulses_per_mm = ramp_and_scale(source, raw, index, parts, parameters)
     motor = parts.motor(row.motor, phase, source, ("axis", index, "motor"))
     dynamics = parts.dynamics(row.dynamics, motor, phase, source, ("axis", index, "dynamics"))
     low, high = row.range
@@ -140,7 +144,7 @@ def _axis(source: Source, raw: MachineFile, index: int, wiring: Mapping[str, int
     bits = tuple(_wire_bit(source, wiring, f"{row.name}.{wire}") for wire in phase.wire_names())
     return AxisTable(
         row.name, phase, ramp, motor, row.columns_per_step, row.columns_per_inch,
-        low, high, row.start, row.invert, bits, row.backlash, dynamics,
+        low, high, row.start, row.invert, bits, row.backlash, dynamics, pulses_per_mm,
     )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ Rule: nothing is read or checked here; config.py builds these. Positions, ranges
 import hashlib
 import os
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 
 from drillctl.machine.dynamics import Dynamics
@@ -39,10 +40,13 @@ class AxisTable:
     wire_bits: tuple[int, ...]
     backlash_steps: int = 0
     dynamics: Dynamics | None = field(default=None, repr=False)  # the plant's alone: not in the digest
+    pulses_per_mm: Fraction | None = field(default=None, repr=False)  # exact, where it follows from parameters
 
     @property
     def steps_per_mm(self) -> float:
         """Steps of the ramp to a millimetre of travel."""
+        if self.pulses_per_mm is not None:
+            return float(self.pulses_per_mm)
         return self.columns_per_inch / self.columns_per_step / MM_PER_INCH
 
     @property

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
+from drillctl.machine.drive_ramp import FROM_PARAMETERS
 from drillctl.machine.phase import Name
 from drillctl.ports import CARD_BITS
 
@@ -32,10 +33,10 @@ class AxisRow(Strict, frozen=True):
 
     name: Name
     phase: str
-    ramp: str
     columns_per_step: Positive
     columns_per_inch: Positive
     range: tuple[Steps, Steps]
+    ramp: str = FROM_PARAMETERS
     start: Steps = 0
     invert: bool = False
     motor: str | None = None

@@ -37,10 +37,10 @@ def stuck(b: Bench, name: str, level: int) -> Bench:
 @pytest.mark.parametrize(
     ("row", "wire", "level", "fault", "steps_in_row"),
     [
-        (0, "x_home", 0, Fault.HOMING_NO_SWITCH, 700 + 70),
+        (0, "x_home", 0, Fault.HOMING_NO_SWITCH, 800 + 80),
         (2, "x_home", 1, Fault.HOMING_ON_SWITCH, 90),
         (3, "x_index", 0, Fault.HOMING_NO_INDEX, 700),
-        (2, "x_index", 1, Fault.HOMING_EARLY_INDEX, 14),
+        (2, "x_index", 1, Fault.HOMING_EARLY_INDEX, 84),
     ],
 )
 def test_each_way_it_fails_has_its_fault(row: int, wire: str, level: int, fault: Fault, steps_in_row: int) -> None:
