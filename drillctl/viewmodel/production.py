@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 
 
@@ -58,6 +59,7 @@ class Records:
     cycle_s       how often positions and signals are looked at
     chucks        by spindle the tool in its chuck: 0 none, None unknown; empty where nothing is recorded
     missing       names of the parameters that must be entered before a board is drilled
+    trouble       why the magazine record can't be read
     """
 
     stroke_mm: float | None
@@ -69,6 +71,7 @@ class Records:
     places: tuple[PlaceRecord, ...]
     chucks: tuple[int | None, ...]
     missing: tuple[str, ...]
+    trouble: Message | None = None
 
 
 class Production(Protocol):

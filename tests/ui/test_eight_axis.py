@@ -2,17 +2,22 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from drillctl.language import words
+from drillctl.language import Message, words
 from drillctl.machine.library import user_tables
 from drillctl.machine.parameter_table import GROUPS, PARAMETERS
 from drillctl.ui.eight_axis import MachineScreen
+from drillctl.ui.eight_axis.lines import coordinate_lines, magazine_lines, tool_in_use, tool_lines, work_lines
 from drillctl.ui.eight_axis.machine import BUTTONS
 from drillctl.ui.eight_axis.parameters import ParameterForm
+from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.job_options import JobOptions
+from drillctl.viewmodel.production import PlaceRecord, Records, ToolRecord
+from tests.ui.fake_console import BOARD, VIEW
 from tests.ui.whole import Whole, at_home, show
 
 SIZES = ((80, 24), (100, 32), (160, 50))
@@ -141,3 +146,39 @@ def test_tools_are_added_and_removed(program: Whole) -> None:
     assert "Remove tool.17?" in program.text()
     program.press("y")
     assert not any(row.name.startswith("tool.17.") for row in program.console.production().parameters("tool"))  # type: ignore[union-attr]
+
+
+RECORDS = Records(
+    stroke_mm=6.0, bottom_mm=40.0, absolute_mm=(10.0, 0.0), relative_mm=None, cycle_s=0.1,
+    tools=(ToolRecord(1, 0.1, 0.05, 3000, 1), ToolRecord(4, 0.78, 0.05, 90, 2), ToolRecord(5, 0.81, 0.05, None, 0)),
+    places=(PlaceRecord(1, 1, (True, False, None)), PlaceRecord(2, 4)), chucks=(4, 0, None), missing=(),
+)  # fmt: skip
+
+
+def plain(lines: list[Line]) -> list[str]:
+    return ["".join(part if isinstance(part, str) else part[1] for part in line) for line in lines]
+
+
+def test_the_tool_in_use_is_that_which_serves_the_code_of_the_file() -> None:
+    """BOARD's T1 has 0.8 mm: the machine's own T1 does not fit, the nearest one does."""
+    in_use = tool_in_use(VIEW, RECORDS, BOARD)
+    assert in_use is not None and in_use.number == 5
+    assert next(line for line in plain(tool_lines(VIEW, RECORDS, BOARD)) if line.startswith(">")).split()[1] == "T5"
+    assert "Diameter  0.800 mm" in plain(work_lines(VIEW, RECORDS, BOARD, None))
+    assert tool_in_use(VIEW, RECORDS, None) is RECORDS.tools[0]
+
+
+def test_the_magazine_says_what_is_there_what_is_not_and_what_is_unknown() -> None:
+    shown = "\n".join(plain(magazine_lines(RECORDS, 34)))
+    assert "1 T1  o.?" in shown and "2 T4" in shown
+    assert "1:T4" in shown and "2:-" in shown and "3:?" in shown
+    lost = plain(magazine_lines(replace(RECORDS, trouble=Message("can't be read")), 34))
+    assert "can't be read" in lost
+
+
+def test_coordinates_count_from_the_origins_of_the_parameters_or_from_the_base() -> None:
+    """The axes of VIEW stand at 3.175 mm, which is also their place from the working base."""
+    at_base = plain(coordinate_lines(VIEW, RECORDS))
+    assert [line.split() for line in at_base[1:3]] == [["X", "-6.825", "3.175"], ["Y", "3.175", "3.175"]]
+    own = plain(coordinate_lines(VIEW, replace(RECORDS, relative_mm=(1.0, 2.0))))
+    assert [line.split() for line in own[1:3]] == [["X", "-6.825", "2.175"], ["Y", "3.175", "1.175"]]

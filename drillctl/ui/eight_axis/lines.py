@@ -4,9 +4,10 @@ Rule: functions of the machine's view and its records; what is on stands in brac
 that nothing is told by colour alone.
 """
 
-from drillctl.language.words import _
+from drillctl.language.words import _, translated
 from drillctl.ui.screens.machine_lines import lamp, phase_line
 from drillctl.ui.screens.window_lines import hole_text, time_text
+from drillctl.ui.widgets.folding import folded
 from drillctl.ui.widgets.texts import Line, packed
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView
 from drillctl.viewmodel.production import PlaceRecord, Records, ToolRecord
@@ -15,6 +16,7 @@ from drillctl.viewmodel.records import Progress
 BITS = {True: "o", False: ".", None: "?"}  # a bit of a place: there, not there, unknown
 NOTHING = "-"
 LABEL_WIDTH = 10
+EXACT_MM = 1e-9
 
 
 def coordinate_lines(view: MachineView, records: Records) -> list[Line]:
@@ -37,12 +39,14 @@ def work_lines(
     view: MachineView, records: Records, board: BoardView | None, progress: Progress | None
 ) -> list[Line]:  # fmt: skip
     """Stroke, bottom dead centre, the tool in use with diameter and allowed offset, holes, time, command."""
-    tool = next((tool for tool in records.tools if tool.number == view.tool), None)
+    tool, diameter_mm = tool_in_use(view, records, board), _diameter(view, board)
+    if diameter_mm is None and tool is not None:
+        diameter_mm = tool.diameter_mm
     return [
         _labelled(_("Stroke"), _mm(records.stroke_mm)),
         _labelled(_("Bottom"), _mm(records.bottom_mm)),
         _labelled(_("Tool"), f"T{view.tool}" if view.tool else NOTHING),
-        _labelled(_("Diameter"), _mm(_diameter(view, board, tool))),
+        _labelled(_("Diameter"), _mm(diameter_mm)),
         _labelled(_("Offset +-"), _mm(tool.offset_mm if tool else None)),
         _labelled(_("Holes"), hole_text(view, progress)),
         _labelled(_("Time"), time_text(progress)),
@@ -54,10 +58,28 @@ def _labelled(label: str, text: str) -> Line:
     return [("title", f"{label:{LABEL_WIDTH}}"), text]
 
 
-def _diameter(view: MachineView, board: BoardView | None, tool: ToolRecord | None) -> float | None:
-    """That of the machine's tool, else what the board's file says of its code."""
-    if tool is not None and tool.diameter_mm is not None:
-        return tool.diameter_mm
+def tool_in_use(view: MachineView, records: Records, board: BoardView | None) -> ToolRecord | None:
+    """The machine's tool that serves the code in the drill file: that of its number, else the nearest, among those
+    whose diameter differs by no more than their offset. Without a board, that of the number.
+    """
+    wanted_mm = _diameter(view, board)
+    if wanted_mm is None:
+        return next((tool for tool in records.tools if tool.number == view.tool), None)
+    fitting = [(_off_mm(tool, wanted_mm), tool) for tool in records.tools if _fits(tool, wanted_mm)]
+    fitting.sort(key=lambda pair: (pair[1].number != view.tool, pair[0]))
+    return fitting[0][1] if fitting else None
+
+
+def _fits(tool: ToolRecord, wanted_mm: float) -> bool:
+    return _off_mm(tool, wanted_mm) <= (tool.offset_mm or 0.0) + EXACT_MM
+
+
+def _off_mm(tool: ToolRecord, wanted_mm: float) -> float:
+    return abs((tool.diameter_mm or 0.0) - wanted_mm)
+
+
+def _diameter(view: MachineView, board: BoardView | None) -> float | None:
+    """What the board's file says of the tool's code."""
     tools = board.tools if board is not None else ()
     return next((one.diameter_mm for one in tools if one.number == view.tool), None)
 
@@ -74,10 +96,11 @@ def missing_lines(records: Records) -> list[Line]:
     return [[("warning", text)], [("warning", records.missing[0])]]
 
 
-def tool_lines(view: MachineView, records: Records) -> list[Line]:
+def tool_lines(view: MachineView, records: Records, board: BoardView | None) -> list[Line]:
     """The tools of the machine, the one in use marked: diameter, allowed offset, holes left, place."""
     head = f"  {_('tool'):5}{'mm':>6}{'+-':>6}{_('left'):>9}{_('place'):>6}"
-    return [[("title", head)], *(_tool(tool, tool.number == view.tool) for tool in records.tools)]
+    used = tool_in_use(view, records, board)
+    return [[("title", head)], *(_tool(tool, tool is used) for tool in records.tools)]
 
 
 def _tool(tool: ToolRecord, used: bool) -> Line:
@@ -91,6 +114,8 @@ def _tool(tool: ToolRecord, used: bool) -> Line:
 def magazine_lines(records: Records, columns: int) -> list[Line]:
     """The chucks with their tools, and the places with their tools and bits (o there, . not, ? unknown)."""
     lines: list[Line] = [[("title", _("Magazine"))]]
+    if records.trouble is not None:
+        lines += folded([[("warning", translated(records.trouble))]], columns)
     if records.chucks:
         chucks: list[Line] = [[f" {spindle}:{_chuck(tool)}"] for spindle, tool in enumerate(records.chucks, start=1)]
         lines += [[_("chucks")], *packed(chucks, columns)]

@@ -120,9 +120,9 @@ class MachineWindows(urwid.WidgetWrap[urwid.Widget]):
     def _records_of(self, columns: int) -> list[list[Line]]:
         if self._now is None or self._now[1] is None:
             return []
-        view, records = self._now[:2]
+        view, records, board = self._now[:3]
         assert records is not None
-        found = [tool_lines(view, records), magazine_lines(records, columns)]
+        found = [tool_lines(view, records, board), magazine_lines(records, columns)]
         return found if self._wide and self._large else [*found, signal_lines(view, columns)]
 
     def _paged(self, blocks: list[list[Line]], columns: int, rows: int) -> list[Line]:
