@@ -45,7 +45,8 @@ MOVING = {
     "BoardControls.dry_run", "BoardControls.hold_or_resume", "BoardControls.initialise", "BoardControls.set_base",
     "BoardControls._go_to", "BoardControls.return_to_zero", "JogControls.jog_on", "JogControls.jog_back",
     "QueueEditor.run_all", "QueueEditor.run_to_cursor", "QueueEditor.run_line", "QueueEditor.tick",
-    "AlignmentScreen.go_there", "Signals.toggle", "Panel.return_to_zero", "Panel.start", "Panel.resume",
+    "AlignmentScreen.go_there", "MachineScreen.park", "Signals.toggle", "Panel.return_to_zero",
+    "Panel.start", "Panel.resume",
 }  # fmt: skip
 CARRIED_ON = "Jogging.carry_on"  # the one step that waits while a jog is on its way; it was asked for by a key
 ANSWERED = "Dialog._closed_by.<locals>.both"  # a button was pressed
