@@ -14,6 +14,7 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
     grade.py      submissions of a lab sheet judged    parameters.py parameters of a machine, listed and set
     example_files.py  examples listed and copied       where.py     folders of tables, settings, journals
     completion.py verbs completed by a shell           table_files.py tables listed, shown and copied
+    magazine.py   which tool is where in a machine
 
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
 tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), board_trials.py
@@ -34,6 +35,7 @@ from drillctl.cli import (
     grade,
     inspect,
     latency,
+    magazine,
     parameters,
     plot,
     ports,
@@ -58,8 +60,8 @@ from drillctl.jobs.interrupts import caught, exit_code, leave
 
 NOBODY_READS = 141  # as a shell has it for SIGPIPE
 VERBS = (
-    run, resume, estimate, inspect, convert, store, replay, tables, parameters, ports, latency, screen, scope, plot,
-    report, sweep, tune, grade, example_files, where, completion,
+    run, resume, estimate, inspect, convert, store, replay, tables, parameters, magazine, ports, latency, screen, scope,
+    plot, report, sweep, tune, grade, example_files, where, completion,
 )  # fmt: skip
 DESCRIPTION = "Drives and simulates stepper-motor drilling machines."
 EPILOG = (

@@ -38,6 +38,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl parameters list system machining",
         "drillctl parameters help axis.x.s_share",
     ),
+    "magazine": (
+        "drillctl magazine list",
+        "drillctl magazine list --machine eight-axis",
+    ),
     "machines": (
         "drillctl machines",
         "drillctl machines --json",

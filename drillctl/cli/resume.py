@@ -57,7 +57,8 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     machine = options.machine(argparse.Namespace(machine=chosen.machine, tables=tables, tick_hz=chosen.tick_hz))
     with operating.waiting() as wait:
         left = rest_of(file, account, machine, wait).left
-    return Session(left, replace(_running(file, account, arguments), converter=converter), file, account)
+    running = replace(_running(file, account, arguments), converter=converter)
+    return Session(left, running, file, account).equipped()
 
 
 def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "RunSettings":

@@ -25,16 +25,18 @@ from drillctl.generation.waits import PLANNED, unwatched
 from drillctl.jobs.estimate import estimate_with_ticks
 from drillctl.jobs.journal import Account, Head, Journal, JournalError, head_of, read_journal
 from drillctl.jobs.journal.folder import give_up, unfinished
+from drillctl.jobs.magazine import MagazineError
 from drillctl.jobs.runner import JobRunner
 from drillctl.jobs.session import default_journal, journals, rest_of
 from drillctl.jobs.site import moved
+from drillctl.jobs.tool_keeping import ToolKeeping, with_tools
 from drillctl.language import Message, Refusal, message_of
 from drillctl.machine import Machine
 from drillctl.viewmodel.console import BoardView, Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions
 from drillctl.viewmodel.jobs import RecentJob, Site, UnfinishedJob
 
-REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, OSError)
+REFUSALS = (JobError, PlacingError, AlignmentError, JournalError, MagazineError, OSError)
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +65,7 @@ class Plan:
 class Boards:
     """One board at a time, with the lists of what was opened and what was cut off.
 
+    begun     the job that was begun, with the tools that the machine has, and what keeps the record of these
     troubles  of the journal of the job that ran last; that the job was stopped is none
     """
 
@@ -70,6 +73,7 @@ class Boards:
         self._recent = RecentJobs(journals() / "recent.json")
         self.plan: Plan | None = None
         self.journal: Journal | None = None
+        self.begun: tuple[Job, ToolKeeping | None] | None = None
         self.troubles: Problems = ()
 
     def load(self, file: Path, options: JobOptions, machine: Machine, base: Base, watch: Watch) -> Problems:
@@ -134,11 +138,14 @@ class Boards:
         return ()
 
     def begin(self, here: Site) -> Problems:
-        """Opens the journal of the loaded board. Refused where it holds an unfinished job, which would be lost."""
+        """Opens the journal of the loaded board. Refused where it holds an unfinished job, which would be lost, or
+        where the tools of the machine do not do for what is left.
+        """
         assert self.plan is not None
         try:
+            self.begun = with_tools(self.plan.left, journals())
             self.journal = Journal(self.plan.journal, self.plan.start_from, here)
-        except JournalError as error:
+        except REFUSALS as error:
             return _problems(error)
         return ()
 

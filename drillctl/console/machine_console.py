@@ -291,8 +291,9 @@ class MachineConsole:
         """Drills what is left of the planned board, from the base it was planned for, into its journal."""
         if problems := self.busy() or self._boards.begin(self.used.site):
             return problems
-        plan = self._boards.plan
+        plan, begun = self._boards.plan, self._boards.begun
         assert plan is not None
+        assert begun is not None
         self._base.move(*plan.setup.base)
-        self._job.begin(plan.left, self._boards.journal, plan.ticks, plan.done_before)
+        self._job.begin(begun[0], self._boards.journal, plan.ticks, plan.done_before, begun[1])
         return ()

@@ -15,6 +15,7 @@ from drillctl.generation.job import Job
 from drillctl.generation.sequences import holes_passed
 from drillctl.jobs.journal import Journal
 from drillctl.jobs.runner import JobRunner
+from drillctl.jobs.tool_keeping import ToolKeeping
 from drillctl.kmd import Condition, Op, Request
 from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
@@ -45,14 +46,15 @@ class RunningJob:
         return (self._runner.job.program, int(self._runner.first["done"])) if self._runner else (None, 0)
 
     def begin(
-        self, job: Job, journal: Journal | None = None, ticks: NDArray[np.int64] | None = None, done_before: int = 0
-    ) -> None:
+        self, job: Job, journal: Journal | None = None, ticks: NDArray[np.int64] | None = None, done_before: int = 0,
+        tools: ToolKeeping | None = None,
+    ) -> None:  # fmt: skip
         """Begins a job; the caller has made sure that none runs. The rest is as JobRunner has it."""
         self.prompt.open_for(job)
         asks = asks_for_tools(self._used.machine, self._used.link.measured, self._tools)
         self._runner = JobRunner(
             job, self._used.link, _ignore, journal, done_before, ticks,
-            tool_change=self.prompt if asks else None, resumes_itself=False,
+            tool_change=self.prompt if asks else None, resumes_itself=False, tools=tools,
         )  # fmt: skip
         self._runner.begin()
         self._used.recording.begin(job.program, int(self._runner.first["done"]))

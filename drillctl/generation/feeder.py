@@ -22,6 +22,7 @@ class Feeder:
         self._begins, self._ends = sequences.holes(program)
         self._limit = len(program)
         self._gates: list[int] = []
+        self._barriers: list[int] = []
 
     @property
     def holes(self) -> int:
@@ -61,7 +62,20 @@ class Feeder:
         """The tool has been changed."""
         self._gates.pop(0)
 
+    def stop_before(self, rows: list[int]) -> None:
+        """Nothing passes these commands, by index, before each is let through."""
+        self._barriers = rows
+
+    @property
+    def at_barrier(self) -> bool:
+        """Whether the next command waits to be let through."""
+        return bool(self._barriers) and self.put == self._barriers[0]
+
+    def let_through(self) -> None:
+        """The command that waits may be sent."""
+        self._barriers = self._barriers[1:]
+
     def feed(self) -> None:
-        """Hands over as much of what is released, and not behind a gate, as the queue takes."""
-        limit = min([self._limit, *self._gates[:1]])
+        """Hands over as much of what is released, and not behind a gate or a barrier, as the queue takes."""
+        limit = min([self._limit, *self._gates[:1], *self._barriers[:1]])
         self.put += self.queue.put(self.program[self.put : limit][: self.queue.room])

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.generation.eight_axis.magazine import Magazine
 from drillctl.generation.placing import Affine
 from drillctl.generation.worklist import Group, WorkList
 from drillctl.kmd import Names
@@ -34,7 +35,7 @@ class MadeHole:
 @dataclass(frozen=True, eq=False)
 class Job:
     """A program (dtype kmd.RECORD) with its source. ``work`` is None for a queue written by hand; ``programmed`` makes
-    the program of another work list in the same way.
+    the program of another work list in the same way, and on a machine with a magazine for what is known of its tools.
     """
 
     name: str
@@ -42,7 +43,7 @@ class Job:
     machine: Machine
     work: WorkList | None = None
     warnings: tuple[Message, ...] = ()
-    programmed: Callable[[WorkList], NDArray[np.void]] | None = None
+    programmed: Callable[..., NDArray[np.void]] | None = None
 
     @property
     def holes_total(self) -> int:
@@ -54,6 +55,11 @@ class Job:
         assert self.work is not None and self.programmed is not None
         work = self.work.without(done)
         return replace(self, work=work, program=self.programmed(work))
+
+    def equipped(self, magazine: Magazine) -> "Job":
+        """The same on a machine whose tools are as ``magazine`` says. Raises JobError where it can't be done so."""
+        assert self.programmed is not None
+        return replace(self, program=self.programmed(self.work, magazine=magazine))
 
     def made_hole(self, tool: int, tag: int, places: tuple[float, ...], head: int) -> MadeHole:
         """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis,

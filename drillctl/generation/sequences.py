@@ -20,6 +20,7 @@ class Change(IntFlag):
 
     NONE = 0
     AUTOMATIC = 1  # by the machine
+    RENEWED = 4  # an operator puts a new bit in for a tool of the machine
     WITHIN = 2  # among the holes of one tool of the file: another bit of the same diameter
 
 
@@ -67,9 +68,18 @@ def asked_changes(program: Records) -> NDArray[np.intp]:
 
 
 def drill_up(program: Records) -> Records:
-    """The same way with the drill up: every stroke down is left out, and no tool is changed."""
-    kept = program[~np.isin(program["opcode"], (*LOWERING, Op.NARZEDZIE))].copy()
+    """The same way with the drill up: strokes down are left out, heads go up all the way, and no tool is changed."""
+    left_out = np.isin(program["opcode"], (*LOWERING, Op.NARZEDZIE, Op.SUW, Op.KROK)) | _in_steps(program)
+    kept = program[~left_out].copy()
     return numbered([kept[:1], record(Op.WIERTLO_GORA), kept[1:]])
+
+
+def _in_steps(program: Records) -> NDArray[np.bool_]:
+    """Which commands belong to a step of a tool change, (n,)."""
+    begins = program["opcode"] == Op.KROK
+    latest = np.maximum.accumulate(np.where(begins, np.arange(len(program)), -1))
+    in_step: NDArray[np.bool_] = (latest >= 0) & (program["args"][latest, 0] > 0)
+    return in_step
 
 
 def holes_passed(program: Records, done: int) -> int:

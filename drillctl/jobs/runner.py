@@ -7,6 +7,7 @@ the ticker's. On every way out the outputs are safe.
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from types import FrameType
 
 import numpy as np
@@ -17,9 +18,11 @@ from drillctl.generation.job import Job, MadeHole
 from drillctl.jobs.estimate import TimeLeft
 from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
+from drillctl.jobs.magazine import MagazineError
 from drillctl.jobs.operator import JobHold, Operator, ToolChange
+from drillctl.jobs.tool_keeping import ToolKeeping
 from drillctl.kmd import Fault, Request, is_complete, is_over
-from drillctl.language import Message
+from drillctl.language import Message, Refusal
 from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link
 from drillctl.trace import Segments, Trace
@@ -60,6 +63,7 @@ class JobRunner:
                    longer than a ticker tolerates the desk's silence
     tool_change    None: each tool change counts as made
     resumes_itself see JobHold
+    tools          keeps the magazine record, on a machine that has one
     """
 
     job: Job
@@ -73,6 +77,7 @@ class JobRunner:
     tool_change: ToolChange | None = None
     operator: Operator | None = None
     resumes_itself: bool = True
+    tools: ToolKeeping | None = None
 
     def __post_init__(self) -> None:
         self.first = self.status = self.link.status()
@@ -101,6 +106,8 @@ class JobRunner:
             self.feeder.hold_back()
         if self.tool_change is not None:
             self.feeder.gate_tools()
+        if self.tools is not None:
+            self.feeder.stop_before(self.tools.barriers)
         self.status = self.first
         self._feed()
 
@@ -159,6 +166,25 @@ class JobRunner:
             except JournalError as error:
                 self._stop_for(error)
         self.feeder.feed()
+        self._begin_transfer()
+
+    def _begin_transfer(self) -> None:
+        """Notes the transfer of a tool that comes next, and then lets its first command through."""
+        commands = int(self.status["done"]) - int(self.first["done"])
+        due = self.tools is not None and self.feeder.at_barrier and self.tools.is_due(commands)
+        if self.tools is None or not due or self.trouble:
+            return
+        self._keep(self.tools.begin)
+        if not self.trouble:
+            self.feeder.let_through()
+            self.feeder.feed()
+
+    def _keep(self, note: Callable[[], None]) -> None:
+        """Changes the magazine record; where that fails, stops the job."""
+        try:
+            note()
+        except MagazineError as error:
+            self._stop_for(error)
 
     def _hear_operator(self) -> None:
         """Passes on what the operator asked since the last turn, and what the hold still needs."""
@@ -186,7 +212,10 @@ class JobRunner:
         """Journals the holes that are done: a hole is, once the head is up again. A lower sensor that answers too early
         is noticed there at the latest (SENSOR_CONTRADICTION), and its hole is drilled again.
         """
-        done = self.feeder.holes_ended(int(self.status["done"]) - int(self.first["done"]))
+        commands = int(self.status["done"]) - int(self.first["done"])
+        if self.tools is not None and not self.trouble:
+            self._keep(partial(self.tools.done, commands))
+        done = self.feeder.holes_ended(commands)
         if self.journal is not None and done > self.confirmed and not self.trouble:
             try:
                 self.journal.done([self.job.hole_number(hole) for hole in range(self.confirmed + 1, done + 1)])
@@ -194,8 +223,8 @@ class JobRunner:
                 self._stop_for(error)
         self.confirmed = done
 
-    def _stop_for(self, error: JournalError) -> None:
-        """Stops the job because its journal can't be written."""
+    def _stop_for(self, error: Refusal) -> None:
+        """Stops the job because its journal, or the magazine record, can't be written."""
         if self.trouble is None:
             self.trouble = error.message
             self.link.post(Request.STOP)

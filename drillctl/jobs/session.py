@@ -24,6 +24,7 @@ from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
 from drillctl.jobs.operator import Operator, ToolChange
 from drillctl.jobs.runner import JobResult, JobRunner, Watcher
 from drillctl.jobs.site import site_of
+from drillctl.jobs.tool_keeping import ToolKeeping, with_tools
 from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.ticker.forecast import forecast
@@ -41,6 +42,7 @@ class Session:
     start_from: Head | Account | None = None
     tool_change: ToolChange | None = None
     operator: Operator | None = None
+    tools: ToolKeeping | None = None
     has_forecast: bool = False
     ticks: NDArray[np.int64] | None = None  # of each command, where the time left is shown
 
@@ -49,13 +51,21 @@ class Session:
         work = self.job.work
         ordered = setup.as_ordered(None if work is None else work.order_steps)
         head = head_of(file, self.job, ordered.as_journalled())
-        return replace(self, journal=journal or default_journal(file), start_from=head)
+        return replace(self, journal=journal or default_journal(file), start_from=head).equipped()
+
+    def equipped(self) -> "Session":
+        """The same with the tools where the magazine record has them, which is then kept; unchanged on a machine
+        without a magazine. Raises MagazineError, and JobError where the job can't be done with these tools.
+        """
+        job, tools = with_tools(self.job, journals())
+        return replace(self, job=job, tools=tools)
 
     @property
     def files(self) -> tuple[Path, ...]:
         """The files that it writes while it runs; its results must go elsewhere."""
-        kept = () if self.journal is None else (self.journal, _status_of(self.journal))
-        return (*kept, *files_of(self.running.port))
+        journal = () if self.journal is None else (self.journal, _status_of(self.journal))
+        record = () if self.tools is None else (self.tools.file,)
+        return (*journal, *record, *files_of(self.running.port))
 
     def run(self, watcher: Watcher) -> JobResult:
         """Runs the job to its end; ``watcher`` is given its progress. Raises JobError, JournalError or PortError before
@@ -71,7 +81,7 @@ class Session:
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
             runner = JobRunner(
                 self.job, link, watcher, journal, done_before, ticks,
-                tool_change=self.tool_change, operator=self.operator,
+                tool_change=self.tool_change, operator=self.operator, tools=self.tools,
             )  # fmt: skip
             return runner.run()
 

@@ -11,8 +11,8 @@ from drillctl.cli.examples import EXAMPLES
 
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = (
-    "drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "parameters", "ports",
-    "plot", "report", "examples", "where", "completion",
+    "drillctl", "run", "estimate", "inspect", "convert", "store", "replay", "machines", "tables", "parameters",
+    "magazine", "ports", "plot", "report", "examples", "where", "completion",
 )  # fmt: skip
 BY_HAND = {"resume", "latency", "screen", "scope", "sweep", "tune", "grade"}  # a terminal, a cut-off job, seconds
 

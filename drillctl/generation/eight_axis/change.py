@@ -36,12 +36,14 @@ class ChangeMaker:
         assert changer is not None
         tools = {OLD: old, NEW: new}
         wanted = [(n, step) for n, step in enumerate(changer.steps, start=1) if tools.get(step.part, -1) != 0]
-        parts = self._chucks(spindles, 1) if old == EMPTY else []  # nothing can fall out
+        parts: list[Records] = []
         for turn, rows in groupby(wanted, key=lambda row: row[1].in_turn and changer.order == IN_TURN):
             block = list(rows)
             for chosen in [[spindle] for spindle in spindles] if turn else [spindles]:
                 for number, step in block:
                     parts += [record(Op.KROK, [number]), *self._step(step, tools.get(step.part, 0), chosen)]
+                    if old == EMPTY and number == wanted[0][0]:
+                        parts += self._chucks(spindles, 1)  # nothing can fall out
         return [*parts, record(Op.KROK, [0])]
 
     def by_hand(self, number: int, change: Change, tool: int) -> list[Records]:

@@ -74,11 +74,11 @@ class _Program:
         """What puts the tool of a stretch into the spindles."""
         tool = stretch.tool or 0
         if not is_automatic(self._machine):
-            return self._changes.by_hand(group.number, within, tool)
+            return self._changes.by_hand(group.number, within | _renewal(stretch), tool)
         parts = self._taken(tool)
         parts.append(record(Op.NARZEDZIE, [group.number, within | Change.AUTOMATIC, tool]))
         if stretch.renewed:
-            parts += self._changes.by_hand(group.number, Change.WITHIN, tool)
+            parts += self._changes.by_hand(group.number, Change.WITHIN | Change.RENEWED, tool)
         return parts
 
     def _emptied(self) -> list[Records]:
@@ -159,6 +159,10 @@ class _Program:
         for head, steps in zip(self._heads, tops, strict=True):
             args[head] = steps
         return record(Op.SUW, args, sum(1 << head for head in self._heads))
+
+
+def _renewal(stretch: Stretch) -> Change:
+    return Change.RENEWED if stretch.renewed else Change.NONE
 
 
 def _enabled(machine: Machine, heads: Sequence[int]) -> tuple[int, ...]:

@@ -12,7 +12,7 @@ from drillctl.generation.eight_axis.tools import Stretch, stretches
 from drillctl.generation.eight_axis.transfers import transfers
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import names_of
-from drillctl.generation.sequences import Records, asked_changes, tool_changes
+from drillctl.generation.sequences import Records, asked_changes, drill_up, tool_changes
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import Group, WorkList, build
 from drillctl.kmd import Op, program_texts
@@ -190,3 +190,10 @@ def test_a_feed_that_the_tick_rate_can_not_give_is_refused_with_the_nearest(
 ) -> None:
     with pytest.raises(JobError, match=f"lift_mm_min: {mm_min} mm/min .* nearest are {slower} and {faster}"):
         interval_of(MANUAL, 2, mm_min, "lift_mm_min")
+
+
+def test_a_dry_run_changes_no_tool_and_keeps_the_heads_all_the_way_up() -> None:
+    text = lines(AUTO, drill_up(program(AUTO)))
+    assert not [line for line in text if line.startswith(("KMD_KROK", "KMD_SUW", "KMD_RUCH", "KMD_NARZ", "KMD_CZEKAJ"))]
+    assert not [line for line in text if "chuck" in line or "WIERTLO_DOL" in line]
+    assert len([line for line in text if line.startswith(("KMD_GOTO_X_Y", "KMD_GORA_X_Y"))]) >= 3
