@@ -10,7 +10,7 @@ from drillctl.execution.line import Line
 from drillctl.kmd import Command, CommandQueue, Condition, Fault, Mailbox
 from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine, ways
-from drillctl.machine.head_lines import CHUCK, CONTACT, head_input, head_output
+from drillctl.machine.head_lines import CHUCK, CONTACT, alarm_input, head_input, head_output
 from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_ACTUAL, SPEED_WANTED, STOP, masks_at
 from drillctl.ports import Driver
 
@@ -49,6 +49,7 @@ class Controller:
     lifting   KMD_GORA_X_Y is current, and X and Y wait until the heads are clear of the board
     zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
     indexes   input bits of the encoders' indexes, by axis; 0 of an axis without one
+    alarms    inputs of drives that had tripped in the tick before, none once that was acknowledged; of ``alarm_mask``
     contacts  the same of the inputs that say that a head's bit touches; ``chuck_mask`` the outputs of the chucks
     homing_ways   by row of the homing table, how each of its axes goes
     homing_fault  why the current row of the homing table could not begin
@@ -103,6 +104,8 @@ class Controller:
         self.levels = tuple(masks_at(machine.levels, event) for event in (POWER_ON, STOP, FAULT, ESTOP))
         self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
         self.contacts = tuple(_contact_bit(machine, axis) for axis in range(len(machine.axes)))
+        self.alarm_mask = sum(_alarm_bit(machine, axis.name) for axis in machine.axes)
+        self.alarms = 0
         self.chuck_mask = sum(head_output(machine, CHUCK, head) for head in machine.drill_axes)
         self.homes_by_sensor = machine.homes_by_sensor
         self.set_rate(machine.tick_hz)
@@ -158,6 +161,12 @@ def _index_bit(machine: Machine, axis: int) -> int:
     """The input bit of the index of an axis's encoder, 0 where it has none."""
     index = machine.index_of(axis)
     return 0 if index is None else 1 << index.bit
+
+
+def _alarm_bit(machine: Machine, axis_name: str) -> int:
+    """The input bit that is on where the drive of an axis has tripped, 0 of an axis without one."""
+    line = alarm_input(machine, axis_name)
+    return 0 if line is None else 1 << line.bit
 
 
 def _contact_bit(machine: Machine, axis: int) -> int:

@@ -20,6 +20,8 @@ def guard(m: Controller) -> None:
     sensors = m.sensors
     if m.action_mask and (sensors & m.action_mask or m.estops) and serve_inputs(m):
         return
+    if (sensors & m.alarm_mask) != m.alarms and _drive_trips(m, sensors & m.alarm_mask):
+        return
     if m.shared:
         _note_ends(m, sensors & m.shared)
     for pair in m.pairs:
@@ -39,6 +41,15 @@ def guard(m: Controller) -> None:
     if m.speed_reached and m.spindle is not None and speed_is_lost(m):
         m.speed_reached = m.dip_ticks = 0
         raise_fault(m, Fault.SPINDLE_LOST)
+
+
+def _drive_trips(m: Controller, alarms: int) -> bool:
+    """Notes which drives say that they have tripped; returns whether one of them is new, which is a fault."""
+    new = alarms & ~m.alarms
+    m.alarms = alarms
+    if new:
+        raise_fault(m, Fault.DRIVE_ALARM)
+    return new > 0
 
 
 def _watch(m: Controller, axis: Axis, sensors: int) -> int:

@@ -74,7 +74,7 @@ def acknowledge(m: Controller) -> None:
     m.fault = Fault.NONE
     m.stopped_by = STOP
     m.fault_kept = False
-    m.estops = 0
+    m.estops = m.alarms = 0
 
 
 def switch_outputs(m: Controller) -> None:

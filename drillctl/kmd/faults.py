@@ -50,6 +50,7 @@ class Fault(IntEnum):
     HOMING_ON_SWITCH = 52
     HOMING_NO_INDEX = 53
     HOMING_EARLY_INDEX = 54
+    DRIVE_ALARM = 55
     CHANGE_Z_NOT_HOME = 60
     CHANGE_FOOT = 61
     CHANGE_NOT_THERE = 62
@@ -95,6 +96,7 @@ _ALL = (
     FaultSpec(Fault.HOMING_ON_SWITCH, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_NO_INDEX, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_EARLY_INDEX, Reaction.STOP, False),
+    FaultSpec(Fault.DRIVE_ALARM, Reaction.STOP, False),
     FaultSpec(Fault.CHANGE_Z_NOT_HOME, Reaction.STOP, False),
     FaultSpec(Fault.CHANGE_FOOT, Reaction.STOP, True),
     FaultSpec(Fault.CHANGE_NOT_THERE, Reaction.STOP, True),

@@ -1,8 +1,8 @@
 """What the dynamic plant must know of a motor and its load: windings, supply, torque, inertia, friction.
 
-Rule: SI units, named in the key. Only the plant uses them, so they are no part of a machine's digest. Two kinds of
-motors can be described: ``unipolar`` (two phases with centre taps, a magnet) and ``reluctance`` (three or five phases,
-no magnet, each winding on a chopper).
+Rule: SI units, named in the key. Only the plant uses them, so they are no part of a machine's digest. Three
+kinds of motors can be described: ``unipolar`` (two phases with centre taps, a magnet), ``reluctance`` (three or five
+phases, no magnet, each winding on a chopper) and ``drive`` (a servo motor in a drive that takes pulse and direction).
 """
 
 from collections.abc import Mapping
@@ -16,13 +16,14 @@ from drillctl.machine.motor import Motor
 from drillctl.machine.phase import Name, PhaseTable
 from drillctl.machine.source import Source
 
-KINDS = ("unipolar", "reluctance")  # in the order of plant/dynamic/law.py
+KINDS = ("unipolar", "reluctance", "drive")  # in the order of plant/dynamic/law.py
 # The half windings of a unipolar motor, by their electrical degrees: the order of the plant's currents.
 WINDING_DEGREES = (0, 180, 270, 90)
-# The keys that only one kind has, and must have.
+# The keys that a kind must have, and that no kind without them may have.
 OWN_KEYS = {
     "unipolar": ("forcing_volts", "torque_nm_per_a", "detent_nm"),
     "reluctance": ("phases", "current_a", "torque_nm_per_a2"),
+    "drive": ("torque_nm_per_a", "current_a", "bandwidth_hz", "error_pulses"),
 }
 Amount = Annotated[float, msgspec.Meta(gt=0, le=1e6)]
 Torque = Annotated[float, msgspec.Meta(ge=0, le=1e3)]
@@ -31,7 +32,7 @@ Volts = Annotated[float, msgspec.Meta(ge=0, le=400)]
 
 class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     name: Name
-    cycles_per_turn: Annotated[int, msgspec.Meta(ge=1, le=400)]
+    cycles_per_turn: Annotated[int, msgspec.Meta(ge=1, le=100_000)]
     normal_volts: Volts
     switch_volts: Volts
     freewheel_volts: Volts
@@ -40,13 +41,15 @@ class _File(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     inertia_kgm2: Amount
     viscous_nms: Torque
     coulomb_nm: Torque
-    kind: Literal["unipolar", "reluctance"] = "unipolar"
+    kind: Literal["unipolar", "reluctance", "drive"] = "unipolar"
     forcing_volts: Volts | None = None
     torque_nm_per_a: Amount | None = None
     detent_nm: Torque | None = None
     phases: Literal[3, 5] | None = None
     current_a: Amount | None = None
     torque_nm_per_a2: Amount | None = None
+    bandwidth_hz: Annotated[float, msgspec.Meta(gt=0, le=500)] | None = None
+    error_pulses: Annotated[int, msgspec.Meta(ge=1, le=1_000_000)] | None = None
     description: str = ""
     forcing: dict[str, list[str]] = {}
 
@@ -64,6 +67,9 @@ class Dynamics:
     windings          how many: the phases of a reluctance motor
     current_a         at which the chopper of a winding holds its current
     torque_nm_per_a2  K = teeth x half the inductance's swing; the torque of a winding is K/2 i^2 at its best angle
+    bandwidth_hz      of a drive: its motor follows its pulses like a critically damped swing of this frequency; a drive
+                      has one winding, ``cycles_per_turn`` are its pulses, ``current_a`` is the most that it gives
+    error_pulses      the following error at which it trips
     """
 
     name: str
@@ -84,6 +90,8 @@ class Dynamics:
     windings: int = len(WINDING_DEGREES)
     current_a: float = 0.0
     torque_nm_per_a2: float = 0.0
+    bandwidth_hz: float = 0.0
+    error_pulses: int = 0
 
     @property
     def degrees(self) -> tuple[int, ...]:
@@ -101,9 +109,12 @@ def parse_dynamics(source: Source) -> Dynamics:
     if raw.kind == "unipolar":
         if fields["forcing_volts"] < raw.normal_volts:
             raise source.error(Message("forcing_volts is below normal_volts"), "forcing_volts")
-        fields.update(phases=len(WINDING_DEGREES), current_a=0.0, torque_nm_per_a2=0.0)
+        fields["phases"] = len(WINDING_DEGREES)
     else:
-        fields.update(forcing_volts=raw.normal_volts, torque_nm_per_a=0.0, detent_nm=0.0)
+        fields["forcing_volts"] = raw.normal_volts
+    if raw.kind == "drive":
+        fields["phases"] = 1
+    fields.update({key: 0.0 for key in fields if fields[key] is None})  # what is of another kind
     del fields["description"]
     fields["windings"] = fields.pop("phases")
     fields["forcing"] = tuple((wire, tuple(windings)) for wire, windings in raw.forcing.items())
@@ -116,7 +127,7 @@ def _check_kind(source: Source, kind: str, fields: Mapping[str, object]) -> None
         for key in keys:
             if of == kind and fields[key] is None:
                 raise source.error(Message("{name} is missing", name=key), key)
-            if of != kind and fields[key] is not None:
+            if key not in OWN_KEYS[kind] and fields[key] is not None:
                 raise source.error(Message("{key} belongs to a {kind} motor", key=key, kind=of), key)
     if kind != "unipolar" and fields["forcing"]:
         raise source.error(Message("{key} belongs to a {kind} motor", key="forcing", kind="unipolar"), "forcing")
@@ -124,6 +135,11 @@ def _check_kind(source: Source, kind: str, fields: Mapping[str, object]) -> None
 
 def misfit(dynamics: Dynamics, motor: Motor, phase: PhaseTable) -> Message | None:
     """Returns why these dynamics can't describe the motor with this phase table, or None where they can."""
+    if dynamics.kind == "drive":
+        fits = motor.pulse is not None
+        reason = Message("motor {name} takes no pulses, as a drive of dynamics {dynamics} does", name=motor.name,
+                         dynamics=dynamics.name)  # fmt: skip
+        return None if fits else reason
     if sorted(angle % 360 for _, angle in motor.windings) != sorted(dynamics.degrees):
         return _wrong_windings(dynamics, motor)
     forcing = {wire.name for wire in phase.wires if wire.forcing}

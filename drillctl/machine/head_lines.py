@@ -1,8 +1,9 @@
-"""The inputs and outputs that each drilling head has of its own, by name: ``tool_1`` is the first head's.
+"""The inputs and outputs that a drilling head or an axis has of its own, by name: ``tool_1`` is the first head's.
 
     chuck_N    output: its chuck is open where it is 1
     tool_N     input: a tool is in its chuck
     contact_N  input: its bit touches the board
+    AXIS_alarm  input: the drive of that axis has tripped
 """
 
 from drillctl.machine.model import Input, Machine
@@ -13,6 +14,11 @@ CHUCK, TOOL, CONTACT = "chuck", "tool", "contact"
 def head_input(machine: Machine, kind: str, axis: int) -> Input | None:
     """Returns the input of this kind of a drilling head, or None where it has none."""
     return next((line for line in machine.inputs if line.name == _name(machine, kind, axis)), None)
+
+
+def alarm_input(machine: Machine, axis_name: str) -> Input | None:
+    """Returns the input that says that an axis's drive has tripped, or None where the machine has none."""
+    return next((line for line in machine.inputs if line.name == f"{axis_name}_alarm"), None)
 
 
 def head_output(machine: Machine, kind: str, axis: int) -> int:

@@ -16,6 +16,7 @@ HOMING = (
     "HOMING_NOT_FOUND", "HOMING_NO_SWITCH", "HOMING_OFF_SWITCH", "HOMING_ON_SWITCH", "HOMING_NO_INDEX",
     "HOMING_EARLY_INDEX",
 )  # fmt: skip
+_DRIVE = Message("the drive that has tripped does not hold its motor")
 _HEAD = Message("the head is not where its steps have put it")
 _ENDS = Message("the fault ends the process that would brake")
 # Why a fault's reaction can't be chosen.
@@ -29,6 +30,7 @@ FIXED: Mapping[str, Message] = {
 # Why a position can't be kept after a fault, whatever the reaction.
 NOT_KEPT: Mapping[str, Message] = {
     "RANGE": Message("it is the count of steps that has left the range"),
+    "DRIVE_ALARM": _DRIVE,
     **dict.fromkeys(HOMING, Message("the position is not known during initialisation")),
     "DRILL_NOT_DOWN": _HEAD,
     "HEAD_NOT_UP": _HEAD,
@@ -40,6 +42,7 @@ NO_RETURN: Mapping[str, Message] = {
     "HEAD_NOT_UP": Message("the return to zero begins by raising the head"),
     "CHANGE_Z_NOT_HOME": Message("the return to zero begins by raising the head"),
     "SENSOR_CONTRADICTION": Message("the return to zero needs sensors that can be trusted"),
+    "DRIVE_ALARM": _DRIVE,
 }
 ANY = (
     "LIMIT", "SOFT_LIMIT", "HOMING_REQUIRED", "DRILLING_TIME", "INPUT_TIMEOUT", "LINE_MISMATCH", "BAD_COMMAND",

@@ -87,9 +87,8 @@ class PulseRotor(Rotor):
         motor = table.motor
         assert motor.pulse and motor.direction
         self.pulse = 1 << bits[motor.pulse]
-        forward = next(wire for wire in table.phase.wires if wire.name == motor.direction).forward[0]
         self.direction = 1 << bits[motor.direction]
-        self.forward = self.direction if forward else 0
+        self.forward = self.direction if forward_level(table) else 0
         self.was_high = False
 
     def see(self, pattern: int) -> None:
@@ -105,6 +104,11 @@ class PulseRotor(Rotor):
         if rising:
             self.degrees += FULL_TURN if pattern & self.direction == self.forward else -FULL_TURN
         return rising
+
+
+def forward_level(table: AxisTable) -> bool:
+    """Returns whether the direction wire of an axis with a pulse drive is high on the way forward."""
+    return bool(next(wire for wire in table.phase.wires if wire.name == table.motor.direction).forward[0])
 
 
 def rotor_of(table: AxisTable) -> Rotor:

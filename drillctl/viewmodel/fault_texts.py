@@ -146,6 +146,10 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("the encoder's index was on already where the axis had just left its origin switch"),
         Message("check whether the index is stuck; move the switch by half a turn, so that the index comes later"),
     ),
+    Fault.DRIVE_ALARM: FaultWords(
+        Message("the drive of an axis has tripped: its motor fell too far behind its pulses"),
+        Message("lower speed or acceleration, look for a jammed guide; switch the drive on anew, then initialise again"),
+    ),
     Fault.CHANGE_Z_NOT_HOME: FaultWords(
         Message("in a tool change a spindle did not reach its upper sensor, or not in the time of the step"),
         Message("free the spindle and its chuck, check the upper sensor, then initialise and resume the job"),

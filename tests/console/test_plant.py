@@ -70,7 +70,7 @@ def test_it_is_refused_while_at_work(console: MachineConsole) -> None:
 
 
 def test_a_machine_without_dynamics_says_so(console: MachineConsole) -> None:
-    assert console.choose_machine("eight-axis") == ()
+    assert console.choose_machine("cnc-shield") == ()
     problems = MachinePlant(console).swap()
     assert "has no dynamics" in problems[0] and console.view().plant == ""
 

@@ -154,6 +154,13 @@ def spindle_that_is_braked() -> Bench:
     return b
 
 
+def drive_alarm() -> Bench:
+    machine = shipped("pcb-drill")
+    b = Bench(replace(machine, inputs=(Input("x_alarm", 20, 1, "none"),))).ready().queue(LONG_MOVE).tick(60)
+    b.card.stuck_high = b.input_bit("x_alarm")
+    return b
+
+
 def from_the_wiring(fault: Fault) -> Callable[[], Bench]:
     """Ports and processes are lost between ticks, where the wiring sees it and says so."""
 
@@ -198,6 +205,7 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.ONLY_ZERO: bound_to_zero,
     Fault.SPINDLE_SPEED: spindle_that_does_not_turn,
     Fault.SPINDLE_LOST: spindle_that_is_braked,
+    Fault.DRIVE_ALARM: drive_alarm,
     Fault.HOMING_NO_SWITCH: homing_by_index(1, "x_min", 0),
     Fault.HOMING_OFF_SWITCH: off_the_switch,
     Fault.HOMING_ON_SWITCH: homing_by_index(3, "x_min", 1),

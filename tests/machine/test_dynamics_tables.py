@@ -49,7 +49,7 @@ def test_the_head_is_the_carriage_by_similarity(name: str) -> None:
 
 
 def test_a_machine_need_not_have_them() -> None:
-    assert all(axis.dynamics is None for axis in Library((shipped_tables(),)).machine("eight-axis").axes)
+    assert all(axis.dynamics is None for axis in Library((shipped_tables(),)).machine("cnc-shield").axes)
 
 
 @pytest.mark.parametrize("table", [CARRIAGE, DRILL])

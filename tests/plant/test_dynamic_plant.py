@@ -245,8 +245,8 @@ def refused(build: Callable[[], object]) -> str:
 
 
 def test_what_a_machine_cannot_have_is_refused(drill: Machine) -> None:
-    eight = LIBRARY.machine("eight-axis")
-    assert "eight-axis has no dynamics for x, y, z1" in refused(lambda: PlantChoice("dynamic").build(eight))
+    shield = LIBRARY.machine("cnc-shield")
+    assert "cnc-shield has no dynamics for x, y, z" in refused(lambda: PlantChoice("dynamic").build(shield))
     assert "say --plant dynamic" in refused(lambda: PlantChoice("ideal", ("blunt=3",)).build(drill))
     assert "can't be built" in refused(lambda: PlantChoice.of_header("magic", "0"))
 

@@ -50,7 +50,7 @@ class Engine:
             and all(_rests(axis) for axis in m.axes)
             and all(self._world.stands(index, _travel(axis)) for index, axis in enumerate(m.axes))
             and not any(sensors & pair == pair for pair in m.pairs)
-            and not (sensors & (m.action_mask | m.shared) or m.estops)
+            and not (sensors & (m.action_mask | m.shared | m.alarm_mask) or m.estops)
             and not (m.spindle is not None and m.speed_reached and not at_speed(m, sensors))
         )
 

@@ -15,6 +15,13 @@ A motor of variable reluctance (kind "reluctance", machine/dynamics.py) has n wi
 
 where L in the first line is the mean inductance: the time constant is taken as the same at every angle.
 
+A motor in a drive (kind "drive") has one current and a goal g, which each pulse moves by a cycle:
+
+    i -> a (g - u) - b w, as fast as its current loop lets it, within the drive's current and what the supply leaves, (V - K w) / R
+    J dw/dt = K i - B w - friction      a, b: critically damped, at the frequency of the drive's bandwidth
+
+It trips where g - u is more than its following error, and gives no current from then on.
+
 The first is a unipolar motor as textbooks and Simscape have it (independent half windings, no saturation), with diodes,
 forcing and true stiction added. One substep of h seconds: currents exactly for a frozen back-EMF, then speed, then
 friction as far as it can stop the rotor, then place (semi-implicit Euler).
@@ -32,6 +39,14 @@ from drillctl.machine.dynamics import KINDS, Dynamics
 SUBSTEPS = 40  # 50 us at 500 Hz: a rotor's place is then within 0.02 full steps of the limit of finer ones
 LONGEST_SUBSTEP_S = 5e-4  # even at ten times 50 us steps are lost from the same tick rate on
 LONGEST_CHOPPED_S = 5e-6  # of a reluctance motor, whose windings change fifty times more often than the paper's ticks
+LONGEST_SERVED_S = 1e-4  # of a drive, whose own frequency is far below
+CURRENT_LOOP_HZ = 800  # how fast a drive brings its current to what it wants: assumed
+# By kind of motor: the fewest substeps of a tick, and the longest one.
+SUBSTEPS_OF = {
+    "unipolar": (SUBSTEPS, LONGEST_SUBSTEP_S),
+    "reluctance": (1, LONGEST_CHOPPED_S),
+    "drive": (1, LONGEST_SERVED_S),
+}
 SINES = 1024  # places of a cycle; between them a straight line, wrong by less than 5e-6
 QUARTER = SINES // 4
 
@@ -62,6 +77,9 @@ class Coefficients:
     spacing   cycles from a winding of a reluctance motor to the next
     windings  how many; ``kind`` is one of law.py's
 
+    stiff     A by a pulse of following error, of a drive; ``damp`` A per rad/s
+    trip      the following error in pulses at which a drive trips
+
     For a reluctance motor emf is A per rad/s and A, and push is by the square of an ampere.
     """
 
@@ -78,19 +96,25 @@ class Coefficients:
     spacing: float
     windings: int
     kind: int
+    stiff: float
+    damp: float
+    trip: float
 
 
 def coefficients(d: Dynamics, tick_hz: int) -> Coefficients:
     """Returns the coefficients for ticks of 1 / tick_hz seconds."""
-    chopped = d.kind == "reluctance"
-    fewest, longest_s = (1, LONGEST_CHOPPED_S) if chopped else (SUBSTEPS, LONGEST_SUBSTEP_S)
+    chopped, driven = d.kind == "reluctance", d.kind == "drive"
+    fewest, longest_s = SUBSTEPS_OF[d.kind]
     substeps = max(fewest, math.ceil(1 / (tick_hz * longest_s)))
     h_s = 1 / (tick_hz * substeps)
     gain = h_s / d.inertia_kgm2
     torque = d.torque_nm_per_a2 if chopped else d.torque_nm_per_a
+    servo = 2 * math.pi * d.bandwidth_hz  # rad/s of its own frequency, critically damped
+    radians = 2 * math.pi / d.cycles_per_turn
+    settles_hz = 2 * math.pi * CURRENT_LOOP_HZ if driven else d.resistance_ohm / d.inductance_h  # of a current
     return Coefficients(
         substeps,
-        decay=rounded(math.exp(-d.resistance_ohm * h_s / d.inductance_h)),
+        decay=rounded(math.exp(-h_s * settles_hz)),
         emf=rounded(torque / d.resistance_ohm),
         keep=rounded(1 - d.viscous_nms * gain),
         push=rounded((torque / 2 if chopped else torque) * gain),
@@ -102,6 +126,9 @@ def coefficients(d: Dynamics, tick_hz: int) -> Coefficients:
         spacing=rounded(1 / d.windings),
         windings=d.windings,
         kind=KINDS.index(d.kind),
+        stiff=rounded(servo * servo * d.inertia_kgm2 / torque * radians),
+        damp=rounded(2 * servo * d.inertia_kgm2 / torque),
+        trip=float(d.error_pulses),
     )
 
 

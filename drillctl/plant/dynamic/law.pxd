@@ -4,9 +4,10 @@ cimport cython
 
 cdef Py_ssize_t CURRENTS, SPEED, CYCLES, SUPPLY, OFF, NORMAL, FORCED, DECAY, EMF, KEEP, PUSH, DETENT, STOP, GAIN, ADVANCE
 cdef Py_ssize_t SUBSTEPS, LIMIT, SPACING, WINDINGS, KIND, FORWARD, BACKWARD, RESTING, ZERO, COLUMNS, START, PITCH, PLAY, PLACE, LOW, HIGH, SCALE
-cdef Py_ssize_t MOVED, BEFORE, ROW
+cdef Py_ssize_t MOVED, BEFORE, STIFF, DAMP, TRIP, ROW
 cdef Py_ssize_t MOST, WIRES
-cdef Py_ssize_t UNIPOLAR, RELUCTANCE
+cdef Py_ssize_t UNIPOLAR, RELUCTANCE, DRIVE
+cdef Py_ssize_t COUNT, SEEN, TRIPPED
 cdef Py_ssize_t MOUNTED, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN, WEAR, METRES, THRUST, GROWTH, LEVER, SAME, LEFT, STILL, HOLE
 cdef double TURN
 cdef Py_ssize_t SINES, QUARTER
@@ -23,6 +24,12 @@ cpdef void unipolar(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::
                _=cython.Py_ssize_t, winding=cython.Py_ssize_t, turned=cython.double, back=cython.double, pull=cython.double, place=cython.double,
                entry=cython.Py_ssize_t, part=cython.double, sin=cython.double, current=cython.double, goal=cython.double)
 cpdef void reluctance(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
+
+@cython.locals(level=cython.double, goal=cython.double, decay=cython.double, emf=cython.double, keep=cython.double, push=cython.double, limit=cython.double,
+               most=cython.double, stiff=cython.double, damp=cython.double, trip=cython.double, forward=cython.double, backward=cython.double,
+               advance=cython.double, tripped=cython.double, current=cython.double, speed=cython.double, cycles=cython.double, _=cython.Py_ssize_t,
+               behind=cython.double, wanted=cython.double)
+cpdef void drive(double[::1] rows, Py_ssize_t at) noexcept
 
 @cython.locals(winding=cython.Py_ssize_t, speed=cython.double, cycles=cython.double, moved=cython.bint)
 cpdef bint step(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept

@@ -23,6 +23,11 @@ Each axis is a row of ``rows``, a flat sequence of floats; row n begins at ``n *
     LOW, HIGH      the places between which (neither included) no sensor changes and no bit meets or leaves the board
     SCALE          steps of a millimetre
     BEFORE         the currents before the present tick
+    STIFF, DAMP, TRIP   of a drive, as in coefficients.Coefficients
+
+A drive has one winding. From CURRENTS on it keeps, behind the current, the pulses that it has COUNTed, the level of its
+pulse wire as last SEEN, and 1 where it has TRIPPED. SUPPLY is NORMAL where its pulse wire is high, and the next column
+where its direction wire is; FORCED is what that is on the way forward.
 
 ``wires`` has WIRES whole numbers for each axis: for each of MOST windings the bit that switches it on (0 where the
 motor has fewer), then for each the bits of the forcing wires that feed it; behind them stands the last image. ``bit``
@@ -44,12 +49,14 @@ FORWARD, BACKWARD, RESTING = 28, 29, 30
 ZERO, COLUMNS, START, PITCH, PLAY, PLACE = 31, 32, 33, 34, 35, 36
 LOW, HIGH, SCALE, MOVED = 37, 38, 39, 40
 BEFORE = 41
-ROW = 46
+STIFF, DAMP, TRIP = 46, 47, 48
+ROW = 49
 
 MOST = 5  # windings of a motor
 WIRES = 10
 
-UNIPOLAR, RELUCTANCE = 0, 1  # the kinds of motors
+UNIPOLAR, RELUCTANCE, DRIVE = 0, 1, 2  # the kinds of motors
+COUNT, SEEN, TRIPPED = 1, 2, 3  # of a drive, from CURRENTS on: its other state
 
 MOUNTED, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN = 0, 1, 2, 3, 4, 5
 WEAR, METRES, THRUST, GROWTH, LEVER, SAME = 6, 7, 8, 9, 10, 11
@@ -186,6 +193,57 @@ def reluctance(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float
     rows[at + CYCLES] = cycles
 
 
+def drive(rows: Rows, at: int) -> None:
+    """One tick of a motor in its drive: a pulse moves its goal by a cycle, and current pulls it there. Farther than TRIP
+    from its goal the drive trips: no current from then on, and a place without LOW .. HIGH, so that ``run`` ends.
+    """
+    level = rows[at + SUPPLY]
+    if level > rows[at + CURRENTS + SEEN]:
+        rows[at + CURRENTS + COUNT] += 1.0 if rows[at + SUPPLY + 1] == rows[at + FORCED] else -1.0
+    rows[at + CURRENTS + SEEN] = level
+    goal = rows[at + CURRENTS + COUNT]
+    decay = rows[at + DECAY]
+    emf = rows[at + EMF]
+    keep = rows[at + KEEP]
+    push = rows[at + PUSH]
+    limit = rows[at + LIMIT]
+    most = rows[at + NORMAL]
+    stiff = rows[at + STIFF]
+    damp = rows[at + DAMP]
+    trip = rows[at + TRIP]
+    forward = rows[at + FORWARD]
+    backward = rows[at + BACKWARD]
+    advance = rows[at + ADVANCE]
+    tripped = rows[at + CURRENTS + TRIPPED]
+    current = rows[at + CURRENTS]
+    speed = rows[at + SPEED]
+    cycles = rows[at + CYCLES]
+    for _ in range(int(rows[at + SUBSTEPS])):
+        behind = goal - cycles
+        if behind > trip or behind < -trip:
+            tripped = 1.0
+        wanted = 0.0
+        if tripped == 0.0:
+            wanted = stiff * behind - damp * speed
+            wanted = min(wanted, limit, most - emf * speed)
+            wanted = max(wanted, -limit, -most - emf * speed)
+        current = wanted + (current - wanted) * decay
+        speed = speed * keep + push * current
+        if speed > forward:
+            speed -= forward
+        elif speed < -backward:
+            speed += backward
+        else:
+            speed = 0.0
+        cycles += advance * speed
+    if tripped != rows[at + CURRENTS + TRIPPED]:
+        rows[at + LOW] = rows[at + HIGH] = 0.0
+    rows[at + CURRENTS + TRIPPED] = tripped
+    rows[at + CURRENTS] = current
+    rows[at + SPEED] = speed
+    rows[at + CYCLES] = cycles
+
+
 def step(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> bool:
     """One tick of a motor on its present supply; returns False where it rests and nothing was to be done."""
     if rows[at + RESTING] != 0.0:
@@ -196,6 +254,8 @@ def step(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> 
     cycles = rows[at + CYCLES]
     if rows[at + KIND] == RELUCTANCE:
         reluctance(rows, at, sine, slope)
+    elif rows[at + KIND] == DRIVE:
+        drive(rows, at)
     else:
         unipolar(rows, at, sine, slope)
     moved = speed != rows[at + SPEED] or cycles != rows[at + CYCLES]

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from drillctl.language import Message
 from drillctl.machine import Machine
+from drillctl.machine.head_lines import alarm_input
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
-from drillctl.plant.carriage import Pulses
+from drillctl.plant.carriage import Line, Pulses
 from drillctl.plant.chucks import chucks_of
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
@@ -62,6 +63,7 @@ class DynamicPlant(Plant):
         worn_m = known_faults.of("blunt") or 0.0
         self._bit = Bit(head, len(axes), surface, machine.surroundings, worn_m, kernel)
         self._bound()
+        self._alarms = [Line.of(alarm_input(machine, table.name)) for table in machine.axes]
         self._resting = False
         self._tick_hz = machine.tick_hz
         self._one = np.zeros(1, np.uint64)
@@ -126,6 +128,9 @@ class DynamicPlant(Plant):
         for index, belt in enumerate(self.belts):
             if belt.flutters or self._rows[index * law.ROW + law.MOVED]:
                 self._carry(index)
+        for line, motor in zip(self._alarms, self.motors, strict=True):
+            if motor.tripped:
+                self.inputs = line.put(self.inputs, True)
         self._bound()
 
     def _bound(self) -> None:

@@ -12,7 +12,7 @@ from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import Supply, Wires, coefficients
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
-from drillctl.plant.rotor import FULL_TURN, Rotor
+from drillctl.plant.rotor import FULL_TURN, Rotor, forward_level
 
 
 class DynamicRotor(Rotor):
@@ -25,6 +25,12 @@ class DynamicRotor(Rotor):
         self._wires = wires_of(table)
         self._supplies: dict[int, Supply] = {}
         self.axis = DynamicAxis(coefficients(self._dynamics, tick_hz), self.zero / FULL_TURN, kernel)
+        off, normal, forced = self._wires.levels(self._dynamics)
+        if self._dynamics.kind == "drive":
+            forced = normal if forward_level(table) else off
+        rows = self.axis.rows
+        rows[law.OFF], rows[law.NORMAL], rows[law.FORCED] = off, normal, forced
+        rows[law.ZERO], rows[law.COLUMNS] = float(self.zero), float(self.columns_per_cycle)
 
     def set_rate(self, tick_hz: int) -> None:
         """Uses ticks of 1 / tick_hz seconds from now on."""
@@ -45,15 +51,17 @@ class DynamicRotor(Rotor):
 
     def lie_in(self, rows: Any, at: int) -> None:
         """Goes on in a row of law.py that lies beside those of other axes."""
-        rows_before, levels = self.axis.rows, self._wires.levels(self._dynamics)
-        rows_before[law.OFF], rows_before[law.NORMAL], rows_before[law.FORCED] = levels
-        rows_before[law.ZERO], rows_before[law.COLUMNS] = float(self.zero), float(self.columns_per_cycle)
         self.axis.move_to(rows, at)
+
+    @property
+    def tripped(self) -> bool:
+        """Whether it is a drive that has tripped: it gives no current any more."""
+        return self._dynamics.kind == "drive" and self.axis.rows[self.axis.at + law.CURRENTS + law.TRIPPED] != 0.0
 
     def pulling(self) -> tuple[float, ...]:
         """Returns the current of each phase, in A; of a unipolar one that of a half winding less its opponent's."""
         currents = self.axis.currents
-        if self._dynamics.kind == "reluctance":
+        if self._dynamics.kind != "unipolar":
             return currents
         first, against_first, against_second, second = currents  # in the order of WINDING_DEGREES
         return first - against_first, second - against_second
@@ -76,6 +84,9 @@ def wires_of(table: AxisTable) -> Wires:
     """Returns which output bits the windings of an axis with dynamics hang at."""
     assert table.dynamics is not None
     bits = {name: 1 << bit for name, bit in zip(table.phase.wire_names(), table.wire_bits, strict=True)}
+    if table.dynamics.kind == "drive":
+        assert table.motor.pulse and table.motor.direction
+        return Wires((bits[table.motor.pulse], bits[table.motor.direction]), (0, 0))
     at = {degrees % FULL_TURN: name for name, degrees in table.motor.windings}
     names = [at[degrees] for degrees in table.dynamics.degrees]
     feeds = [(bits[wire], fed) for wire, fed in table.dynamics.forcing if wire in bits]
