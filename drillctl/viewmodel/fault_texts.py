@@ -148,7 +148,7 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
     ),
     Fault.DRIVE_ALARM: FaultWords(
         Message("the drive of an axis has tripped: its motor fell too far behind its pulses"),
-        Message("lower speed or acceleration, look for a jammed guide; switch the drive on anew, then initialise again"),
+        Message("lower speed or acceleration, look for a jammed guide; switch the drive on anew, and initialise"),
     ),
     Fault.CHANGE_Z_NOT_HOME: FaultWords(
         Message("in a tool change a spindle did not reach its upper sensor, or not in the time of the step"),

@@ -194,8 +194,8 @@ def reluctance(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float
 
 
 def drive(rows: Rows, at: int) -> None:
-    """One tick of a motor in its drive: a pulse moves its goal by a cycle, and current pulls it there. Farther than TRIP
-    from its goal the drive trips: no current from then on, and a place without LOW .. HIGH, so that ``run`` ends.
+    """One tick of a motor in its drive: a pulse moves its goal by a cycle, and current pulls it there. Farther than
+    TRIP from its goal the drive trips: no current from then on, and a place without LOW .. HIGH, so that ``run`` ends.
     """
     level = rows[at + SUPPLY]
     if level > rows[at + CURRENTS + SEEN]:
