@@ -17,7 +17,7 @@ where L in the first line is the mean inductance: the time constant is taken as 
 
 A motor in a drive (kind "drive") has one current and a goal g, which each pulse moves by a cycle:
 
-    i -> a (g - u) - b w, as fast as its current loop lets it, within its limit and what the supply leaves, (V - K w) / R
+    i -> a (g - u) - b w, at the pace of its current loop, within its limit and what the supply leaves: (V - K w) / R
     J dw/dt = K i - B w - friction      a, b: critically damped, at the frequency of the drive's bandwidth
 
 It trips where g - u is more than its following error, and gives no current from then on.
