@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
+
 from drillctl.console.boards import Boards
 from drillctl.console.glance import holes_of
 from drillctl.console.job_request import align
@@ -104,7 +106,7 @@ class MachineConsole:
         notices = (*self.used.notices(), *view.notices, *self._boards.troubles)
         tool_wanted = self._job.prompt.wanted
         waits = tool_wanted is not None or self.link.gate.paused or view.condition != "ready"
-        return replace(
+        return msgspec.structs.replace(
             view, tool_wanted=tool_wanted, real_wanted=self.used.real_wanted, notices=notices, at_work=self.at_work,
             local=bool(self.used.local), stores=self._workpieces.present, plant=plant_in_words(self.used.running.plant),
             condition=self._job.condition_forecast(view.condition),

@@ -4,9 +4,8 @@ Rule: a jog, an initialisation and a queue typed by hand are jobs as well; one a
 an acknowledgement need no job and are not here.
 """
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from drillctl.console.machine_in_use import MachineInUse

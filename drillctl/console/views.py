@@ -1,10 +1,10 @@
 """Status record, machine and board as the records that screens draw (viewmodel/console.py)."""
 
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from drillctl.files.inputs import real_path

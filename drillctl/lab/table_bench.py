@@ -11,6 +11,8 @@ from dataclasses import replace
 from math import cos, hypot, radians, sin
 from pathlib import Path
 
+import msgspec
+
 from drillctl.lab.grades import RATES_HZ
 from drillctl.lab.latency import LatencyError, a_moment, measure
 from drillctl.lab.moves import move
@@ -138,7 +140,7 @@ def _runs(axes: list[AxisTable], machine: Machine, watch: Watch) -> tuple[MotorR
     """A run for each axis; of motors that are alike one is computed."""
     kinds = [(axis.motor, axis.dynamics, axis.phase, axis.ramp, axis.columns_per_step) for axis in axes]
     found = {kind: _run(axis, machine.tick_hz, watch) for kind, axis in dict(zip(kinds, axes, strict=True)).items()}
-    return tuple(replace(found[kind], motor=axis.name) for kind, axis in zip(kinds, axes, strict=True))
+    return tuple(msgspec.structs.replace(found[kind], motor=axis.name) for kind, axis in zip(kinds, axes, strict=True))
 
 
 def _run(axis: AxisTable, tick_hz: int, watch: Watch) -> MotorRun:

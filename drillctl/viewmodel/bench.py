@@ -4,15 +4,15 @@ Rule: as console.py has it: nothing raises for what a person did. The motors are
 hand, which does not move.
 """
 
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.tables import TableKind
 
 
-@dataclass(frozen=True, slots=True)
-class PathColumn:
+class PathColumn(msgspec.Struct, frozen=True):
     """A column of a phase table that is put out and held.
 
     place   where the rotor comes to rest, in columns of its motor from the beginning of the cycle
@@ -23,8 +23,7 @@ class PathColumn:
     torque: float
 
 
-@dataclass(frozen=True, slots=True)
-class CyclePath:
+class CyclePath(msgspec.Struct, frozen=True):
     """A rotor that follows a phase table for one cycle, column by column, slowly.
 
     motor       the axis whose motor it is; empty where no motor of the machine fits, and then there are no columns
@@ -41,8 +40,7 @@ class CyclePath:
     torque_mnm: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class MotorRun:
+class MotorRun(msgspec.Struct, frozen=True):
     """The moves of one motor with a table; the rest is of the move that lost the most.
 
     dynamic  False: the motor has no dynamics, so an ideal one was run, which loses steps to wrong tables alone
@@ -59,8 +57,7 @@ class MotorRun:
     behind: tuple[float, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class BenchReport:
+class BenchReport(msgspec.Struct, frozen=True):
     """What a table did at a tick rate; ``in_use``: it was tried on all motors that have it, else on one that fits."""
 
     tick_hz: int

@@ -5,9 +5,9 @@ means it was accepted. Millimetres are from the working base, as the operator co
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 Problems = tuple[Message, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class AxisView:
+class AxisView(msgspec.Struct, frozen=True):
     """One axis: where it is and goes, its ramp state, its phases as they stand on the wires, the whole table."""
 
     name: str
@@ -40,8 +39,7 @@ class AxisView:
     behind_steps: float | None = None  # by which a simulated carriage is behind position_steps; None on a real port
 
 
-@dataclass(frozen=True, slots=True)
-class ToolWanted:
+class ToolWanted(msgspec.Struct, frozen=True):
     """A tool that the job waits for, the machine at rest; ``drill_mm``: the drill at hand that serves it."""
 
     number: int
@@ -49,8 +47,7 @@ class ToolWanted:
     drill_mm: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class MachineView:
+class MachineView(msgspec.Struct, frozen=True):
     """The machine at this moment. ``condition``: ready, holding, held, stopping, returning, latched."""
 
     machine: str
@@ -86,8 +83,7 @@ class MachineView:
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 
-@dataclass(frozen=True, slots=True)
-class ToolView:
+class ToolView(msgspec.Struct, frozen=True):
     """A tool of the board: its number, diameter, and how many holes it drills."""
 
     number: int
@@ -95,8 +91,7 @@ class ToolView:
     holes: int
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class HolesView:
+class HolesView(msgspec.Struct, frozen=True, eq=False):
     """Holes as a picture shows them: xy_mm (n, 2) from the working base, tool (n,) index into tools."""
 
     xy_mm: NDArray[np.float64]
@@ -104,8 +99,7 @@ class HolesView:
     tools: tuple[ToolView, ...]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class BoardView(HolesView):
+class BoardView(HolesView, frozen=True, eq=False):
     """The board that is loaded, in drilling order: file_xy_mm (n, 2) are its holes as its file has them. ``format`` is
     how its digits are read, ``dialect`` what such a file is called.
     """

@@ -1,10 +1,9 @@
 """How submissions of a lab sheet were judged. Made by lab/grading.py, printed by ui/terminal/grades.py."""
 
-from dataclasses import dataclass
+import msgspec
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(msgspec.Struct, frozen=True):
     """How one check of a sheet went; ``why`` is a sentence, empty where it passed."""
 
     name: str
@@ -12,8 +11,7 @@ class Check:
     why: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class SubmissionGrade:
+class SubmissionGrade(msgspec.Struct, frozen=True):
     """How a submission was judged, check by check; ``name`` is that of its folder."""
 
     name: str

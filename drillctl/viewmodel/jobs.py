@@ -3,8 +3,7 @@
 Rule: made by the console, drawn by the screens; what a person asks of a board is in job_options.py.
 """
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -12,8 +11,7 @@ from drillctl.language import Message
 from drillctl.viewmodel.job_options import JobOptions
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class AlignmentReport:
+class AlignmentReport(msgspec.Struct, frozen=True, eq=False):
     """What measured holes say. ``matrix`` (2, 3) takes the file's mm to mm from machine zero.
 
     kind         'rigid': shift and turn; 'affine': scale and shear as well
@@ -34,16 +32,14 @@ class AlignmentReport:
         return float(x_mm), float(y_mm)
 
 
-@dataclass(frozen=True, slots=True)
-class RecentJob:
+class RecentJob(msgspec.Struct, frozen=True):
     """A drill file that was opened, and how."""
 
     file: str
     options: JobOptions
 
 
-@dataclass(frozen=True, slots=True)
-class Site:
+class Site(msgspec.Struct, frozen=True):
     """Where a job is run, and how: two runs of one site meet the same machine.
 
     port   NAME[:ADDRESS], an address that is a file absolute
@@ -75,8 +71,7 @@ class Site:
         return Message("port {port}, pace {pace}, plant {plant}, seed {seed}", **known)
 
 
-@dataclass(frozen=True, slots=True)
-class UnfinishedJob:
+class UnfinishedJob(msgspec.Struct, frozen=True):
     """A job that was cut off, as its journal has it.
 
     again     holes that were under way, to be drilled again

@@ -1,14 +1,14 @@
 """The plant of the simulated machine as a screen shows and changes it: its kind, its faults, its seed."""
 
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 
 
-@dataclass(frozen=True, slots=True)
-class FaultWord:
+class FaultWord(msgspec.Struct, frozen=True):
     """A kind of fault: how it is written (``loose.AXIS=N``), the least and the greatest N, and what N means."""
 
     usage: str
@@ -17,8 +17,7 @@ class FaultWord:
     meaning: Message
 
 
-@dataclass(frozen=True, slots=True)
-class PlantView:
+class PlantView(msgspec.Struct, frozen=True):
     """The plant in use.
 
     kind           ideal or dynamic

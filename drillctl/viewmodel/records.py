@@ -1,12 +1,12 @@
 """What comes up to a person: how far a job is, and how it ended. Plain records; ``as_dict`` is the JSON form."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
 from typing import Any
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class Progress:
+
+class Progress(msgspec.Struct, frozen=True):
     """A job on its way. ``seconds_left`` is machine time (a bar makes of it the wait), None while nobody can tell."""
 
     holes_done: int
@@ -18,8 +18,7 @@ class Progress:
     held: bool = False  # by the operator
 
 
-@dataclass(frozen=True, slots=True)
-class FaultReport:
+class FaultReport(msgspec.Struct, frozen=True):
     """A fault in words: what it is called, why, what to do, and whether the position was kept or lost."""
 
     code: int
@@ -30,11 +29,10 @@ class FaultReport:
 
     def as_dict(self) -> dict[str, Any]:
         """The fault as an object of the JSON output."""
-        return asdict(self)
+        return msgspec.structs.asdict(self)
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
+class Outcome(msgspec.Struct, frozen=True):
     """How a job ended (docs/SPEC.md, section 4). By axis: steps made, position, lost steps (None on a real port)."""
 
     machine: str
@@ -78,8 +76,7 @@ class Outcome:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class ToolEstimate:
+class ToolEstimate(msgspec.Struct, frozen=True):
     """One tool's share of a job: its holes, the ticks from its change to the next, the drill that serves it."""
 
     number: int
@@ -90,8 +87,7 @@ class ToolEstimate:
     hits_left: int | None = None  # of the drill's life
 
 
-@dataclass(frozen=True, slots=True)
-class Estimate:
+class Estimate(msgspec.Struct, frozen=True):
     """What a job will take. Exact on the ideal plant from the machine file's start; the operator's waits apart."""
 
     machine: str

@@ -3,16 +3,15 @@
 Rule: a picture is data. A curve breaks where a value is not a number.
 """
 
-from dataclasses import asdict, dataclass
 from enum import Enum
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class Lateness:
+class Lateness(msgspec.Struct, frozen=True):
     """How late the wakes of one process were: percentiles to the microsecond below, and the greatest."""
 
     wakes: int
@@ -22,8 +21,7 @@ class Lateness:
     max_us: int
 
 
-@dataclass(frozen=True, slots=True)
-class Bar:
+class Bar(msgspec.Struct, frozen=True):
     """A row of the histogram: so many ticks were from ``from_us`` to less than ``to_us`` late (None: and more)."""
 
     from_us: int
@@ -31,8 +29,7 @@ class Bar:
     ticks: int
 
 
-@dataclass(frozen=True, slots=True)
-class Grade:
+class Grade(msgspec.Struct, frozen=True):
     """A grade from ``A`` to ``E``, what a computer of this grade is good for, and what to do about it."""
 
     letter: str
@@ -40,8 +37,7 @@ class Grade:
     advice: str
 
 
-@dataclass(frozen=True, slots=True)
-class LatencyReport:
+class LatencyReport(msgspec.Struct, frozen=True):
     """What ``drillctl latency`` found.
 
     A tick is late when it began more than a period after its deadline; ``late`` of them are ``platform`` (a canary
@@ -77,7 +73,7 @@ class LatencyReport:
 
     def as_dict(self) -> dict[str, Any]:
         """The object that ``latency --json`` prints."""
-        return {**asdict(self), "real_time": not self.refused}
+        return {**msgspec.to_builtins(self), "real_time": not self.refused}
 
 
 Floats = NDArray[np.float64]
@@ -91,8 +87,7 @@ class Style(Enum):
     POINTS = "points"
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Curve:
+class Curve(msgspec.Struct, frozen=True, eq=False):
     """A curve through points (n,), (n,), with a name for the legend."""
 
     label: str
@@ -109,8 +104,7 @@ class Curve:
         return curve
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Chart:
+class Chart(msgspec.Struct, frozen=True, eq=False):
     """Curves over one pair of axes; ``to_scale``: a millimetre is as long upwards as sideways."""
 
     x_label: str
@@ -119,8 +113,7 @@ class Chart:
     to_scale: bool = False
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class HeatMap:
+class HeatMap(msgspec.Struct, frozen=True, eq=False):
     """A share (rows, columns), 0 to 1, for each value of one factor upwards and of another sideways. ``label`` says of
     what; ``columns`` and ``rows`` name the values.
     """
@@ -133,8 +126,7 @@ class HeatMap:
     share: Floats
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Picture:
+class Picture(msgspec.Struct, frozen=True, eq=False):
     """Charts one below the other, and sentences that say what they show."""
 
     title: str

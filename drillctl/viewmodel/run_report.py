@@ -4,8 +4,7 @@ by ui/report.
 Rule: plain data, in the units of a person: seconds, millimetres, steps.
 """
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,8 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ReportHoles:
+class ReportHoles(msgspec.Struct, frozen=True, eq=False):
     """Where the bit was sent and where it met the board, (n, 2) each, mm from where the machine was switched on."""
 
     sent_mm: Floats
@@ -29,8 +27,7 @@ class ReportHoles:
         return np.hypot(off[:, 0], off[:, 1])
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ReportAxis:
+class ReportAxis(msgspec.Struct, frozen=True, eq=False):
     """One axis over time, in ``n`` stretches of equal length.
 
     speed_mm_s, rotor_mm_s  (n,) commanded, and of the rotor (empty on the ideal plant)
@@ -47,8 +44,7 @@ class ReportAxis:
     travelled_mm: float
 
 
-@dataclass(frozen=True, slots=True)
-class ReportCommand:
+class ReportCommand(msgspec.Struct, frozen=True):
     """A command as it was run: from its first tick up to, not including, ``end_tick``."""
 
     sequence: int
@@ -57,16 +53,14 @@ class ReportCommand:
     end_tick: int
 
 
-@dataclass(frozen=True, slots=True)
-class ReportEvent:
+class ReportEvent(msgspec.Struct, frozen=True):
     """Something that is no command: a request, a fault, a gap in time."""
 
     tick: int
     words: Message
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ReportWave:
+class ReportWave(msgspec.Struct, frozen=True, eq=False):
     """A signal's changes: (n,) ticks and values; ``is_wire``: 0 and 1."""
 
     name: str
@@ -75,8 +69,7 @@ class ReportWave:
     values: Ints
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class RunReport:
+class RunReport(msgspec.Struct, frozen=True, eq=False):
     """A run. ``waves_to``: the tick up to which the waves go; all of the run where it is not longer."""
 
     name: str
@@ -99,8 +92,7 @@ class RunReport:
         return self.ticks / self.tick_hz
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(msgspec.Struct, frozen=True):
     """Two runs compared. ``tick``: the first that differs, None where none does; ``lines``: about a dozen that show it,
     ``first`` marked by ``-`` and ``second`` by ``+``.
     """

@@ -5,9 +5,9 @@ count from 0 as in a trace, and a value at a tick is that after its flush.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, Protocol
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,8 +21,7 @@ Lack = Literal["forgotten", "behind", "running", "underivable", "too long", "oth
 FORWARDS, BACKWARDS = 1, -1
 
 
-@dataclass(frozen=True, slots=True)
-class ScopeSignal:
+class ScopeSignal(msgspec.Struct, frozen=True):
     """A lane of the scope. ``group``: an axis's name, sensors, outputs, kmd, run or plant."""
 
     group: str
@@ -30,16 +29,14 @@ class ScopeSignal:
     shape: Shape
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Changes:
+class Changes(msgspec.Struct, frozen=True, eq=False):
     """A signal in a window of ticks: the value that stands at its start, then every change; (n,) each, ticks rising."""
 
     ticks: Ints
     values: Ints
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Strip:
+class Strip(msgspec.Struct, frozen=True, eq=False):
     """A signal in n stretches of ticks, as many as there are columns to draw: the value at the end of each, and how
     often it changed in it, (n,) each. A pulse is counted however short it is; two changes may stand for more."""
 
@@ -47,8 +44,7 @@ class Strip:
     changes: Ints
 
 
-@dataclass(frozen=True, slots=True)
-class AxisMoment:
+class AxisMoment(msgspec.Struct, frozen=True):
     """An axis at a tick: as AxisView has it, without a target, which no trace tells."""
 
     name: str
@@ -60,8 +56,7 @@ class AxisMoment:
     wires: tuple[tuple[str, str, bool], ...]  # name, row of the phase table in x and ., lit then
 
 
-@dataclass(frozen=True, slots=True)
-class Moment:
+class Moment(msgspec.Struct, frozen=True):
     """The machine at a tick. ``values``: of every signal, None where it is not known; ``axes``: those that are."""
 
     tick: int
@@ -70,8 +65,7 @@ class Moment:
     axes: tuple[AxisMoment, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Notice:
+class Notice(msgspec.Struct, frozen=True):
     """Something that a run lacks, and the number or reason that belongs to it."""
 
     lack: Lack

@@ -5,8 +5,9 @@ which takes seconds and moves nothing. What changes the machine goes down as a r
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, Protocol
+
+import msgspec
 
 from drillctl.language import Message
 from drillctl.ports import CARD_BITS
@@ -15,8 +16,7 @@ from drillctl.viewmodel.console import Problems
 SignalKind = Literal["input", "output", "coil"]
 
 
-@dataclass(frozen=True, slots=True)
-class SignalView:
+class SignalView(msgspec.Struct, frozen=True):
     """One wire of the port at this moment.
 
     name          as in the machine's file; a coil's is ``AXIS.WIRE``
@@ -73,8 +73,7 @@ class ManualControl(Protocol):
         """Starts the clock again. Refused where it runs."""
 
 
-@dataclass(frozen=True, slots=True)
-class PortReport:
+class PortReport(msgspec.Struct, frozen=True):
     """What a test found: facts, a line each; the sensors as they answer now; or why the port can't be used."""
 
     port: str
@@ -83,8 +82,7 @@ class PortReport:
     problem: Message | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class PortView:
+class PortView(msgspec.Struct, frozen=True):
     """``mode`` and ``card`` as the machine's file has them, the port of that card, and whether an option overrides it.
 
     configured  NAME[:ADDRESS]; empty where no port drives this card
@@ -98,8 +96,7 @@ class PortView:
     overridden: bool
 
 
-@dataclass(frozen=True, slots=True)
-class PortWord:
+class PortWord(msgspec.Struct, frozen=True):
     """A port that a machine's file can name: what it is, what it needs, and why it can't be used here, if it can't."""
 
     name: str

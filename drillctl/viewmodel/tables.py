@@ -5,8 +5,9 @@ nothing reaches a file before ``save`` has found it sound. Edits go to the user'
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, Protocol
+
+import msgspec
 
 from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
@@ -15,8 +16,7 @@ TableKind = Literal["phase", "ramp", "motor", "machines"]
 FieldPath = tuple[str | int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class TableEntry:
+class TableEntry(msgspec.Struct, frozen=True):
     """A table that can be opened. ``origin``: shipped, yours (a copy that wins), or other (a folder named first).
 
     ``ships``: one of this name comes with the program, to go back to. ``in_use``: the machine at hand is driven by it,
@@ -30,8 +30,7 @@ class TableEntry:
     motors: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class TextFinding:
+class TextFinding(msgspec.Struct, frozen=True):
     """Something about a text: its line from 1 (None: the whole), its column from 1 where one is known."""
 
     line: int | None
@@ -48,16 +47,14 @@ class TextFinding:
         return Message("{line}:{column}: {reason}", line=self.line, column=self.column, reason=self.text)
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
+class Checked(msgspec.Struct, frozen=True):
     """What a check found. Problems forbid saving; warnings are for a valid but dangerous table."""
 
     problems: tuple[TextFinding, ...] = ()
     warnings: tuple[TextFinding, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class PhaseRow:
+class PhaseRow(msgspec.Struct, frozen=True):
     """A wire of a phase table: ``x`` on, ``.`` off; ``reverse`` is its row for motion backwards, None for the same."""
 
     name: str
@@ -66,8 +63,7 @@ class PhaseRow:
     reverse: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class StateRow:
+class StateRow(msgspec.Struct, frozen=True):
     """A state of a ramp as its file has it, and what stopping from it takes (None while the ramp is unsound)."""
 
     state: int
@@ -78,16 +74,14 @@ class StateRow:
     stop_ticks: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class RampDrawing:
+class RampDrawing(msgspec.Struct, frozen=True):
     """The states from -n to n, and the ticks before each step of a long move (none while the ramp is unsound)."""
 
     states: tuple[StateRow, ...]
     intervals: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class FieldView:
+class FieldView(msgspec.Struct, frozen=True):
     """One value of a machine's file: its place there, its axis ("" for none), as text, and what it may be."""
 
     place: FieldPath
@@ -166,8 +160,7 @@ class TableEditing(Protocol):
         """The text with what was typed at a place; the same text and the reason where it can't be."""
 
 
-@dataclass(frozen=True, slots=True)
-class CommandHelp:
+class CommandHelp(msgspec.Struct, frozen=True):
     """A command: its name, how its arguments are written, and what it does."""
 
     name: str

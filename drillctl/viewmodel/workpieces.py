@@ -5,16 +5,16 @@ mm from zero, the place where the tool was set.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.records import Estimate
 
 
-@dataclass(frozen=True, slots=True)
-class SentenceView:
+class SentenceView(msgspec.Struct, frozen=True):
     """A sentence of a part program.
 
     text         its six characters; ``words``: what it does; ``cell``: the address of its first byte in the store
@@ -34,8 +34,7 @@ class SentenceView:
     ticks: int
 
 
-@dataclass(frozen=True, slots=True)
-class HoleView:
+class HoleView(msgspec.Struct, frozen=True):
     """A hole that a part program drills: its place along the drum, how deep the tool goes into the wall, and the number
     (from 1) of the sentence after which it is drilled.
     """
@@ -45,8 +44,7 @@ class HoleView:
     sentence: int
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class PartView:
+class PartView(msgspec.Struct, frozen=True, eq=False):
     """The part program that was called: number, store (EPROM or RAM), sentences, holes, exact time, warnings.
 
     surface_mm  where the tool meets the wall; None where the machine's file does not say
@@ -61,8 +59,7 @@ class PartView:
     surface_mm: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class WorkpieceView:
+class WorkpieceView(msgspec.Struct, frozen=True):
     """A workpiece in a store: its number, the store, the address of its program."""
 
     number: int

@@ -6,10 +6,10 @@ A journal's site is forged here as a run on that port would have written it; wha
 import json
 import os
 from collections.abc import Callable
-from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+from msgspec.structs import asdict
 
 from drillctl.cli import main
 from drillctl.jobs import session

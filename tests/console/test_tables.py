@@ -1,9 +1,9 @@
 """The editors' desk over real tables: what is saved is sound, is the user's own, and can be taken back."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from drillctl.console.queues import QueueFiles
 from drillctl.console.tables import KEY_OF, TableFiles

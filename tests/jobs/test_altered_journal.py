@@ -6,12 +6,13 @@ A journal that ends early, at the end of a line, is what a power cut leaves: the
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from drillctl.cli import main
 from drillctl.generation.job_setup import JobSetup

@@ -1,11 +1,12 @@
 """Stand-ins for the editors' tests: tables and queues in memory, a shell that remembers, a console."""
 
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any
 
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language import Message
 from drillctl.viewmodel.bench import BenchReport, CyclePath, MotorRun, PathColumn

@@ -1,10 +1,11 @@
 """A console without a machine behind it: it keeps what it was asked, and moves nothing. And the program upon it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 import urwid
+from msgspec.structs import replace
 
 from drillctl.ui.app import App
 from drillctl.viewmodel.console import AxisView, BoardView, HolesView, MachineView, Problems, ToolView, Watch

@@ -1,11 +1,12 @@
 """The picture of a board: which dot a hole lights, zoom and pan, rulers, signs, and the mouse on it."""
 
-from dataclasses import replace
+import dataclasses
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.ui.models.board_map import CLOSEST, BoardMap, marks_mm, round_mm
@@ -35,7 +36,7 @@ def shown(work: Work = Work(), board: object = BOARD, **further: object) -> Boar
 
 def test_a_hole_lights_the_dot_at_its_place() -> None:
     """8 x 3 cells are 16 x 12 dots: a board of 15 x 11 mm has a dot a mm, its corners in the outermost ones."""
-    placed = replace(BoardMap.of(np.array([[0.0, 0.0], [10.0, 5.0]]), 8, 3), low_mm=np.array([0.0, 0.0]),
+    placed = dataclasses.replace(BoardMap.of(np.array([[0.0, 0.0], [10.0, 5.0]]), 8, 3), low_mm=np.array([0.0, 0.0]),
                      high_mm=np.array([15.0, 11.0]), centre_mm=np.array([7.5, 5.5]))  # fmt: skip
     assert placed.dots_per_mm == 1.0
     places = np.array([[0.0, 0.0], [15.0, 0.0], [0.0, 11.0], [3.0, 7.0]])

@@ -1,10 +1,10 @@
 """The windows of the Drilling screen where there is room: large figures, gauge, commands, tools, motors and rotors."""
 
 from collections import deque
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.ui.models.speeds import Speeds

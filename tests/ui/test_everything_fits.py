@@ -3,11 +3,11 @@
 import ast
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import urwid
+from msgspec.structs import replace
 
 from drillctl import console
 from drillctl.kmd import Fault

@@ -1,11 +1,11 @@
 """Files: formats by name, recent jobs, panel, how to drill, example boards and lab sheets."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from drillctl.ui.pcb_drill import examples
 from drillctl.ui.pcb_drill.drilling import Drilling

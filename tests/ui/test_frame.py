@@ -1,10 +1,10 @@
 """The frame: bar, menus, dialogs, keys, and the emergency stop that nothing hides."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.ui import preferences

@@ -5,13 +5,14 @@ import json
 import os
 import re
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+import msgspec
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from drillctl import ui
 from drillctl.cli.screen import EditorScreens
@@ -50,8 +51,8 @@ def nasty(record: Any) -> Any:
         return NASTY
     if isinstance(record, tuple) and not hasattr(record, "_fields"):
         return tuple(map(nasty, record))
-    if is_dataclass(record) and not isinstance(record, type):
-        told = {f.name: getattr(record, f.name) for f in fields(record) if f.init and f.name not in KEPT}
+    if isinstance(record, msgspec.Struct):
+        told = {name: getattr(record, name) for name in record.__struct_fields__ if name not in KEPT}
         return replace(record, **{name: nasty(value) for name, value in told.items()})
     return record
 

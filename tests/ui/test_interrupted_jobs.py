@@ -1,8 +1,7 @@
 """Jobs that were cut off: offered on Files and at the start, gone on with or given up."""
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.viewmodel.jobs import Site, UnfinishedJob

@@ -1,10 +1,10 @@
 """The screens of a family of machines: chosen by what a machine has, and closed against the program and each other."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import urwid
+from msgspec.structs import replace
 
 from drillctl.ui import app, machines
 from drillctl.ui.machines import FAMILIES, screens_of

@@ -1,11 +1,11 @@
 """A board placed by measured holes: proposed, found by jogging or typed, accepted or refused."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from drillctl.ui.pcb_drill.alignment import AlignmentScreen
 from drillctl.ui.pcb_drill.files import Files

@@ -2,12 +2,12 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
 import pytest
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.ui.boiler_drum import menus as drum_menus

@@ -1,8 +1,9 @@
 """The Port screen: what is in use and what is configured, a test's report, and no real machine without a yes."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import pytest
+from msgspec.structs import replace
 
 from drillctl.language import Message
 from drillctl.ui.screens.port import PortScreen

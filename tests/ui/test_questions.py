@@ -1,11 +1,11 @@
 """Questions and habits: y and n, the safe answer, the word that every answer leaves."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.ui.explanations import EXPLAINED, SIGNS

@@ -1,11 +1,11 @@
 """Files and Drilling on a canvas, upon a console that keeps what it was asked."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.language.number_text import pair_mm

@@ -1,8 +1,7 @@
 """The Signals screen: what stands where, what is switched and after which question, in small and large terminals."""
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from drillctl.console.signals import signals_of
 from drillctl.machine import Library, shipped_tables

@@ -5,9 +5,11 @@ Rule: each line is on the disk before what it announces may happen, and is check
 
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from drillctl.files import system
 from drillctl.jobs.journal.account import Account, Head, OutOfPlace
@@ -76,7 +78,7 @@ class Journal:
     def _begin(self, head: Head, site: Site) -> Account:
         _check_finished(self.file)
         self._cut(0)
-        seal = self._append({NAME: FORMAT, **vars(head), "site": asdict(site)}, NO_SEAL)
+        seal = self._append({NAME: FORMAT, **vars(head), "site": msgspec.structs.asdict(site)}, NO_SEAL)
         system.sync_folder(self.file.parent)
         return Account(head, site, seal=seal)
 
@@ -84,7 +86,7 @@ class Journal:
         """Goes on with a journal. Raises JournalError where another run has written to it since it was read."""
         if read_journal(self.file) != account:
             raise JournalError(Message("another run has gone on with it meanwhile; resume again").at(self.file))
-        self._resumption = {"resumed": asdict(site), "again": account.again}
+        self._resumption = {"resumed": msgspec.structs.asdict(site), "again": account.again}
         return replace(account, torn=False)
 
     def _lock(self) -> None:

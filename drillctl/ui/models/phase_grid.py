@@ -6,7 +6,9 @@ two wires share a bit.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+from msgspec.structs import replace
 
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.tables import FieldView, PhaseRow, TableEditing

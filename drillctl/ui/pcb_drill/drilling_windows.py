@@ -3,11 +3,11 @@
 Rule: draws the newest view and hears no keys; what a size shows is a row of widgets/sizes.py.
 """
 
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language.words import N_, _
 from drillctl.ui.models.board_work import BoardWork

@@ -5,9 +5,10 @@ Rule: writes to one stream, never to standard output, and nothing where that is 
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn, TextIO
+
+from msgspec.structs import replace
 
 from drillctl.language.number_text import clock
 from drillctl.viewmodel.records import Progress
