@@ -9,8 +9,6 @@ import time
 from contextlib import suppress
 from typing import TypeVar
 
-import serial
-
 from drillctl.files import system
 from drillctl.language import Message, verbatim
 from drillctl.portio.firmata_protocol import FIRMWARE_QUERY, BoardMessage, Decoder, Firmware, Version
@@ -30,6 +28,8 @@ class FirmataLine:
 
     def __init__(self, name: str, device: str, baud: int):
         """Opens the device for this process alone. Raises PortRefused. On a Mega the outputs go low for 1 to 3 s."""
+        import serial  # pyserial: only whoever opens a line pays for it
+
         self.name = name
         self._decoder = Decoder()
         self._earlier: list[BoardMessage] = []
@@ -138,6 +138,8 @@ class FirmataLine:
         return found
 
     def _lost(self, error: Exception) -> PortLost:
+        import serial
+
         if isinstance(error, serial.SerialTimeoutException):
             return PortSlow(self.name, Message("too slow: the line took no more; use fewer interrupts a second"))
         return PortLost(

@@ -11,10 +11,10 @@ from drillctl.plant import IdealPlant
 from drillctl.replay.player import Player
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.sampler import signals, vcd_layout
-from drillctl.trace import Segments, Trace, write_vcd
+from drillctl.trace import Segments, Trace
 from drillctl.trace.stretches import SignalRecorder
 from drillctl.trace.target import Target
-from drillctl.trace.vcd import write_vcd_run
+from drillctl.trace.vcd import write_vcd, write_vcd_run
 
 COMMANDS_AT_ONCE = 96  # repeated: a batch of them is a few ten thousand ticks
 

@@ -30,7 +30,6 @@ from drillctl.trace.shape import dense
 from drillctl.trace.text import is_trace, write_text
 from drillctl.trace.text_lines import TraceError
 from drillctl.trace.values import named_signal_kind, pack_command
-from drillctl.trace.vcd import write_vcd
 from drillctl.trace.vcd_layout import VcdLayout, VcdVar
 
 __all__ = [
@@ -53,5 +52,4 @@ __all__ = [
     "render",
     "segment_bytes",
     "write_text",
-    "write_vcd",
 ]

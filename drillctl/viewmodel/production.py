@@ -5,15 +5,15 @@ mm. Parameters go by names such as ``axis.x.s_share``; values are texts as they 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from drillctl.language import Message
 from drillctl.viewmodel.console import Problems
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterView:
+class ParameterView(msgspec.Struct, frozen=True):
     """A parameter: its name, its value (``unset`` where it has none), what it may be, what it means and does, and the
     values that it can have, if they are few.
     """
@@ -26,8 +26,7 @@ class ParameterView:
     choices: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class ToolRecord:
+class ToolRecord(msgspec.Struct, frozen=True):
     """A tool of the machine; None for what is not entered. ``place``: of the magazine, 0 for none."""
 
     number: int
@@ -37,8 +36,7 @@ class ToolRecord:
     place: int | None
 
 
-@dataclass(frozen=True, slots=True)
-class PlaceRecord:
+class PlaceRecord(msgspec.Struct, frozen=True):
     """A place of the magazine: whose it is (None: no tool's), and by spindle whether a bit stands there, None where
     that is unknown. ``bits`` is empty where nothing is recorded.
     """
@@ -48,8 +46,7 @@ class PlaceRecord:
     bits: tuple[bool | None, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Records:
+class Records(msgspec.Struct, frozen=True):
     """What is known of the machine beside its state.
 
     stroke_mm     how far the spindles lift between two holes; None: not entered

@@ -1,9 +1,10 @@
 """The parameters and records of the machine in use: parking, and what a change of parameters does to it."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from drillctl.console.production import MachineProduction
 from drillctl.language import Message

@@ -27,7 +27,8 @@ from drillctl.ticker.link import Link, LocalLink
 from drillctl.ticker.paced_link import PacedLink
 from drillctl.ticker.sampler import vcd_layout
 from drillctl.ticker.ticker import Ticker
-from drillctl.trace import TraceError, read_text, write_text, write_vcd
+from drillctl.trace import TraceError, read_text, write_text
+from drillctl.trace.vcd import write_vcd
 
 pytestmark = pytest.mark.paced
 

@@ -14,19 +14,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from vcd import VCDWriter
 
-from drillctl.trace import (
-    Recorder,
-    Signal,
-    Trace,
-    VcdVar,
-    dense,
-    stretches,
-    vcd_compiled,
-    vcd_lines,
-    vcd_pages,
-    write_vcd,
-)
-from drillctl.trace.vcd import write_vcd_run
+from drillctl.trace import Recorder, Signal, Trace, VcdVar, dense, stretches, vcd_compiled, vcd_lines, vcd_pages
+from drillctl.trace.vcd import write_vcd, write_vcd_run
 
 LAYOUT = (
     VcdVar("x", "1a", "wire", "out.0", bit=0),

@@ -4,10 +4,10 @@ Rule: draws what ``show`` was given last and hears no keys. Where there are too 
 what it has stands on further pages of the left one.
 """
 
-from dataclasses import replace
 from typing import Any
 
 import urwid
+from msgspec.structs import replace
 
 from drillctl.language.words import N_, _
 from drillctl.ui.eight_axis.lines import (
