@@ -1,5 +1,4 @@
-"""The machine kept running for the screens: a Console (viewmodel/console.py) made of the machine in use, its running
-job, the board on the table, the working base and the jog keys.
+"""The machine kept running for the screens: a Console (viewmodel/console.py) made of the other modules of this room.
 
 Rule: never blocks, and never raises for what a person did: it returns problems, and then nothing has changed. Nothing
 is begun while something else is on its way; stops and emergency stops are never refused for that. The machine runs in
@@ -11,19 +10,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import msgspec
-
 from drillctl.console.boards import Boards
 from drillctl.console.glance import holes_of
 from drillctl.console.job_request import align
 from drillctl.console.jogging import TOO_FAR, Jogging, way_left
 from drillctl.console.machine_in_use import MachineInUse
 from drillctl.console.operator_state import WorkingBase
-from drillctl.console.production import MachineProduction
 from drillctl.console.readiness import BUSY, busy, occupied, ticks_change_something
 from drillctl.console.running_job import RunningJob, took_a_base
 from drillctl.console.scope import RunRecording
-from drillctl.console.views import machine_list, machine_view, plant_in_words
+from drillctl.console.views import machine_list, machine_view, plant_in_words, with_changes
 from drillctl.console.workpieces import StoredWorkpieces
 from drillctl.generation.job import Job, names_of
 from drillctl.generation.sequences import drill_up
@@ -36,6 +32,7 @@ from drillctl.ticker.link import Link
 from drillctl.viewmodel.console import BoardView, HolesView, MachineView, Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole
 from drillctl.viewmodel.jobs import AlignmentReport, RecentJob, UnfinishedJob
+from drillctl.viewmodel.production import Production
 from drillctl.viewmodel.records import Progress
 from drillctl.viewmodel.workpieces import Workpieces
 
@@ -106,7 +103,7 @@ class MachineConsole:
         notices = (*self.used.notices(), *view.notices, *self._boards.troubles)
         tool_wanted = self._job.prompt.wanted
         waits = tool_wanted is not None or self.link.gate.paused or view.condition != "ready"
-        return msgspec.structs.replace(
+        return with_changes(
             view, tool_wanted=tool_wanted, real_wanted=self.used.real_wanted, notices=notices, at_work=self.at_work,
             local=bool(self.used.local), stores=self._workpieces.present, plant=plant_in_words(self.used.running.plant),
             condition=self._job.condition_forecast(view.condition),
@@ -125,9 +122,12 @@ class MachineConsole:
         """The stores of the machine in use, where it has them."""
         return self._workpieces if self._workpieces.present else None
 
-    def production(self) -> MachineProduction | None:
+    def production(self) -> Production | None:
         """The parameters and records of the machine in use, where it has parameters."""
-        return MachineProduction(self, self._library) if self.machine.parameters is not None else None
+        if self.machine.parameters is None:
+            return None
+        from drillctl.console.production import MachineProduction  # with it comes what edits files
+        return MachineProduction(self, self._library)
 
     def machines(self) -> Sequence[tuple[str, str]]:
         """Name and description of every machine; for one that can't be loaded the reason in place of the latter."""

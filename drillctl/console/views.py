@@ -90,6 +90,11 @@ def _words(machine: Machine, image: int, sensors: int) -> tuple[tuple[str, int],
     return (*shown, *((word.name, word.value(sensors)) for word in machine.input_words))
 
 
+def with_changes(view: MachineView, **changes: object) -> MachineView:
+    """The same view with other values for some of its fields."""
+    return replace(view, **changes)
+
+
 def plant_in_words(plant: PlantChoice) -> str:
     """``dynamic blunt=20``; empty for the ideal plant, and for a real machine."""
     return "" if plant.kind == IDEAL else str(plant)
