@@ -6,12 +6,13 @@ what. Nothing is sent twice here.
 
 import termios
 from dataclasses import dataclass
-from typing import Protocol
-
-import serial
+from typing import TYPE_CHECKING, Protocol
 
 from drillctl.language import Message, Refusal, verbatim
 from drillctl.machine.converter import Converter, Frequency, Write
+
+if TYPE_CHECKING:
+    import serial
 
 MOST_DRAINS = 5
 LONGEST_ANSWER = 256
@@ -54,11 +55,13 @@ class Line(Protocol):
         """Gives the device back."""
 
 
-def open_serial(device: str, kind: Converter, again: bool = False) -> serial.Serial:
+def open_serial(device: str, kind: Converter, again: bool = False) -> "serial.Serial":
     """Opens a converter's device for this process and those forked off it. Raises ConverterError.
 
     again  the other processes of this run still have it open, and with that its lock
     """
+    import serial  # pyserial: only whoever opens a line pays for it
+
     try:
         return serial.Serial(
             device, kind.baud, parity=kind.parity, stopbits=kind.stop_bits, timeout=ANSWER_S,
