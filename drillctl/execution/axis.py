@@ -9,8 +9,8 @@ from typing import Protocol
 
 from drillctl.execution.axis_wires import column_images, forcing_bits, winding_halves
 from drillctl.execution.motion import BRAKING, COOLED, FOLLOWING, FOLLOWS, HOLDING, MOVING, REST, SETTLING, STOPPING
-from drillctl.machine import AxisTable
-from drillctl.machine.landing import strokes_of
+from drillctl.machine import AxisTable, RampTable
+from drillctl.machine.landing import Strokes, strokes_of
 from drillctl.ports import with_bits
 
 
@@ -98,6 +98,14 @@ class Axis:
         self.count = 0
         self.wait = max(self.interval[0], self.min_interval)
         self.ramped_from = self.strokes.ramped_from(self.direction, self.min_interval)
+
+    def ramp_tables(self) -> tuple[RampTable, tuple[int, ...], Strokes]:
+        """Its ramp, and what is known from it."""
+        return self.ramp, self.interval, self.strokes
+
+    def take_ramp(self, ramp: RampTable, interval: tuple[int, ...], strokes: Strokes) -> None:
+        """Goes by another ramp from here on, at rest."""
+        self.ramp, self.interval, self.strokes = ramp, interval, strokes
 
     def follow(self, direction: int) -> None:
         """From rest: steps in this direction whenever its leader's line says so."""

@@ -7,6 +7,7 @@ none; one that ends a command may return GOES_ON instead, while its condition do
 
 from collections.abc import Callable, Mapping
 
+from drillctl.execution.axis import Axis
 from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
 from drillctl.execution.heads import heads_lowered, heads_raised, lower_heads, raise_heads
@@ -84,18 +85,26 @@ def _start_line(m: Controller, command: Command) -> int:
     for index, axis in enumerate(m.axes):
         if command.axes >> index & 1:
             if leader is not None and axis.columns_per_step != leader.columns_per_step:
-                return _forget_targets(m)
+                return _forget_targets(m, Fault.LINE_MISMATCH)
             if abs(axis.target - axis.position) > farthest:
                 leader, farthest = axis, abs(axis.target - axis.position)
+    if leader is not None and _off_the_line(m, leader) > 1:
+        return _forget_targets(m, Fault.LINE_TOO_COARSE)
     if leader is not None and farthest > 0:
         m.line.start(leader, command.axes, command.floor_ticks)
     return Fault.NONE
 
 
-def _forget_targets(m: Controller) -> int:
+def _off_the_line(m: Controller, leader: Axis) -> float:
+    """How far the followers may be off, each half a step: a square, as a part of what is allowed."""
+    ways = zip(m.axes, m.roughness, strict=True)
+    return sum(part for axis, part in ways if axis is not leader and axis.target != axis.position)
+
+
+def _forget_targets(m: Controller, fault: int) -> int:
     for axis in m.axes:
         axis.target = axis.position
-    return Fault.LINE_MISMATCH
+    return fault
 
 
 def _initialise(m: Controller, command: Command) -> int:

@@ -44,6 +44,7 @@ class Controller:
     inputs    the input image as latched
     sensors   the same, 1 = reached or on, whatever the line's polarity
     estops    inputs that asked for an emergency stop in the tick before, none once it was acknowledged
+    roughness by axis, the square of half a step, as a part of the square of the accuracy that a line must keep
     shared    input bits that several end sensors share; ``shared_on`` those that were on in the tick before
     reactions what this machine does on each fault
     lifting   KMD_GORA_X_Y is current, and X and Y wait until the heads are clear of the board
@@ -96,6 +97,7 @@ class Controller:
         chosen = ((row.fault, row.do, row.position_kept) for row in machine.reactions)
         self.reactions = reactions_of(machine.emergency_stop, chosen)
         self.only_zero_after = frozenset(Fault[name] for name in machine.only_zero_after)
+        self.roughness = _roughness(machine)
         self.output_mask = sum(1 << bit for _, bit in machine.outputs)
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
         self.spindle = machine.spindle
@@ -188,3 +190,9 @@ def _limits(machine: Machine, axis: int) -> tuple[int, int, int]:
     ends = (machine.sensor_at(axis, end) for end in ("max", "min"))
     far, near = (1 << sensor.bit if sensor else 0 for sensor in ends)
     return (0, far, near)
+
+
+def _roughness(machine: Machine) -> tuple[float, ...]:
+    """By axis, how much of what a line may be off a follower's half steps use up; 0 where no accuracy is set."""
+    allowed = machine.parameters and machine.parameters.number("system", "interpolation_accuracy_mm")
+    return tuple((0.5 / axis.steps_per_mm / allowed) ** 2 if allowed else 0.0 for axis in machine.axes)

@@ -58,6 +58,7 @@ class Fault(IntEnum):
     CHANGE_CHUCK = 64
     TOOL_NOT_LEFT = 65
     TOOL_NOT_TAKEN = 66
+    LINE_TOO_COARSE = 70
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +105,7 @@ _ALL = (
     FaultSpec(Fault.CHANGE_CHUCK, Reaction.STOP, True),
     FaultSpec(Fault.TOOL_NOT_LEFT, Reaction.STOP, True),
     FaultSpec(Fault.TOOL_NOT_TAKEN, Reaction.STOP, True),
+    FaultSpec(Fault.LINE_TOO_COARSE, Reaction.STOP, True),
 )
 
 FAULTS: Mapping[int, FaultSpec] = {spec.fault: spec for spec in _ALL}

@@ -74,6 +74,10 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("axes with different columns_per_step can't be linked in one line; the command moved nothing"),
         Message("move them one after the other, or give them the same columns_per_step"),
     ),
+    Fault.LINE_TOO_COARSE: FaultWords(
+        Message("the pulse equivalents can't keep a line within interpolation_accuracy_mm; the command moved nothing"),
+        Message("enter a greater interpolation_accuracy_mm, or smaller pulse equivalents; or move the axes one by one"),
+    ),
     Fault.BAD_COMMAND: FaultWords(
         Message("a command that this machine can't carry out came down the queue"),
         Message("check the queue against docs/KMD.md and the machine's outputs"),

@@ -10,6 +10,7 @@ from drillctl.execution.motion import STOPPING
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
 from drillctl.machine import EncoderIndex, HomingStep
 from drillctl.machine.model import Input
+from drillctl.machine.parameters import ParameterRow, Parameters
 from drillctl.machine.tool_change import ChangeStep, ToolChanger
 from tests.support.bench import Bench, shipped
 
@@ -97,6 +98,12 @@ def no_such_command() -> Bench:
     strange = b.program("KMD_CZEKAJ 9")
     strange["opcode"][0] = 99
     return b.put(strange)
+
+
+def coarse_line() -> Bench:
+    """Half a step of 0.021 mm is more than 0.01 mm."""
+    parameters = Parameters(system=ParameterRow((("interpolation_accuracy_mm", 0.01),)))
+    return Bench(replace(shipped("pcb-drill"), parameters=parameters)).ready().queue("KMD_LINIAd x=9 y=5")
 
 
 def emergency_stop() -> Bench:
@@ -195,6 +202,7 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.SENSOR_CONTRADICTION: both_ends,
     Fault.INPUT_TIMEOUT: no_answer,
     Fault.LINE_MISMATCH: unequal_line,
+    Fault.LINE_TOO_COARSE: coarse_line,
     Fault.BAD_COMMAND: no_such_command,
     Fault.EMERGENCY_STOP: emergency_stop,
     Fault.LATE_TICK: long_gap,

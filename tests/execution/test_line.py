@@ -4,9 +4,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from drillctl.execution.axis import Axis
+from drillctl.execution.line import Line
 from drillctl.kmd import Fault, Request
 from drillctl.machine import travel_ticks
+from drillctl.machine.drive_ramp import drive_ramp
+from drillctl.machine.parameters import ParameterRow
 from tests.support.bench import Bench, shipped
 
 REACHES = (0, 1, 2, 3, 5, 7, 8, 13, 30, 59)
@@ -128,3 +134,34 @@ def test_lines_of_unequal_columns_a_step_are_refused_before_anything_moves() -> 
     b.finish()
     assert (b.m.fault, b.positions()) == (Fault.LINE_MISMATCH, [0, 0, 0])
     assert [axis.target for axis in b.m.axes] == [0, 0, 0]
+
+
+@given(data=st.data())
+@settings(max_examples=30, deadline=None)
+def test_no_follower_passes_its_own_speed_or_acceleration(data: st.DataObject) -> None:
+    """Different drives: by the leader's intervals each follower, with its share of the way, is no faster than by
+    its own greatest speed, and gains it no faster than by its own first step.
+    """
+    kinds = [(2400.0, 3_600_000.0), (1200.0, 3_600_000.0), (2400.0, 720_000.0), (600.0, 18_000_000.0)]
+    tables = []
+    for table in shipped("eight-axis").axes[:3]:
+        speed, acceleration = data.draw(st.sampled_from(kinds))
+        row = (("greatest_speed_mm_min", speed), ("acceleration_mm_min2", acceleration), ("s_share", 0.0),
+               ("pulse_equivalent_mm", 0.01), ("gear_numerator", 1), ("gear_denominator", 1))  # fmt: skip
+        tables.append(replace(table, ramp=drive_ramp(ParameterRow(row), 8000, 2)))
+    line = Line(tuple(Axis(table, (0, 0, 0)) for table in tables))
+    reach = data.draw(st.tuples(*[st.integers(-3000, 3000)] * 3).filter(any))
+    for axis, steps in zip(line.axes, reach, strict=True):
+        axis.target = steps
+    leader = max(line.axes, key=lambda axis: abs(axis.target))
+    own = leader.ramp_tables()
+    line.start(leader, 0b111, 0)
+    cruise = max(leader.interval[leader.ramp.top], leader.min_interval)
+    for table, steps in zip(tables, reach, strict=True):
+        ramp, share = table.ramp, abs(steps / leader.target)
+        assert share / cruise <= 1 / ramp.interval[ramp.top] + 1e-12
+        assert share / leader.interval[0] ** 2 <= 1 / ramp.interval[0] ** 2 + 1e-12
+    while leader.counting:
+        leader.interrupt()
+    assert [axis.position for axis in line.axes] == list(reach)
+    assert leader.ramp_tables() == own, "its own ramp again"
