@@ -24,7 +24,7 @@ from time import process_time
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.fastforward import Batch
+from drillctl.execution.fastforward.batch import Batch
 from drillctl.generation.job import names_of
 from drillctl.kmd import RECORD, Op, to_text
 from drillctl.machine import Library, Machine, shipped_tables

@@ -23,6 +23,7 @@ parsing.py (argparse with hints), verbosity.py (-q and -v), refusals.py (errors 
 and stderr), examples.py (for --help).
 """
 
+import os
 import sys
 from collections.abc import Sequence
 
@@ -88,6 +89,7 @@ def parser() -> Parser:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one verb; returns the exit code. Interrupted, it leaves the outputs off: 130, or 143 on SIGTERM."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts a thread a core for matrices, and none is here
     streams.prepare()
     words = _with_verb(sys.argv[1:] if argv is None else argv)
     try:

@@ -16,9 +16,9 @@ from drillctl.machine import Library, Machine
 from drillctl.plant import PlantChoice, PlantRefused
 from drillctl.replay.header import check_tick, header_value, machine_of, same_tables
 from drillctl.replay.player import Player, playback
-from drillctl.ticker.fast_ticker import TICK, FastTicker
+from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.sampler import wire_names
-from drillctl.ticker.ticker import Ticker
+from drillctl.ticker.ticker import TICK, Ticker
 from drillctl.trace import Difference, Segments, Trace, TraceError, first_difference, render
 from drillctl.trace.files import read_record, read_trace, summary_of, takes_segments, whole_trace, write_record
 

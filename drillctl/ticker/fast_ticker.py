@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.execution.fastforward import Batch, Engine
+from drillctl.execution.fastforward.batch import Batch
+from drillctl.execution.fastforward.engine import Engine
 from drillctl.execution.fastforward.quiet import Quiet, foresee_quiet, leave_quiet
 from drillctl.kmd import Condition, Queue
 from drillctl.machine import Machine
@@ -24,7 +25,6 @@ from drillctl.ticker.ticker import NEVER, Ticker, axes_met
 from drillctl.trace import Recorder, Segments, Trace
 from drillctl.trace.tapes import Images, Tape, images
 
-FAST, TICK = "fast", "tick"
 MOST_TICKS = 1 << 22  # of a batch whose images are put together at once; a command that is longer is ticked
 FAR_SIGHT = 4096  # commands that may wait: a look ahead costs the same for few as for many
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.machine import Machine
-from drillctl.ticker.fast_ticker import TICK, FastTicker
+from drillctl.ticker.ticker import TICK
 
 Ticks = NDArray[np.int64]
 
@@ -39,6 +39,8 @@ def forecast(
 
     advance: is called with the number of commands that are done, and with that of all.
     """
+    from drillctl.ticker.fast_ticker import FastTicker
+
     ticker = FastTicker.ideal(machine, capacity=len(program), in_batches=engine != TICK)
     ticker.queue.put(program)
     ticks, m = np.zeros(len(program), np.int64), ticker.controller

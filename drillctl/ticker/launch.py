@@ -19,10 +19,9 @@ from drillctl.portio.registry import open_port, port_of_card, select
 from drillctl.portio.simulated import SimulatedCard, SwitchedCard
 from drillctl.ports import Driver, PortLayout, PortRefused
 from drillctl.ticker.converter.card import ConverterCard, ConverterChoice, layout_without_words
-from drillctl.ticker.fast_ticker import FAR_SIGHT, FAST, TICK, FastTicker
 from drillctl.ticker.link import Link, LocalLink
 from drillctl.ticker.realtime import most_ticks_hz
-from drillctl.ticker.ticker import Ticker
+from drillctl.ticker.ticker import FAST, TICK, Ticker
 from drillctl.trace.ring import RingRecorder
 
 LOG = logging.getLogger(__name__)
@@ -132,6 +131,8 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
     LOG.info("%s on port %s, pace %s, plant %s", machine.name, running.port, pace, running.plant)
     driver = _opened(machine, running, _card(plant, running, pace) if plant else None, pace)
     if _goes_fast(running, pace, driver, plant, keeper):
+        from drillctl.ticker.fast_ticker import FAR_SIGHT, FastTicker
+
         return LocalLink(
             FastTicker(machine, driver, plant, running.traced, queue=Queue(FAR_SIGHT), taped=running.taped)
         )

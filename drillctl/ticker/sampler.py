@@ -3,16 +3,15 @@
 Rule: tick() knows no trace; this module alone knows which number becomes which signal (docs/SPEC.md, section 3).
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution import Controller
-from drillctl.execution.fastforward import Batch
-from drillctl.execution.fastforward.axis_batch import turns_of
-from drillctl.execution.fastforward.quiet import Quiet
 from drillctl.kmd import Fault, Op, Request, RequestBit
 from drillctl.kmd.commands import BY_OP
 from drillctl.kmd.queue import pace_of
@@ -20,10 +19,13 @@ from drillctl.machine import Machine
 from drillctl.machine.shape import MOST_CARDS
 from drillctl.plant import Plant
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES
-from drillctl.plant.forecast import PlantForecast
 from drillctl.ports import CARD_BITS, CARD_MASK, word
-from drillctl.ticker.tape_recorder import TapeRecorder
 from drillctl.trace import Recorder, Signal, VcdVar, pack_command
+
+if TYPE_CHECKING:
+    from drillctl.execution.fastforward.batch import Batch
+    from drillctl.execution.fastforward.quiet import Quiet
+    from drillctl.plant.forecast import PlantForecast
 
 HAND_WORDS = ("-", *(f"{bit}={value}" for bit in range(MOST_CARDS * CARD_BITS) for value in (0, 1)))
 EVERY_LANE = (*PLACE_LANES, *CURRENT_LANES)
@@ -96,6 +98,8 @@ class Sampler:
 
     def sample_quiet(self, quiet: Quiet, first: int, forecast: PlantForecast) -> None:
         """Before a stretch that begins at tick ``first`` is left, as ``sample_batch``; tapes take its outputs."""
+        from drillctl.ticker.tape_recorder import TapeRecorder
+
         if not isinstance(self.recorder, TapeRecorder):
             self.sample_outputs(quiet.shown(), first)
         for number, axis in enumerate(self._m.axes if self._derived else ()):
@@ -114,6 +118,8 @@ class Sampler:
         """Before a batch that begins at tick ``first`` is taken over; into a Recorder. Without its ``images`` (ticks,)
         the outputs are kept elsewhere. ``forecast`` knows the plant as it is now.
         """
+        from drillctl.execution.fastforward.axis_batch import turns_of
+
         assert isinstance(self.recorder, Recorder)
         index = 0
         input_ticks, inputs = batch.inputs()

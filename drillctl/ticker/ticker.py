@@ -29,6 +29,7 @@ from drillctl.ports import Driver
 from drillctl.ticker.sampler import Keeper, Sampler
 from drillctl.trace import Recorder, Segments, Trace
 
+FAST, TICK = "fast", "tick"  # the engines, by name
 NEVER = 1 << 62  # a tick that doesn't come
 
 

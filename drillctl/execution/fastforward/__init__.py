@@ -11,10 +11,5 @@
 
 Rule: tick is the law. Nothing is decided here: what can't be foreseen to the byte (homing, faults, requests, a sensor
 in the way) is left to tick, and it finds the machine as if it had ticked all along. Image pool and tapes are those of
-trace/tapes.
+trace/tapes. Nothing is imported here: a ticker that passes stretches needs no batches.
 """
-
-from drillctl.execution.fastforward.batch import Batch
-from drillctl.execution.fastforward.engine import Engine
-
-__all__ = ["Batch", "Engine"]

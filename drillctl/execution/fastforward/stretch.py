@@ -103,11 +103,14 @@ def leave(m: Controller, ticks: int) -> None:
 
 
 def goes_on(m: Controller, inputs: int) -> bool:
-    """Returns whether a stretch that was left at an input's change goes on as it was foreseen; then the controller has
-    seen ``inputs``, as the next tick would have latched them.
+    """Returns whether a stretch that was left goes on as it was foreseen, as end sensors alone have changed and none
+    stops an axis; then the controller has seen ``inputs``, as the next tick would have latched them.
     """
     changed, sensors = inputs ^ m.inputs, (inputs ^ m.polarity) & m.sensor_mask
-    if not m.moving or changed & (m.action_mask | m.shared) or any(sensors & pair == pair for pair in m.pairs):
+    ends = 0
+    for axis in m.axes:
+        ends |= axis.limits[1] | axis.limits[-1]
+    if not m.moving or changed & ~(ends & ~m.shared) or any(sensors & pair == pair for pair in m.pairs):
         return False
     if not all(_is_quiet(axis, sensors, m.position_known) for axis in m.axes):
         return False

@@ -1,11 +1,17 @@
 """How a run ended, what a job will take, how punctual ticks are: in words, as functions of the records."""
 
+from __future__ import annotations
+
 import math
-from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from drillctl.language.number_text import clock
 from drillctl.viewmodel.records import Estimate, Outcome, ToolEstimate
-from drillctl.viewmodel.reports import Bar, LatencyReport, Lateness
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from drillctl.viewmodel.reports import Bar, LatencyReport, Lateness
 
 WIDEST = 40
 DOUBTFUL_SHARE = 0.1  # canaries that are late as often as that meet most late ticks by chance
