@@ -8,7 +8,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
+from drillctl.console.magazine_record import MagazineRecord
 from drillctl.console.parameters import Change, save, saved_in
+from drillctl.generation.eight_axis.magazine import Magazine
 from drillctl.language import Message, message_of
 from drillctl.machine import Library, Machine, ParameterRow, Parameters
 from drillctl.machine.library import user_tables
@@ -18,6 +20,7 @@ from drillctl.machine.parameter_table import GROUPS, MACHINING, SYSTEM, Value
 from drillctl.viewmodel.console import MachineView, Problems
 from drillctl.viewmodel.production import ParameterView, PlaceRecord, Records, ToolRecord
 
+RECORD = MagazineRecord()  # what it has read is kept for the next call
 MONITOR_MS = 100  # where the position detection cycle is not entered
 
 
@@ -44,14 +47,19 @@ class Desk(Protocol):
 class MachineProduction:
     """A Production of the machine that ``desk`` has in use, which has parameters."""
 
-    def __init__(self, desk: Desk, library: Library, folder: Callable[[], Path] = user_tables):
+    def __init__(
+        self, desk: Desk, library: Library, folder: Callable[[], Path] = user_tables,
+        kept: MagazineRecord = RECORD,
+    ):  # fmt: skip
         self._desk, self._library, self._folder = desk, library, folder
+        self._kept = kept
 
     def records(self) -> Records:
         """What the parameters say; a magazine's record beside them where one is kept."""
         machine, parameters = self._desk.machine, self._parameters
         absolute = _pair(parameters.coordinates, "absolute_{}_mm") or (0.0, 0.0)
         relative = _pair(parameters.coordinates, "relative_{}_mm")
+        magazine, trouble = self._kept.of(machine)
         owners = {row.value("magazine_place"): row.value("number") for row in parameters.tools}
         return Records(
             stroke_mm=parameters.number(MACHINING, "working_stroke_mm"),
@@ -59,10 +67,11 @@ class MachineProduction:
             absolute_mm=absolute,
             relative_mm=(relative[0] + absolute[0], relative[1] + absolute[1]) if relative else None,
             cycle_s=(parameters.number(SYSTEM, "position_detection_cycle_ms") or MONITOR_MS) / 1000,
-            tools=tuple(map(_tool, parameters.tools)),
-            places=tuple(_place(row, owners) for row in parameters.places),
-            chucks=(),
+            tools=tuple(_tool(row, machine, magazine) for row in parameters.tools),
+            places=tuple(_place(row, owners, magazine) for row in parameters.places),
+            chucks=tuple(tool for _spindle, tool in sorted(magazine.chucks.items())) if magazine else (),
             missing=parameters.missing(),
+            trouble=trouble,
         )
 
     def groups(self) -> Sequence[tuple[str, str]]:
@@ -126,21 +135,27 @@ def _view(one: Entry) -> ParameterView:
     return ParameterView(one.name, shown(one.value), range_of(row), row.meaning, row.effect, choices)
 
 
-def _tool(row: ParameterRow) -> ToolRecord:
-    left, place = row.number("hits_left"), row.number("magazine_place")
+def _tool(row: ParameterRow, machine: Machine, magazine: Magazine | None) -> ToolRecord:
+    """A tool as its parameters have it; the holes that it is good for by the record, where one is kept."""
+    number, left, place = int(row.number("number") or 0), row.number("hits_left"), row.number("magazine_place")
+    kept = left if magazine is None or left is None else magazine.hits_left(machine, number)
     return ToolRecord(
-        int(row.number("number") or 0),
+        number,
         row.number("diameter_mm"),
         row.number("offset_mm"),
-        None if left is None else int(left),
+        None if kept is None else int(kept),
         None if place is None else int(place),
     )
 
 
-def _place(row: ParameterRow, owners: Mapping[Value | None, Value | None]) -> PlaceRecord:
-    number = row.value("place")
+def _place(
+    row: ParameterRow, owners: Mapping[Value | None, Value | None], magazine: Magazine | None
+) -> PlaceRecord:  # fmt: skip
+    number = int(row.number("place") or 0)
     owner = owners.get(number)
-    return PlaceRecord(int(row.number("place") or 0), owner if isinstance(owner, int) else None)
+    bits = sorted(magazine.bits.items()) if magazine is not None else []
+    there = tuple(there for (place, _spindle), there in bits if place == number)
+    return PlaceRecord(number, owner if isinstance(owner, int) else None, there)
 
 
 def _pair(row: ParameterRow, name: str) -> tuple[float, float] | None:

@@ -6,7 +6,10 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
+from drillctl.console.magazine_record import MagazineRecord
 from drillctl.console.production import MachineProduction
+from drillctl.generation.eight_axis.magazine import Transfer
+from drillctl.jobs.magazine import MagazineFile, default_file
 from drillctl.language import Message
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.viewmodel.console import AxisView, MachineView, Problems
@@ -91,3 +94,28 @@ def test_records_are_what_the_parameters_say(tmp_path: Path) -> None:
     assert records.cycle_s == 0.1 and records.missing == () and records.relative_mm is None
     assert [tool.number for tool in records.tools] == [row.value("number") for row in EIGHT.parameters.tools]
     assert {place.number: place.tool for place in records.places}[1] == 1
+
+
+def test_the_magazine_is_shown_as_its_record_has_it_and_anew_when_it_has_changed(tmp_path: Path) -> None:
+    made = MachineProduction(Desk(), LIBRARY, lambda: tmp_path, MagazineRecord(lambda: tmp_path))
+    assert made.records().chucks == () and not any(place.bits for place in made.records().places)
+    kept = MagazineFile(default_file(tmp_path, EIGHT), EIGHT)
+    begun = kept.magazine.begun(Transfer("take", 1, 1, (1, 2))).hit(2, 7)
+    kept.keep(begun)
+    records = made.records()
+    assert records.chucks[:3] == (None, None, 0)
+    assert next(place.bits for place in records.places if place.number == 1)[:3] == (None, None, True)
+    left = {tool.number: tool.hits_left for tool in records.tools}
+    assert EIGHT.parameters is not None
+    row = EIGHT.parameters.tool(2)
+    assert row is not None and left[2] == (row.number("hits_left") or 0) - 7
+    kept.keep(begun.ended(Transfer("take", 1, 1, (1, 2))))
+    assert made.records().chucks[:3] == (1, 1, 0)
+
+
+def test_a_record_that_cannot_be_read_is_told_and_nothing_is_guessed(tmp_path: Path) -> None:
+    made = MachineProduction(Desk(), LIBRARY, lambda: tmp_path, MagazineRecord(lambda: tmp_path))
+    default_file(tmp_path, EIGHT).write_text("{", "utf-8")
+    records = made.records()
+    assert records.trouble is not None and "is no magazine record" in records.trouble
+    assert records.chucks == () and not any(place.bits for place in records.places)
