@@ -5,12 +5,11 @@ A frame is address, function, length of the data, data, CRC-16 as of Modbus (low
 value), 5 set frequency in 0.01 Hz. Register facts: docs/CONVERTERS.md.
 """
 
-import termios
 import time
 
 from drillctl.language import Message, verbatim
 from drillctl.machine.converter import Converter
-from drillctl.ticker.converter.lines import ConverterError, Reading, open_serial
+from drillctl.ticker.converter.lines import LINE_ERRORS, ConverterError, Reading, open_serial
 
 CONTROL, STATUS, FREQUENCY = 3, 4, 5
 RUN_FORWARD, STOP = 0x01, 0x08
@@ -95,6 +94,6 @@ class HuanyangLine:
             self._serial.write(frame(self._kind.address, function, data))
             head = self._serial.read(3)
             rest = self._serial.read(min(head[2], LONGEST_DATA) + 2) if len(head) == 3 else b""
-        except (OSError, TypeError, termios.error) as error:  # the last two: the device is gone, or was closed
+        except LINE_ERRORS as error:  # the last two: the device is gone, or was closed
             raise ConverterError(verbatim(str(error))) from error
         return data_of(head + rest, self._kind.address, function)

@@ -4,16 +4,17 @@ Rule: each call is one or some exchanges, each bounded by ANSWER_S; whatever goe
 what. Nothing is sent twice here.
 """
 
-import termios
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from drillctl.files.system import TERMINAL_ERRORS
 from drillctl.language import Message, Refusal, verbatim
 from drillctl.machine.converter import Converter, Frequency, Write
 
 if TYPE_CHECKING:
     import serial
 
+LINE_ERRORS: tuple[type[Exception], ...] = (*TERMINAL_ERRORS, ValueError, TypeError)
 MOST_DRAINS = 5
 LONGEST_ANSWER = 256
 ANSWER_S = 0.2  # a wire of 9600 baud takes 10 ms for an exchange, a converter up to 100 ms to answer
@@ -137,13 +138,13 @@ class ModbusLine:
 
     def _call(self, name: str, *values: int, functioncode: int) -> int:
         """One exchange. minimalmodbus raises OSError for no and for wrong answers, ValueError for numbers that a
-        register can't hold; pyserial termios.error for a device that is gone, TypeError for one that was closed.
+        register can't hold; pyserial a terminal's error for a device that is gone, TypeError for one that was closed.
         """
         try:
             if self._failed:
                 self._let_it_fall_silent()
             answer = getattr(self._instrument, name)(*values, functioncode=functioncode)
-        except (OSError, ValueError, TypeError, termios.error) as error:
+        except LINE_ERRORS as error:
             self._failed = True
             raise ConverterError(verbatim(str(error) or type(error).__name__)) from error
         return 0 if answer is None else int(answer)

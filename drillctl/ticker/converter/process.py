@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 
+from drillctl.files.system import signals
 from drillctl.kmd.channel import Channel
 from drillctl.language import Message
 from drillctl.ticker.child_process import ChildProcess
@@ -21,7 +22,7 @@ from drillctl.ticker.message_text import message_text
 PERIOD_S = 0.12
 TICKER_LOST_NS = 2_000_000_000  # neither ticker nor guard: then no speed is wanted any more
 LAST_TRIES_S = 3.0  # at the end, to a motor that does not stop or a line that is silent
-IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP)
+IGNORED = signals("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP")
 LOST = Message("the converter's process was lost; the job was stopped, see that the spindle stands")
 
 
