@@ -1,8 +1,7 @@
 """The machine kept running for the screens: a Console (viewmodel/console.py) made of the other modules of this room.
 
 Rule: never blocks, and never raises for what a person did: it returns problems, and then nothing has changed. Nothing
-is begun while something else is on its way; stops and emergency stops are never refused for that. The machine runs in
-a process of its own, so a screen that hangs disturbs no tick.
+is begun while something else is on its way, but stops are never refused. The machine runs in a process of its own.
 """
 
 import time
