@@ -48,10 +48,12 @@ def foresee_quiet(m: Controller, world: PlantFacts, most: int) -> Quiet | None:
     the controller has it.
     """
     moving = [index for index, axis in enumerate(m.axes) if axis.counting]
+    if len(moving) > 1 and any(m.axes[index].drive for index in moving):
+        return None
     columns = {index: _free_columns(world, index, m.axes[index]) for index in moving}
     if m.command.opcode == Op.GORA_X_Y and len({m.axes[index] in m.drill_axes for index in moving}) > 1:
         return None  # the heads' part of it ends in a tick of its own (strokes.py)
-    if not moving or min(columns.values()) <= 0 or (len(moving) > 1 and any(m.axes[index].drive for index in moving)):
+    if not moving or min(columns.values()) <= 0:
         return None
     ticks, courses = foresee_courses(m, world.inputs, min(most, LONGEST))
     for index in moving if ticks else ():
