@@ -20,6 +20,7 @@ PATTERN = ".toml"
 TEXT = ".trace"
 SEGMENTS = ".seg"
 TRACES = (TEXT, SEGMENTS)
+GCODE = (".nc", ".ngc", ".gcode")
 Writer = Callable[[argparse.Namespace], tuple[str, Sequence[str]]]  # gives the text and its warnings
 EXCELLON = (".drl", ".drd", ".xln", ".xnc", ".exc", ".ncd", ".txt")  # as CAD programs name drill files
 
@@ -30,12 +31,15 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("file", type=Path, metavar="FILE", help="a drill file; a trace; a pattern of holes (.toml)")
     to = (
         f"OUT.kmd: a queue; OUT{PART}: a part program; OUT.trace, OUT.seg: a trace as text, in segments; "
-        f"{' '.join(EXCELLON)}: an Excellon file"
+        f"{' '.join(GCODE)}: G-code; {' '.join(EXCELLON)}: an Excellon file"
     )
     verb.add_argument("--to", type=Path, required=True, metavar="OUT", help=to)
     verb.add_argument(
-        "--style", default="mm,decimal", metavar="F", help="format of the Excellon file; default: %(default)s"
-    )
+        "--style", metavar="F",
+        help="of an Excellon file: its format, default mm,decimal; of G-code: grbl (default) or linuxcnc",
+    )  # fmt: skip
+    speed = "spindle speed in G-code, rev/min; default: %(default)s"
+    verb.add_argument("--rev-min", type=options.up_to(1_000_000), default=10_000, metavar="N", help=speed)
     part = "write only the first N ticks of a trace in segments"
     verb.add_argument("--to-tick", type=options.up_to(10**12), metavar="N", help=part)
     options.add_machine(verb)
@@ -73,7 +77,7 @@ def _ending(out: Path) -> str:
     """
     from drillctl.files.outputs import OutputError
 
-    ending, endings = out.suffix.lower(), (QUEUE, PART, *TRACES, *EXCELLON)
+    ending, endings = out.suffix.lower(), (QUEUE, PART, *TRACES, *GCODE, *EXCELLON)
     if ending and ending not in endings:
         raise OutputError(
             Message(
@@ -176,7 +180,7 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
     try:
-        data = write(drill_file, arguments.style)
+        data = write(drill_file, arguments.style or "mm,decimal")
     except Complaint as error:
         raise JobError(
             Message("not understood; write for instance mm,decimal").at(f"--style {arguments.style}")
@@ -186,4 +190,13 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     return data.decode("ascii"), file_warnings(arguments.file, drill_file)
 
 
-_WRITERS: Mapping[str, Writer] = {QUEUE: _queue, PART: _part}
+def _gcode(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
+    """Returns the board as G-code, placed and ordered as the options say."""
+    from drillctl.generation.gcode import gcode
+
+    job = jobs.load(arguments.file, jobs.job_setup(arguments), options.machine(arguments))
+    lines = gcode(job, arguments.style or "grbl", arguments.rev_min, arguments.peck, arguments.spot)
+    return "".join(f"{line}\n" for line in lines), job.warnings
+
+
+_WRITERS: Mapping[str, Writer] = {QUEUE: _queue, PART: _part, **dict.fromkeys(GCODE, _gcode)}

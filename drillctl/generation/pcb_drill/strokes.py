@@ -25,7 +25,7 @@ def drill_stroke(machine: Machine, peck_mm: float | None, heads: tuple[int, ...]
     down, up = record(Op.WIERTLO_DOL, axes=axes), record(Op.WIERTLO_GORA, axes=axes)
     if peck_mm is None:
         return np.concatenate([down, up])
-    deepest_mm = min(_depth_mm(machine, axis) for axis in heads)
+    deepest_mm = min(depth_mm(machine, axis) for axis in heads)
     pecks = math.ceil(deepest_mm / peck_mm) - 1
     if pecks > MOST_PECKS:
         raise JobError(
@@ -73,8 +73,10 @@ def head_move(machine: Machine, depth_mm: float, heads: tuple[int, ...]) -> Reco
     return record(Op.RUCH, args, sum(1 << axis for axis in heads), Flag.ABSOLUTE)
 
 
-def _depth_mm(machine: Machine, axis: int) -> float:
-    """From the board's surface to where the head turns back."""
+def depth_mm(machine: Machine, axis: int) -> float:
+    """Returns how deep a hole is, from the board's surface to where the head turns back, in mm. Raises JobError where
+    the machine's file says nothing of the surface.
+    """
     return (_bottom(machine, axis) - _surface(machine, axis)) / machine.axes[axis].steps_per_mm
 
 
