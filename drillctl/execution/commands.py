@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from drillctl.execution.axis import Axis
 from drillctl.execution.conditions import Event, occur, raise_fault
 from drillctl.execution.controller import Controller
+from drillctl.execution.depth import lower_to_contact, touched
 from drillctl.execution.heads import heads_lowered, heads_raised, lower_heads, raise_heads
 from drillctl.execution.homing import GOES_ON, begin_homing, carry_homing
 from drillctl.execution.lifted_travel import lift_then_go, lifted_and_gone
@@ -194,6 +195,7 @@ _STARTED: Mapping[int, Handler] = {
     Op.GORA_X_Y: lift_then_go,
     Op.KROK: begin_step,
     Op.WIERTLO_DOM: home_heads,
+    Op.DOTYK: lower_to_contact,
     Op.SUW: set_stroke,
 }
 _ENDED: Mapping[int, Handler] = {
@@ -207,4 +209,5 @@ _ENDED: Mapping[int, Handler] = {
     Op.POWROT: carry_return,
     Op.GORA_X_Y: lifted_and_gone,
     Op.WIERTLO_DOM: heads_home,
+    Op.DOTYK: touched,
 }

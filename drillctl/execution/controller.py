@@ -12,6 +12,7 @@ from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine, ways
 from drillctl.machine.head_lines import CHUCK, CONTACT, alarm_input, head_input, head_output
 from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_ACTUAL, SPEED_WANTED, STOP, masks_at
+from drillctl.machine.parameters import Parameters
 from drillctl.ports import Driver
 
 
@@ -33,6 +34,7 @@ CONDITIONS = (
     Condition.READY, Condition.ZERO_ONLY, Condition.READY, Condition.HOLDING, Condition.STOPPING, Condition.STOPPING,
     Condition.STOPPING, Condition.RETURNING, Condition.LATCHED,
 )  # fmt: skip
+NO_LIMIT = 1 << 40  # steps
 ACTIONS = ("pause", "stop", "estop")  # of an ``[[input]]``
 
 
@@ -50,6 +52,8 @@ class Controller:
     lifting   KMD_GORA_X_Y is current, and X and Y wait until the heads are clear of the board
     zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
     indexes   input bits of the encoders' indexes, by axis; 0 of an axis without one
+    surfaces  by axis, the place in steps in which a head's bit has touched; ``descents`` the deepest place in which it
+              is looked for, ``breakage_ranges`` how much deeper than before it may touch
     alarms    inputs of drives that had tripped in the tick before, none once that was acknowledged; of ``alarm_mask``
     contacts  the same of the inputs that say that a head's bit touches; ``chuck_mask`` the outputs of the chucks
     homing_ways   by row of the homing table, how each of its axes goes
@@ -102,12 +106,12 @@ class Controller:
         self.spindle_mask = sum(1 << bit for name, bit in machine.outputs if name == "spindle")
         self.spindle = machine.spindle
         self.speed_word, self.actual_word = machine.output_word(SPEED_WANTED), machine.input_word(SPEED_ACTUAL)
-        self.speed_reached = self.dip_ticks = 0
         self.levels = tuple(masks_at(machine.levels, event) for event in (POWER_ON, STOP, FAULT, ESTOP))
         self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
         self.contacts = tuple(_contact_bit(machine, axis) for axis in range(len(machine.axes)))
+        self.descents, self.breakage_ranges = _detection(machine)
         self.alarm_mask = sum(_alarm_bit(machine, axis.name) for axis in machine.axes)
-        self.alarms = 0
+        self._forget_findings()
         self.chuck_mask = sum(head_output(machine, CHUCK, head) for head in machine.drill_axes)
         self.homes_by_sensor = machine.homes_by_sensor
         self.set_rate(machine.tick_hz)
@@ -131,6 +135,11 @@ class Controller:
         self.position_known = False
 
         self.done = self.hole_begun = self.holes_done = self.tool = 0
+
+    def _forget_findings(self) -> None:
+        """No speed has been reached yet, no drive has tripped, and no bit has touched."""
+        self.speed_reached = self.dip_ticks = self.alarms = 0
+        self.surfaces: dict[int, int] = {}
 
     def enter(self, stage: Stage) -> None:
         """Goes to this stage, and keeps condition and job in step with it."""
@@ -163,6 +172,19 @@ def _index_bit(machine: Machine, axis: int) -> int:
     """The input bit of the index of an axis's encoder, 0 where it has none."""
     index = machine.index_of(axis)
     return 0 if index is None else 1 << index.bit
+
+
+def _detection(machine: Machine) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """The detection descent and the breakage range of each axis in steps; more than any travel where it has none."""
+    known = machine.parameters or Parameters()
+    range_mm = known.number("machining", "breakage_range_mm")
+    lengths = [(known.of_axis(table.name).number("depth_detection_descent_mm"), range_mm) for table in machine.axes]
+    scales = [table.steps_per_mm for table in machine.axes]
+    descents, ranges = (
+        tuple(NO_LIMIT if mm is None else round(mm * scale) for mm, scale in zip(row, scales, strict=True))
+        for row in zip(*lengths, strict=True)
+    )
+    return descents, ranges
 
 
 def _alarm_bit(machine: Machine, axis_name: str) -> int:

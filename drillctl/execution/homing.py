@@ -20,6 +20,7 @@ def begin_homing(m: Controller) -> None:
     """The first row starts; the position is unknown until the last has ended."""
     m.position_known = False
     m.homing_row = 0
+    m.surfaces.clear()
     m.step = 0
     leave_step(m)
     whole_strokes(m)

@@ -57,6 +57,7 @@ class Op(IntEnum):
     KROK = 21
     WIERTLO_DOM = 22
     SUW = 23
+    DOTYK = 24
 
 
 class Flag(IntFlag):
@@ -181,6 +182,10 @@ _ALL = (
         "KMD_SUW", Op.SUW, ArgumentForm.MOVES, _PLACES,
         Message("set how far KMD_WIERTLO_GORA raises these heads, in steps from machine zero, until the next "
                 "initialisation or stop"),
+    ),
+    Spec(
+        "KMD_DOTYK", Op.DOTYK, ArgumentForm.AXES, _AXES,
+        Message("lower the heads slowly until their bits touch the board; one that touches too deep is broken"),
     ),
 )  # fmt: skip
 

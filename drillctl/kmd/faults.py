@@ -51,6 +51,8 @@ class Fault(IntEnum):
     HOMING_NO_INDEX = 53
     HOMING_EARLY_INDEX = 54
     DRIVE_ALARM = 55
+    NO_CONTACT = 56
+    BIT_BROKEN = 57
     CHANGE_Z_NOT_HOME = 60
     CHANGE_FOOT = 61
     CHANGE_NOT_THERE = 62
@@ -98,6 +100,8 @@ _ALL = (
     FaultSpec(Fault.HOMING_NO_INDEX, Reaction.STOP, False),
     FaultSpec(Fault.HOMING_EARLY_INDEX, Reaction.STOP, False),
     FaultSpec(Fault.DRIVE_ALARM, Reaction.STOP, False),
+    FaultSpec(Fault.NO_CONTACT, Reaction.STOP, True),
+    FaultSpec(Fault.BIT_BROKEN, Reaction.STOP, True),
     FaultSpec(Fault.CHANGE_Z_NOT_HOME, Reaction.STOP, False),
     FaultSpec(Fault.CHANGE_FOOT, Reaction.STOP, True),
     FaultSpec(Fault.CHANGE_NOT_THERE, Reaction.STOP, True),

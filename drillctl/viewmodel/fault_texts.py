@@ -150,6 +150,14 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("the encoder's index was on already where the axis had just left its origin switch"),
         Message("check whether the index is stuck; move the switch by half a turn, so that the index comes later"),
     ),
+    Fault.NO_CONTACT: FaultWords(
+        Message("a head went down as far as its depth detection goes, and its bit touched nothing"),
+        Message("see whether the bit is there and whole, and whether a board lies below it"),
+    ),
+    Fault.BIT_BROKEN: FaultWords(
+        Message("a bit touched the board deeper than before by more than the breakage range"),
+        Message("put a new bit in; where the board is thinner, initialise, so that its surface is found anew"),
+    ),
     Fault.DRIVE_ALARM: FaultWords(
         Message("the drive of an axis has tripped: its motor fell too far behind its pulses"),
         Message("lower speed or acceleration, look for a jammed guide; switch the drive on anew, and initialise"),

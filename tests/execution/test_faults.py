@@ -8,9 +8,8 @@ import pytest
 from drillctl.execution.conditions import raise_fault
 from drillctl.execution.motion import STOPPING
 from drillctl.kmd import FAULTS, Condition, Fault, Reaction, Request
-from drillctl.machine import EncoderIndex, HomingStep
+from drillctl.machine import EncoderIndex, HomingStep, ParameterRow, Parameters
 from drillctl.machine.model import Input
-from drillctl.machine.parameters import ParameterRow, Parameters
 from drillctl.machine.tool_change import ChangeStep, ToolChanger
 from tests.support.bench import Bench, shipped
 
@@ -168,6 +167,26 @@ def drive_alarm() -> Bench:
     return b
 
 
+def feeling(text: str) -> Bench:
+    """A head whose bit says where it touches, and a range beyond which it is broken."""
+    parameters = Parameters(machining=ParameterRow((("breakage_range_mm", 0.2),)))
+    machine = replace(shipped("pcb-drill"), inputs=(Input("contact_1", 21, 1, "none"),), parameters=parameters)
+    return Bench(machine).ready().queue(text)
+
+
+def nothing_below() -> Bench:
+    b = feeling("KMD_DOTYK")
+    b.card.stuck_low = b.input_bit("contact_1")
+    return b
+
+
+def broken_bit() -> Bench:
+    b = feeling("KMD_DOTYK; KMD_WIERTLO_GORA; KMD_DOTYK")
+    b.until(lambda: len(b.m.surfaces) > 0)
+    b.m.surfaces[2] -= 100
+    return b
+
+
 def from_the_wiring(fault: Fault) -> Callable[[], Bench]:
     """Ports and processes are lost between ticks, where the wiring sees it and says so."""
 
@@ -214,6 +233,8 @@ PROVOKED: Mapping[Fault, Callable[[], Bench]] = {
     Fault.SPINDLE_SPEED: spindle_that_does_not_turn,
     Fault.SPINDLE_LOST: spindle_that_is_braked,
     Fault.DRIVE_ALARM: drive_alarm,
+    Fault.NO_CONTACT: nothing_below,
+    Fault.BIT_BROKEN: broken_bit,
     Fault.HOMING_NO_SWITCH: homing_by_index(1, "x_min", 0),
     Fault.HOMING_OFF_SWITCH: off_the_switch,
     Fault.HOMING_ON_SWITCH: homing_by_index(3, "x_min", 1),
