@@ -253,8 +253,11 @@ class App(Boxes):
         """Runs one turn of the loop; the next one is due a beat after this one began."""
         if self._interrupts:
             raise KeyboardInterrupt(self._interrupts[0])
-        self._next_beat = loop.set_alarm_in(BEAT_S if self._at_work else REST_BEAT_S, self._beat)
+        rested = not self._at_work
+        self._next_beat = loop.set_alarm_in(REST_BEAT_S if rested else BEAT_S, self._beat)
         self.turn()
+        if rested and self._at_work:
+            self._hasten()  # a desk that is silent for a beat at rest is nearly taken for lost at work
 
     def _hasten(self) -> None:
         """Brings the next beat forward: what a key has asked for is seen as soon as while the machine is at work."""

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from drillctl.language import words
 from drillctl.ui import preferences
+from drillctl.ui.app import BEAT_S, REST_BEAT_S
 from drillctl.ui.pcb_drill.drilling import Drilling
 from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.pcb_drill.menus import MENUS
@@ -338,3 +339,18 @@ def test_a_window_has_exactly_the_size_it_is_given(size: tuple[int, int], title:
     canvas = window.render(size)
     assert (canvas.cols(), canvas.rows()) == size
     assert "x" in "".join(row.decode() for row in canvas.text)
+
+
+def test_the_beat_after_a_start_is_one_of_a_machine_at_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A desk that is silent for a beat at rest would nearly be taken for lost by a machine that has begun to move."""
+    program = Program(FakeConsole())
+    app, waits = program.app, list[float]()
+    app._interrupts = ()
+    monkeypatch.setattr(app.loop, "set_alarm_in", lambda seconds, _beat: waits.append(seconds) or len(waits))
+    monkeypatch.setattr(app.loop, "remove_alarm", lambda _handle: waits.pop())
+    app._beat(app.loop)
+    assert waits == [REST_BEAT_S]
+    program.console.now = replace(VIEW, moving=True)
+    app._beat(app.loop)
+    app._beat(app.loop)
+    assert waits == [REST_BEAT_S, BEAT_S, BEAT_S]
