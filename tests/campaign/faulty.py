@@ -19,6 +19,7 @@ from drillctl.cli import main
 from drillctl.jobs.journal import writer
 from drillctl.plant import IdealPlant
 from drillctl.portio.simulated import SimulatedCard
+from drillctl.ports import SAFE_IMAGE
 from drillctl.ticker import launch as machinery
 
 Plan = dict[str, Any]
@@ -55,10 +56,10 @@ class FaultyCard(SimulatedCard):
             self._touches = self.plant.touches
             self._tell("touch")
 
-    def safe(self) -> None:
+    def safe(self, image: int = SAFE_IMAGE) -> None:
         if self._flushes:  # in the process that ticked: the others' plants stand where they stood at the fork
             self._tell("safe")
-        super().safe()
+        super().safe(image)
 
     def _fails(self) -> bool:
         """Whether it is time to fail; tells of the first time. Raises OSError where the port is pulled."""

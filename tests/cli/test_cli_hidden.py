@@ -36,6 +36,11 @@ TEXTS = {
 ANY, WRONG_FILE, KMD = f"{NASTY}-clean.drl", f"{NASTY}-wrong.drl", f"{NASTY}-clean.kmd"
 OWN = f"{NASTY}/machines/own.toml"
 CASES = [
+    ["report", f"{NASTY}.trace", "-o", f"{NASTY}.html"], ["report", NASTY, "-o", NASTY], ["grade", NASTY, NASTY],
+    ["grade", "01", NASTY], ["examples", NASTY], ["where"], ["where", "--tables", NASTY], ["completion", NASTY],
+    ["completion", "bash"], ["parameters", "list", "--machine", NASTY], ["parameters", "set", NASTY],
+    ["magazine", "list", "--machine", OWN], ["magazine", NASTY], ["tables", "show", NASTY], ["tables", "list", NASTY],
+    ["tables", "copy", f"phase/{NASTY}"], ["convert", ANY, "--to", f"{NASTY}.nc", "--style", NASTY],
     ["run", f"{NASTY}.drl"], ["run", f"{NASTY}-odd.drl"], ["inspect", f"{NASTY}-odd.drl", "--json"],
     ["run", f"{NASTY}.kmd"], [NASTY], ["--theme", NASTY],
     ["screen", "--lang", NASTY], ["screen", "--port", NASTY, "--machine", NASTY],
