@@ -80,7 +80,8 @@ def whatever_is_asked(name: str, data: st.DataObject) -> None:
     machine = LIBRARY.machine(name)
     if machine.tick_hz < FINE_HZ:
         machine = machine.at_rate(data.draw(st.sampled_from([500, 500, 560, 640])))
-    known_faults = FAULTS if "z" in machine.axis_names else [fault for fault in FAULTS if ".z" not in fault]
+    named = {axis.name for axis in machine.axes} | {sensor.name for sensor in machine.sensors}
+    known_faults = [fault for fault in FAULTS if "." not in fault or fault.partition("=")[0].split(".")[1] in named]
     faults = tuple(data.draw(st.lists(st.sampled_from(known_faults), max_size=2, unique_by=lambda f: f.split("=")[0])))
     known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
     text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=8)))
