@@ -155,14 +155,15 @@ def _in_words() -> list[Line]:
 
 
 def _effects(words: Sequence[FaultWord], at: int, size: tuple[int, int], plain: bool) -> list[Line]:
-    """What the faults do: of all where there are rows for it, else of the one under the cursor."""
+    """What the faults do: of all, drawn or in words, where there are rows for it; else of the one under the cursor."""
     columns, rows = size
-    parts: list[list[Line]] = [
-        [[("key" if number == at else "title", word.usage)], *effect_lines(word.usage, columns, plain), []]
-        for number, word in enumerate(words)
-    ]
-    shown = parts if sum(map(len, parts)) <= rows else parts[at : at + 1]
-    return [line for part in shown for line in part]
+    heads: list[Line] = [[("key" if number == at else "title", word.usage)] for number, word in enumerate(words)]
+    drawn = [[head, *effect_lines(word.usage, columns, plain), []] for head, word in zip(heads, words, strict=True)]
+    told = [[head, *effect_words(word.usage, columns)] for head, word in zip(heads, words, strict=True)]
+    for parts in (drawn, [*told[:at], drawn[at][:-1], *told[at + 1 :]]):
+        if sum(map(len, parts)) <= rows:
+            return [line for part in parts for line in part]
+    return drawn[at]
 
 
 def _labelled(label: str, text: str) -> Line:
