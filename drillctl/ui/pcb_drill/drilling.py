@@ -14,7 +14,7 @@ from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.screens.board_controls import BOARD_KEYS, BoardControls
 from drillctl.ui.screens.jog_controls import JOG_KEYS
 from drillctl.ui.screens.shell import Shell
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.sizes import layout
 from drillctl.ui.widgets.texts import Size
 from drillctl.viewmodel.console import Console
@@ -47,15 +47,6 @@ class Drilling(BoardControls, urwid.WidgetWrap[urwid.Widget]):
         BoardControls.__init__(self, console, shell, self._room)
         urwid.WidgetWrap.__init__(self, urwid.Frame(self._room, footer=self._footer))
         self.refresh(console.view())
-
-    def selectable(self) -> bool:
-        """True: the screen takes keys although no widget in it does."""
-        return True
-
-    def keypress(self, size: Size, key: str) -> str | None:
-        """Clears the last answer and calls the method of a key in the table; returns any other key."""
-        self._note = ("body", "")
-        return None if called(self, self.keys, key) else key
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Lays the windows out for this size."""

@@ -16,8 +16,8 @@ from drillctl.ui.screens.machine_lines import tool_name
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.tick_rate import ask_tick_hz
 from drillctl.ui.screens.unfinished import offer_job
-from drillctl.ui.widgets.keys import Key
-from drillctl.ui.widgets.texts import Text
+from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.widgets.texts import Size, Text
 from drillctl.viewmodel.console import BoardView, Console, MachineView
 from drillctl.viewmodel.jobs import UnfinishedJob
 from drillctl.viewmodel.records import Progress
@@ -49,13 +49,24 @@ class BoardWindows(Protocol):
 
 
 class BoardControls(JogControls):
-    """The part of a screen that carries the requests out; the screen has the keys and lays the windows out."""
+    """The part of a screen that carries the requests out; the screen has the ``keys`` and lays the windows out."""
+
+    keys: tuple[Key, ...] = ()
 
     def __init__(self, console: Console, shell: Shell, windows: BoardWindows):
         super().__init__(console)
         self._shell, self._windows = shell, windows
         self._was_at_work = False
         self._footer = Text("")
+
+    def selectable(self) -> bool:
+        """True: the screen takes keys although no widget in it does."""
+        return True
+
+    def keypress(self, size: Size, key: str) -> str | None:
+        """Clears the last answer and calls the method of a key in the table; returns any other key."""
+        self._note = ("body", "")
+        return None if called(self, self.keys, key) else key
 
     def refresh(self, view: MachineView) -> None:
         """Draws what changed in machine, board and job."""
