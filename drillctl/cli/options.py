@@ -28,6 +28,18 @@ def add_machine(verb: argparse.ArgumentParser, default: str = DEFAULT_MACHINE) -
     verb.add_argument("--tick-hz", type=_rate, metavar="N", help="interrupt frequency; default: the machine's own")
 
 
+def add_action(
+    actions: "argparse._SubParsersAction[argparse.ArgumentParser]",
+    name: str,
+    call: Callable[[argparse.Namespace], int],
+    what: str,
+) -> argparse.ArgumentParser:
+    """Adds an action of a verb (``store list``), which ``call`` carries out; returns its parser."""
+    action = actions.add_parser(name, help=what, description=f"{what[:1].upper()}{what[1:]}.")
+    action.set_defaults(call=call)
+    return action
+
+
 def add_tables(verb: argparse.ArgumentParser) -> None:
     """Adds ``--tables`` to a verb."""
     verb.add_argument("--tables", type=Path, metavar="DIR", help="search this folder for tables first")

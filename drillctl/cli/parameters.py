@@ -44,10 +44,9 @@ def _action(
     call: Callable[[argparse.Namespace], int],
     what: str,
 ) -> argparse.ArgumentParser:
-    action = actions.add_parser(name, help=what, description=f"{what[:1].upper()}{what[1:]}.")
+    action = options.add_action(actions, name, call, what)
     action.add_argument("--machine", default=MACHINE, metavar="NAME|FILE", help="machine; default: %(default)s")
     options.add_tables(action)
-    action.set_defaults(call=call)
     return action
 
 

@@ -52,10 +52,9 @@ def _action(
     call: Callable[[argparse.Namespace], int],
     what: str,
 ) -> argparse.ArgumentParser:
-    action = actions.add_parser(name, help=what, description=f"{what[:1].upper()}{what[1:]}.")
+    action = options.add_action(actions, name, call, what)
     options.add_machine(action, MACHINE)
     jobs.add_store(action)
-    action.set_defaults(call=call)
     return action
 
 
