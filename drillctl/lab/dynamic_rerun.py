@@ -60,6 +60,13 @@ def rerun_axis(file: Path, library: Library, axis_name: str | None = None) -> Ax
     Raises TraceError for a file that is no trace or can't be run, TableError for its machine, LabError for a machine
     without dynamics, an axis that it hasn't, or other tables than the recorded ones.
     """
+    return axis_of_run(*recorded_run(file, library), file, axis_name)
+
+
+def recorded_run(file: Path, library: Library) -> tuple[Trace, Machine]:
+    """Returns a trace and the machine that it was recorded on. Raises TraceError, TableError, and LabError for other
+    tables than the recorded ones.
+    """
     recorded = read_trace(file)
     machine = machine_of(recorded, file, library)
     if not same_tables(recorded, machine, file):
@@ -67,7 +74,7 @@ def rerun_axis(file: Path, library: Library, axis_name: str | None = None) -> Ax
             "recorded with other tables of {name}; record it again, or give them (--tables)", name=machine.name
         )
         raise LabError(reason.at(file))
-    return axis_of_run(recorded, machine, file, axis_name)
+    return recorded, machine
 
 
 def axis_of_run(recorded: Trace, machine: Machine, file: Path, axis_name: str | None = None) -> AxisRun:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.lab.dynamic_rerun import columns_of, holes_of, images_of, plane_of
+from drillctl.lab.dynamic_rerun import columns_of, holes_of, images_of, plane_of, recorded_run
 from drillctl.lab.errors import LabError
 from drillctl.language import Message
 from drillctl.language.words import N_
@@ -19,7 +19,7 @@ from drillctl.machine import AxisTable, Library, Machine
 from drillctl.plant import PlantChoice
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.replay.derived_signals import with_columns
-from drillctl.replay.header import choice_of, machine_of, same_tables
+from drillctl.replay.header import choice_of, machine_of
 from drillctl.ticker.sampler import vcd_layout, wire_names
 from drillctl.trace import Difference, Trace, VcdVar, first_difference, render
 from drillctl.trace.files import read_trace
@@ -47,14 +47,7 @@ def run_report(file: Path, library: Library) -> RunReport:
     """Returns the report of a trace. Raises TraceError for a file that is no trace or can't be run, TableError for its
     machine, LabError for a run that is too long, or was recorded with other tables.
     """
-    recorded = read_trace(file)
-    machine = machine_of(recorded, file, library)
-    if not same_tables(recorded, machine, file):
-        reason = Message(
-            "recorded with other tables of {name}; record it again, or give them (--tables)", name=machine.name
-        )
-        raise LabError(reason.at(file))
-    return report_of(recorded, machine, file)
+    return report_of(*recorded_run(file, library), file)
 
 
 def report_of(recorded: Trace, machine: Machine, file: Path) -> RunReport:
