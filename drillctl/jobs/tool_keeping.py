@@ -72,10 +72,6 @@ class ToolKeeping:
         if magazine != self._kept.magazine:
             self._kept.keep(magazine)
 
-    def broken(self, tool: int) -> None:
-        """Notes that a bit of a tool has broken. Raises MagazineError."""
-        self._kept.keep(self._kept.magazine.broken(tool))
-
 
 def with_tools(job: Job, folder: Path) -> tuple[Job, ToolKeeping | None]:
     """Returns a board's job with the tools where the machine's record in ``folder`` has them, and what keeps the
