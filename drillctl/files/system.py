@@ -13,11 +13,11 @@ from typing import Any
 try:
     import fcntl
 except ImportError:  # Windows
-    fcntl = None  # type: ignore[assignment]
+    fcntl = None  # type: ignore[assignment]  # a module where there is one
 try:
     import termios
 except ImportError:
-    termios = None  # type: ignore[assignment]
+    termios = None  # type: ignore[assignment]  # likewise
 
 HAS_LOCKS = fcntl is not None
 RENAMES_OPEN_FILES = hasattr(os, "O_DIRECTORY")  # as POSIX systems do

@@ -44,7 +44,7 @@ class _Program:
         self._here: NDArray[np.int64] = np.zeros(2, np.int64)
 
     def made(self) -> Records:
-        """The whole program."""
+        """Returns the commands from initialisation to parking, numbered from 1."""
         parts = [record(Op.INICJALIZACJA), *go_to_base(self._settings, self._machine)]
         parts += switch(self._outputs.get(FOOT), 1)
         if is_automatic(self._machine):

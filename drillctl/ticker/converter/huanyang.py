@@ -65,7 +65,7 @@ class HuanyangLine:
         self._ask(CONTROL, bytes((RUN_FORWARD,)))
 
     def stop(self) -> None:
-        """Stops the motor."""
+        """Tells the converter to stop; the motor takes its ramp, so ``read`` says when it stands."""
         self._ask(CONTROL, bytes((STOP,)))
 
     def read(self) -> Reading:
@@ -78,7 +78,7 @@ class HuanyangLine:
         self._serial = open_serial(self._device, self._kind, again=True)
 
     def close(self) -> None:
-        """Closes the device."""
+        """Closes the serial device; the converter goes on with what it was told last."""
         self._serial.close()
 
     def _status(self, number: int) -> float:

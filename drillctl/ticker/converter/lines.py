@@ -44,7 +44,7 @@ class Line(Protocol):
         """Sets the frequency, then starts the motor forward."""
 
     def stop(self) -> None:
-        """Stops the motor."""
+        """Tells the converter to stop; the motor takes its ramp, so ``read`` says when it stands."""
 
     def read(self) -> Reading:
         """Asks what it does."""
@@ -125,7 +125,7 @@ class ModbusLine:
         self._instrument = self._made()
 
     def close(self) -> None:
-        """Closes the device."""
+        """Closes the serial device; the converter goes on with what it was told last."""
         self._serial.close()
 
     def _frequency(self, place: Frequency) -> float:
