@@ -181,7 +181,8 @@ differs:
 def test_the_head_comes_up_again(drill):
     run = drill.run("hole.kmd", plant="dynamic")
     assert run.fault is None
-    assert run.positions("z")[-1] == 0
+    assert run.positions("z")[-1] <= 0  # at its upper sensor, or braked a few steps above it
+    assert not any(run.lost_steps.values())
     assert run == drill.run("hole.kmd", plant="dynamic")
 ```
 """

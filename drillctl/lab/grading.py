@@ -6,6 +6,7 @@ this user either. docs/lab/INSTRUCTOR.md.
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -34,6 +35,7 @@ MOST_FILES = 2000
 CODE = (".py", ".pyc", ".pyi", ".pyd", ".so", ".pth")
 SETTINGS = ("pytest.ini", ".pytest.ini", "tox.ini", "setup.cfg", "pyproject.toml", SHEET)
 PLUGIN = "drillctl.api.pytest_plugin"
+RAISED = re.compile(r"^(AssertionError|drillctl[\w.]*): ")  # before the words of an assertion, or of a refusal of ours
 Name = Annotated[str, msgspec.Meta(pattern=r"^[^/\\]+$", max_length=200)]
 
 
@@ -174,8 +176,8 @@ class _Report:
     def _sentence(self, problem: ElementTree.Element) -> str:
         """The first line of a failure that says something, with files as the student calls them."""
         lines = [line.strip() for line in (problem.get("message") or problem.text or "").splitlines()]
-        said = next((line for line in lines if line), "").removeprefix("AssertionError: ")
-        return said.replace(self._copy, "")
+        said = next((line for line in lines if line), "")
+        return RAISED.sub("", said).replace(self._copy, "")
 
 
 def _check(name: str, report: _Report | None, over: bool) -> Check:

@@ -77,12 +77,14 @@ def test_a_sheet_of_ones_own_and_a_check_that_does_not_end(tmp_path: Path) -> No
         "def test_it(drill):\n    assert drill.run('my.kmd').positions('x')[-1] == 7, 'X is not where it should be'\n"
     )
     (sheet / "test_wait.py").write_text("def test_it():\n    pass\n")
-    for name, steps in (("good", 7), ("bad", 8)):
+    for name, steps in (("good", "7"), ("bad", "8"), ("broken", "x")):
         (tmp_path / name).mkdir()
         (tmp_path / name / "my.kmd").write_text(f"KMD_GOTOdXdY {steps} 0\n")
-    good, bad = graded(sheet_of(str(sheet)), [tmp_path / "good", tmp_path / "bad"], 2, 100)
+    handed_in = [tmp_path / name for name in ("good", "bad", "broken")]
+    good, bad, broken = graded(sheet_of(str(sheet)), handed_in, 2, 100)
     assert good.passed and (good.name, good.points) == ("good", 2)
     assert bad.points == 1 and bad.why == "test_queue.py: X is not where it should be"
+    assert broken.why == "test_queue.py: my.kmd:1:14: 'x' is not a whole number"
     (sheet / "test_wait.py").write_text("import time\ndef test_it():\n    time.sleep(1000)\n")
     (late,) = graded(sheet_of(str(sheet)), [tmp_path / "good"], 1, 1)
     assert not late.passed and "it took longer than it may" in late.why
