@@ -33,9 +33,11 @@ class PlantForecast:
         """The input image, as the driver latches it."""
         return self._plant.inputs
 
-    def stands(self, axis: int, travel: int) -> bool:
-        """Returns whether the rotor is where so many columns have put it, and will follow any further ones."""
-        return self._follows[axis].stands(travel)
+    def stands(self, axis: int, travel: int, turn: int) -> bool:
+        """Returns whether the rotor is where so many columns have put it, and will follow any further ones. ``turn`` is
+        the way it goes, 1 or -1: it tells where a drive is in the middle of a pulse.
+        """
+        return self._follows[axis].stands(travel, turn)
 
     def free(self, axis: int) -> tuple[float, float]:
         """Returns the travels between which (neither included) no sensor changes and no bit meets the board."""
@@ -51,9 +53,9 @@ class PlantForecast:
         ends = sorted((steps - carriage.start) / carriage.steps_per_column for steps in (low, high))
         return ends[0] + slack, ends[1] - slack
 
-    def follow(self, axis: int, travel: int) -> None:
-        """Moves the rotor to where so many columns put it."""
-        self._plant.rotors[axis].degrees = self._follows[axis].degrees_at(travel)
+    def follow(self, axis: int, travel: int, turn: int) -> None:
+        """Moves the rotor to where so many columns put it; ``turn`` as for ``stands``."""
+        self._plant.rotors[axis].degrees = self._follows[axis].degrees_at(travel, turn)
         self._plant.turn_index(axis)
 
     def memory(self, axis: int) -> Memory:
@@ -118,11 +120,11 @@ class _Winding:
         self._followable = bool(off) and whole_cycles and 2 * self._slack + self._degrees < HALF_TURN
         self.slack_columns = self._slack / self._degrees
 
-    def stands(self, travel: int) -> bool:
+    def stands(self, travel: int, turn: int) -> bool:
         """Returns whether the rotor is within the slack of what is commanded, so that the next column draws it on."""
         return self._followable and abs(self._commanded(travel) - self._rotor.degrees) <= self._slack
 
-    def degrees_at(self, travel: int) -> int:
+    def degrees_at(self, travel: int, turn: int) -> int:
         """Returns the equilibrium of the column that is reached (the first one forward is column 0)."""
         return _nearest(self._angles[(travel - 1) % self._length], self._commanded(travel))
 
@@ -140,21 +142,21 @@ class _Winding:
 class _Pulsed:
     """A drive whose table is one pulse long: it counts whole steps."""
 
-    slack_columns = 1.0
-
     def __init__(self, rotor: PulseRotor, table: AxisTable):
         self._rotor = rotor
         pulse = next(wire for wire in table.phase.wires if wire.name == table.motor.pulse)
         once = all(sum(wire) == 1 and wire[0] for wire in (pulse.forward, pulse.backward))
         self._followable = once and table.phase.columns == rotor.columns_per_cycle == table.columns_per_step
+        self.slack_columns = rotor.columns_per_cycle - 1.0  # a pulse rises in the first column of its step
 
-    def stands(self, travel: int) -> bool:
+    def stands(self, travel: int, turn: int) -> bool:
         """Returns whether the count is just where it was sent."""
-        return self._followable and self._rotor.degrees == self.degrees_at(travel)
+        return self._followable and self._rotor.degrees == self.degrees_at(travel, turn)
 
-    def degrees_at(self, travel: int) -> int:
-        """Returns the count after so many columns: one turn for each step."""
-        return self._rotor.zero + travel // self._rotor.columns_per_cycle * FULL_TURN
+    def degrees_at(self, travel: int, turn: int) -> int:
+        """Returns the count after so many columns: one turn for each step, from the rise of its pulse on."""
+        steps = -(-travel * turn // self._rotor.columns_per_cycle) * turn
+        return self._rotor.zero + steps * FULL_TURN
 
     def degrees_through(self, travels: Counts, turns: Counts, column: Counts) -> Degrees:
         """Returns the count after each turn, (n,): the pulse rises in the table's first column."""

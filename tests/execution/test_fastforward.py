@@ -14,33 +14,17 @@ from hypothesis import example, given, seed, settings
 from hypothesis import strategies as st
 
 from drillctl.generation.job import names_of
-from drillctl.kmd import Request, parse_program
+from drillctl.kmd import parse_program
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.ticker import Ticker
-from drillctl.trace import first_difference, render
 from tests.support.bench import shipped
-from tests.support.twins import remembered, trace, twins
+from tests.support.twins import check, disturbances, small
 
 SQUARE = Path(__file__).resolve().parents[2] / "examples" / "square.kmd"
 LIBRARY = Library((shipped_tables(),))
 MACHINES = ["pcb-drill", "pcb-drill-ramp-lab", "eight-axis", "boiler-drum", "mega-28byj48", "cnc-shield"]
-SHORTER = 10  # times: ways home and down, where down is a distance of thousands of steps
 STEPS = st.one_of(st.integers(-40, 40), st.integers(-700, 700), st.just(0))
-
-
-def small(name: str) -> Machine:
-    """A machine whose ways home and down are short enough to be ticked through."""
-    machine = shipped(name)
-    if (machine.drill_down_steps or 0) < 1000:
-        return machine
-    return replace(
-        machine,
-        axes=tuple(replace(axis, start_steps=axis.start_steps // SHORTER) for axis in machine.axes),
-        drill_down_steps=machine.drill_down_steps // SHORTER,
-        drill_clear_steps=machine.drill_clear_steps and machine.drill_clear_steps // SHORTER,
-        board_surface=tuple(steps and steps // SHORTER for steps in machine.board_surface),
-    )
 
 
 @st.composite
@@ -67,21 +51,6 @@ def commands(draw: st.DrawFn, machine: Machine) -> str:
     return draw(st.sampled_from(forms))
 
 
-REQUESTS = [*(1 << r for r in (Request.HOLD, Request.RESUME, Request.STOP, Request.ESTOP, Request.ACK)), -3, -9, -60]
-disturbances = st.dictionaries(st.integers(0, 9000), st.sampled_from(REQUESTS), max_size=3)
-
-
-def check(machine: Machine, text: str, asked: dict[int, int], ticks: int) -> FastTicker:
-    program = parse_program(text, names_of(machine))
-    program["tag"] = np.arange(len(program)) // 3
-    slow, fast = twins(machine, program, asked, ticks)
-    difference = first_difference(trace(slow), trace(fast))
-    assert difference is None, render(difference)
-    assert trace(slow) == trace(fast)
-    assert remembered(slow) == remembered(fast)
-    return fast
-
-
 def check_some_program(machine: Machine, data: st.DataObject) -> None:
     known = data.draw(st.sampled_from(["KMD_INICJALIZACJA\n", ""]))
     text = known + "\n".join(data.draw(st.lists(commands(machine), min_size=1, max_size=12)))
@@ -102,23 +71,6 @@ def test_whatever_is_asked_of_it_the_fast_one_is_the_law(name: str, data: st.Dat
 @pytest.mark.parametrize("name", MACHINES)
 def test_a_hundred_programs_more(name: str) -> None:
     settings(max_examples=100, deadline=None)(given(data=st.data())(check_some_program))(small(name))
-
-
-LIFTED_TO = ((40, 20), (45, 20), (45, 20), (300, 700), (40, 20), (45, 20))
-LIFTED = "KMD_INICJALIZACJA\nKMD_GOTO_X_Y 5 5\n" + "\n".join(
-    f"KMD_WIERTLO_DOL\nKMD_GORA_X_Y {x} {y} {{heads}}" for x, y in LIFTED_TO
-)
-
-
-@pytest.mark.parametrize("heads", ["", "{head}=3"])
-@pytest.mark.parametrize(("name", "clear"), [("pcb-drill", None), ("pcb-drill", 700), ("eight-axis", 360)])
-def test_x_and_y_start_in_the_same_tick_of_a_lift(name: str, clear: int | None, heads: str) -> None:
-    """Ways shorter and longer than the lift, and none at all; by one feed, and with one of each head's own."""
-    machine = replace(small(name), drill_clear_steps=clear)
-    named = [machine.axis_names[index] for index in machine.drill_axes]
-    text = LIFTED.format(heads=" ".join(heads.format(head=head) for head in named))
-    fast = check(machine, text, {}, 10**9)
-    assert fast.controller.fault == 0 and fast.touched
 
 
 HOLES = np.random.default_rng(720).integers(0, 300, (2, 2)).tolist()

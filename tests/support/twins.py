@@ -4,22 +4,29 @@ Rule: everything that either of them remembers is compared, and every tick's ima
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
-from drillctl.kmd import Request
+from drillctl.generation.job import names_of
+from drillctl.kmd import Request, parse_program
 from drillctl.machine import Machine
 from drillctl.plant import IdealPlant
 from drillctl.ticker.fast_ticker import FastTicker
 from drillctl.ticker.sampler import signals
 from drillctl.ticker.ticker import Ticker
-from drillctl.trace import Recorder, Trace
+from drillctl.trace import Recorder, Trace, first_difference, render
+from tests.support.bench import shipped
 
 OF_BOOKS = ("ramp", "followers", "least", "most")  # compared by ``been`` and ``led by``
 Disturbances = Mapping[int, int]  # by tick: requests as bits of the mailbox, or below 0 a gap of so many periods
+SHORTER = 10  # times: ways home and down, where down is a distance of thousands of steps
+REQUESTS = [*(1 << r for r in (Request.HOLD, Request.RESUME, Request.STOP, Request.ESTOP, Request.ACK)), -3, -9, -60]
+disturbances = st.dictionaries(st.integers(0, 9000), st.sampled_from(REQUESTS), max_size=3)
 
 
 def ran(ticker: Ticker, program: NDArray[np.void], disturbances: Disturbances, ticks: int) -> Ticker:
@@ -78,3 +85,29 @@ def remembered(ticker: Ticker) -> dict[str, Any]:
     told |= {name: value for name, value in vars(plant).items() if isinstance(value, int)}
     told |= {"holes": ticker.touched, "status": ticker.report().tobytes(), "waiting": len(ticker.queue)}
     return told
+
+
+def check(machine: Machine, text: str, asked: Disturbances, ticks: int) -> FastTicker:
+    """Runs a queue both ways, asserts that nothing differs, and returns the fast one. ``asked``: Disturbances."""
+    program = parse_program(text, names_of(machine))
+    program["tag"] = np.arange(len(program)) // 3
+    slow, fast = twins(machine, program, asked, ticks)
+    difference = first_difference(trace(slow), trace(fast))
+    assert difference is None, render(difference)
+    assert trace(slow) == trace(fast)
+    assert remembered(slow) == remembered(fast)
+    return fast
+
+
+def small(name: str) -> Machine:
+    """A machine whose ways home and down are short enough to be ticked through."""
+    machine = shipped(name)
+    if (machine.drill_down_steps or 0) < 1000:
+        return machine
+    return replace(
+        machine,
+        axes=tuple(replace(axis, start_steps=axis.start_steps // SHORTER) for axis in machine.axes),
+        drill_down_steps=machine.drill_down_steps // SHORTER,
+        drill_clear_steps=machine.drill_clear_steps and machine.drill_clear_steps // SHORTER,
+        board_surface=tuple(steps and steps // SHORTER for steps in machine.board_surface),
+    )

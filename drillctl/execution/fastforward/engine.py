@@ -13,7 +13,7 @@ from drillctl.execution.fastforward.batch import Batch
 from drillctl.execution.fastforward.move_profile import MoveProfile
 from drillctl.execution.fastforward.plan import foresee, is_stroke, signatures
 from drillctl.execution.fastforward.strokes import Recording, Strokes
-from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.execution.fastforward.world import PlantFacts, turned
 from drillctl.execution.motion import SETTLING
 from drillctl.execution.spindle import at_speed
 from drillctl.kmd import Condition, Op
@@ -48,7 +48,7 @@ class Engine:
             and not m.step_limit
             and len(self.pool.images) < LARGEST_POOL
             and all(_rests(axis) for axis in m.axes)
-            and all(self._world.stands(index, _travel(axis)) for index, axis in enumerate(m.axes))
+            and all(self._world.stands(index, *turned(axis)) for index, axis in enumerate(m.axes))
             and not any(sensors & pair == pair for pair in m.pairs)
             and not (sensors & (m.action_mask | m.shared | m.alarm_mask) or m.estops)
             and not (m.spindle is not None and m.speed_reached and not at_speed(m, sensors))
@@ -68,7 +68,7 @@ class Engine:
             if axis_batch is not None:
                 axis_batch.leave(batch.ticks)
                 if axis_batch.steps.any():
-                    self._world.follow(index, _travel(self._m.axes[index]))
+                    self._world.follow(index, *turned(self._m.axes[index]))
         batch.stroked.leave(self._m, self._world, len(batch.commands) - 1, int(batch.ticks[-1]))
         self._leave_controller(batch)
         self._world.settle(self._m.image, [head for *_, head in batch.touches])
@@ -109,8 +109,3 @@ def _rests(axis: Axis) -> bool:
     """Nothing is left of a move, a line or a stop; and a drive's direction wire is a wire as any other at rest."""
     alike = not axis.drive or axis.drive_patterns == axis.hold_patterns
     return alike and axis.motion <= SETTLING and axis.followers is None and not axis.met
-
-
-def _travel(axis: Axis) -> int:
-    """Columns since power-up, as the wires have it."""
-    return axis.travelled * axis.direction_sign

@@ -175,10 +175,11 @@ def _ticks(
 
 def _delay(m: Controller, commands: Records, rows: NDArray[np.intp], known: list[Stroke]) -> Count:
     """The ticks of each command before the axes that don't stroke start: 0, but where they wait for the heads."""
-    delay = np.zeros(len(commands), np.int64)
-    for row, stroke in zip(rows.tolist(), known, strict=True):
-        if commands["opcode"][row] == Op.GORA_X_Y:
-            delay[row] = stroke.clear_after(m.machine.drill_clear_steps)
+    delay, clear = np.zeros(len(commands), np.int64), m.machine.drill_clear_steps
+    lifts = commands["opcode"][rows] == Op.GORA_X_Y
+    lifting = [stroke for stroke, lifts_too in zip(known, lifts.tolist(), strict=True) if lifts_too]
+    after = {stroke: stroke.clear_after(clear) for stroke in set(lifting)}
+    delay[rows[lifts]] = [after[stroke] for stroke in lifting]
     return delay
 
 

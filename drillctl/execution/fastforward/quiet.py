@@ -13,7 +13,7 @@ import numpy as np
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
 from drillctl.execution.fastforward.stretch import Count, Course, Images, foresee_courses, leave, put_out, still_image
-from drillctl.execution.fastforward.world import PlantFacts
+from drillctl.execution.fastforward.world import PlantFacts, turned
 from drillctl.kmd import Op
 
 LONGEST = 1 << 20  # ticks
@@ -48,18 +48,17 @@ def foresee_quiet(m: Controller, world: PlantFacts, most: int) -> Quiet | None:
     the controller has it.
     """
     moving = [index for index, axis in enumerate(m.axes) if axis.counting]
-    if len(moving) > 1 and any(m.axes[index].drive for index in moving):
-        return None
     columns = {index: _free_columns(world, index, m.axes[index]) for index in moving}
-    if m.command.opcode == Op.GORA_X_Y and len({m.axes[index] in m.drill_axes for index in moving}) > 1:
-        return None  # the heads' part of it ends in a tick of its own (strokes.py)
     if not moving or min(columns.values()) <= 0:
         return None
     ticks, courses = foresee_courses(m, world.inputs, min(most, LONGEST))
     for index in moving if ticks else ():
         begins = _course(courses, index).begins()
-        ticks = min(ticks, _first_beyond(m.axes[index], begins, min(columns[index], len(begins)), ticks))
-    if ticks < SHORTEST or not all(world.stands(index, _travel(m.axes[index])) for index in moving):
+        ticks = min(ticks, _first_beyond(begins, min(columns[index], len(begins)), ticks))
+    lifting = [index for index in moving if index in m.machine.drill_axes] if m.command.opcode == Op.GORA_X_Y else []
+    if ticks and lifting:  # a stroke of the heads ends in a tick of its own, though X and Y go on (strokes.py)
+        ticks = min(ticks, max(_course(courses, index).ticks for index in lifting) - 1)
+    if ticks < SHORTEST or not all(world.stands(index, *turned(m.axes[index])) for index in moving):
         return None
     pairs = list(zip(m.axes, courses, strict=True))
     bits = [None if course is None else put_out(axis, course, ticks) for axis, course in pairs]
@@ -72,7 +71,7 @@ def leave_quiet(m: Controller, world: PlantFacts, quiet: Quiet) -> None:
     leave(m, quiet.ticks)
     for index, motion in enumerate(quiet.motion):
         if motion is not None:
-            world.follow(index, _travel(m.axes[index]))
+            world.follow(index, *turned(m.axes[index]))
     world.settle(m.image, ())
 
 
@@ -88,18 +87,14 @@ def _motion(axis: Axis, course: Course, ticks: int) -> Count:
 
 def _free_columns(world: PlantFacts, index: int, axis: Axis) -> float:
     """Returns how many columns an axis may put out until a sensor of its may change, or the bit meets the board."""
-    (low, high), travel = world.free(index), _travel(axis)
-    room = high - travel if axis.direction * axis.direction_sign > 0 else travel - low
+    (low, high), (travel, turn) = world.free(index), turned(axis)
+    room = high - travel if turn > 0 else travel - low
     return room if room == inf else ceil(room) - 1
 
 
-def _first_beyond(axis: Axis, begins: Count, columns: float, ticks: int) -> int:
-    """Returns the tick of the first of the columns ``begins`` (k,) that is not among so many, at most ``ticks``. Of a
-    drive's, whole steps count: in the middle of a pulse, how far it has turned depends on the way it goes.
-    """
+def _first_beyond(begins: Count, columns: float, ticks: int) -> int:
+    """Returns the tick of the first of the columns ``begins`` (k,) that is not among so many, at most ``ticks``."""
     passed = int(min(columns, int(np.searchsorted(begins, ticks))))
-    if axis.drive:
-        passed = max(0, passed - (axis.column_in_step + passed) % axis.columns_per_step)
     return int(begins[passed]) if passed < len(begins) else ticks
 
 
@@ -107,8 +102,3 @@ def _course(courses: Sequence[Course | None], index: int) -> Course:
     course = courses[index]
     assert course is not None  # all that counts has one
     return course
-
-
-def _travel(axis: Axis) -> int:
-    """Columns since power-up, as the wires have it."""
-    return axis.travelled * axis.direction_sign

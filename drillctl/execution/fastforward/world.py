@@ -9,6 +9,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.execution.axis import Axis
+
 
 class PlantFacts(Protocol):
     """A plant that always answers alike. Travel is in columns of the phase table since power-up, as the wires have
@@ -19,8 +21,10 @@ class PlantFacts(Protocol):
     def inputs(self) -> int:
         """The input image that the next latch will see."""
 
-    def stands(self, axis: int, travel: int) -> bool:
-        """Whether the rotor is where so many columns have put it, and will follow any further."""
+    def stands(self, axis: int, travel: int, turn: int) -> bool:
+        """Whether the rotor is where so many columns have put it, and will follow any further. In the middle of a
+        drive's pulse that depends on the way it goes, ``turn``: 1 or -1, as the wires have it.
+        """
 
     def free(self, axis: int) -> tuple[float, float]:
         """Between these travels (neither included) no sensor changes and no bit meets the board."""
@@ -37,8 +41,8 @@ class PlantFacts(Protocol):
         each: 1, 0 or -1, as the wires have it; ``column`` (n,) is the one that stands then, from 0.
         """
 
-    def follow(self, axis: int, travel: int) -> None:
-        """The rotor has moved, and is where so many columns put it, within ``free``."""
+    def follow(self, axis: int, travel: int, turn: int) -> None:
+        """The rotor has moved, and is where so many columns put it, within ``free``; ``turn`` as for ``stands``."""
 
     def memory(self, axis: int) -> tuple[Any, ...]:
         """All that an axis's rotor and sensors remember, its output bits left out."""
@@ -48,3 +52,10 @@ class PlantFacts(Protocol):
 
     def settle(self, image: int, met: Sequence[int]) -> None:
         """Takes the output image after the last tick; meanwhile the bits of these axes have met their boards."""
+
+
+def turned(axis: Axis) -> tuple[int, int]:
+    """Returns the columns of an axis since power-up, and the way it goes: both as the wires have it, for ``stands`` and
+    ``follow``.
+    """
+    return axis.travelled * axis.direction_sign, axis.direction * axis.direction_sign
