@@ -18,6 +18,7 @@ from drillctl.plant.choice import DYNAMIC
 from drillctl.plant.dynamic.plant import DynamicPlant
 from drillctl.plant.dynamic.recorder import Motion, MotionRecorder
 from drillctl.plant.faults import PlantRefused
+from drillctl.plant.rotor import forward_level
 from drillctl.ports import CARD_BITS
 from drillctl.replay.derived_signals import with_columns
 from drillctl.replay.header import choice_of, machine_of, same_tables
@@ -99,13 +100,21 @@ def axis_of_run(recorded: Trace, machine: Machine, file: Path, axis_name: str | 
 
 def columns_of(again: Trace, machine: Machine) -> list[Counts]:
     """Returns for each axis the columns put out since power-up, (ticks,), of a trace with derived signals."""
-    return [_unwrapped(dense(again, f"{axis.name}.column"), axis.phase.columns) for axis in machine.axes]
+    images = images_of(again, machine)
+    return [_put_out(axis, dense(again, f"{axis.name}.column"), images) for axis in machine.axes]
 
 
-def _unwrapped(column: Counts, length: int) -> Counts:
-    """Columns put out since power-up from the column shown in each tick; at most one is put out a tick."""
+def _put_out(axis: AxisTable, column: Counts, images: Counts) -> Counts:
+    """Columns put out since power-up from the column shown in each tick; at most one is put out a tick. A pulse has
+    two columns, from which no way can be told: the direction wire has it.
+    """
+    length = axis.phase.columns
     turned = np.diff(column, prepend=length)
-    return np.cumsum((turned + length // 2) % length - length // 2)
+    if axis.motor.direction is None:
+        return np.cumsum((turned + length // 2) % length - length // 2)
+    wire = axis.wire_bits[axis.phase.wire_names().index(axis.motor.direction)]
+    forward = (images >> wire & 1) == forward_level(axis)
+    return np.cumsum(np.where(forward, 1, -1) * (turned != 0))
 
 
 def _farthest(columns: list[Counts]) -> int:
