@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from drillctl.language import Message, Refusal
 from drillctl.language.messages import listed
 from drillctl.viewmodel.choices import ORIGINS
+from drillctl.viewmodel.job_options import MAX_MM
 
 MIRRORS = {
     None: ((1.0, 0.0), (0.0, 1.0)),
@@ -234,5 +235,7 @@ def _one_of(what: Message, value: object, allowed: tuple[object, ...]) -> None:
 
 
 def _finite(what: Message, *values: float) -> None:
-    if not all(math.isfinite(value) for value in values):
-        raise PlacingError(Message("{what} must be plain numbers, not {values}", what=what, values=values))
+    if not all(abs(value) <= MAX_MM for value in values):  # which nan is not either
+        raise PlacingError(
+            Message("{what} must be plain numbers up to {most:g}, not {values}", what=what, most=MAX_MM, values=values)
+        )
