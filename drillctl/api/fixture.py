@@ -1,5 +1,6 @@
 """What a test in any repository says of a machine: the object behind the fixture ``drill``."""
 
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from drillctl.machine import Machine
 from drillctl.ticker.sampler import wire_names
 from drillctl.trace import first_difference, render
 from drillctl.viewmodel.records import Estimate
+
+FILES = ("tables", "align", "drills", "store")  # options that name one
 
 
 class Drill:
@@ -24,24 +27,35 @@ class Drill:
         self.folder = folder
         self.runs: list[Run] = []
 
-    def machine(self, name: str = DEFAULT, **options: Any) -> Machine:
+    def machine(self, name: str | PathLike[str] = DEFAULT, **options: Any) -> Machine:
         """Returns a machine, as ``drillctl.load_machine``; one given by its file is looked for beside the test."""
-        return load_machine(self._beside(name) if name.endswith(".toml") else name, **options)
+        return load_machine(self._machine(name), **self._options(options))
 
     def run(self, source: Source, machine: MachineGiven = DEFAULT, **options: Any) -> Run:
         """Runs a job, as ``drillctl.run``: ``drill.run("KMD_GOTOdXdY 30 0")``, ``drill.run("board.drl")``."""
-        done = run(self._beside(source), machine, **options)
+        done = run(self._beside(source), self._machine(machine), **self._options(options))
         self.runs.append(done)
         return done
 
     def estimate(self, source: Source, machine: MachineGiven = DEFAULT, **options: Any) -> Estimate:
         """Returns how long a job takes, as ``drillctl.estimate``."""
-        return estimate(self._beside(source), machine, **options)
+        return estimate(self._beside(source), self._machine(machine), **self._options(options))
 
-    def _beside(self, source: Any) -> Any:
-        if isinstance(source, str | Path) and (self.folder / source).is_file():
-            return self.folder / source
-        return source
+    def _options(self, options: dict[str, Any]) -> dict[str, Any]:
+        return {name: self._beside(value) if name in FILES else value for name, value in options.items()}
+
+    def _machine(self, given: Any) -> Any:
+        return self._beside(given) if isinstance(given, str | PathLike) and fspath(given).endswith(".toml") else given
+
+    def _beside(self, given: Any) -> Any:
+        """A file or a folder beside the test; what is none there, as it was given."""
+        if not isinstance(given, str | PathLike) or not fspath(given):
+            return given
+        try:
+            found = (self.folder / given).exists()
+        except (OSError, ValueError):  # no name that a file can have: commands
+            return given
+        return self.folder / given if found else given
 
 
 def explain(left: Run, right: Run) -> list[str]:

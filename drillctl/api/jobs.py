@@ -2,19 +2,21 @@
 
 from collections.abc import Sequence
 from os import PathLike
-from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-from drillctl.api.machines import DEFAULT, machine_of
+import numpy as np
+
+from drillctl.api.arguments import path_of, unexpected
+from drillctl.api.machines import DEFAULT, library_of, machine_of
+from drillctl.api.options import check_choice, setup_of
 from drillctl.generation.drillfile import DrillFile, DrillFileError, read
 from drillctl.generation.job import Job, names_of
-from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.board import refusal
 from drillctl.generation.readers import load_job
 from drillctl.jobs.estimate import estimate as estimate_of
 from drillctl.kmd import parse_program
 from drillctl.language import Message, Refusal
-from drillctl.machine import Library, Machine
+from drillctl.machine import Machine
 from drillctl.replay.compare import Verdict, replay
 from drillctl.viewmodel.records import Estimate
 
@@ -26,7 +28,7 @@ def job(source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: int | None 
     """Returns what is to be run, made for a machine.
 
     source   a file as ``drillctl run`` takes it (a path), or the commands themselves: a string each in a list or tuple,
-             or a text that begins with ``KMD_``, a line each
+             or a text that begins with ``KMD_`` or has several lines, a command each; or a job that was made before
     options  of a drill file, by the names of the command line: ``order="optimised"``, ``rotate=90``, ``offset=(5, 5)``,
              ``mirror="x"``, ``origin="file"``, ``peck=0.5``, ``skip_tools=(3,)``, ``format="mm,3:3,leading"``
 
@@ -39,14 +41,14 @@ def job(source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: int | None 
     3
     """
     if isinstance(source, Job):
-        return source
+        return _as_made(source, machine, {**options, **({} if tick_hz is None else {"tick_hz": tick_hz})})
     wanted = machine_of(machine, tick_hz)
     commands = _commands(source)
     if commands is not None:
         if options:
             raise Refusal(Message("commands can't be placed and ordered: leave out {names}", names=", ".join(options)))
         return Job("commands", parse_program(commands, names_of(wanted), "commands"), wanted)
-    return load_job(Path(cast(str, source)), wanted, _setup(wanted, options))
+    return load_job(path_of(source, "source"), wanted, setup_of(wanted, options))
 
 
 def estimate(
@@ -67,31 +69,43 @@ def inspect(file: str | PathLike[str], *, format: str | None = None, after_end: 
     (k, 4), ``format`` and with which ``confidence`` it was recognised, ``warnings``. Raises Refused with file and line,
     OSError for a file that can't be opened.
     """
+    path = path_of(file)
+    if not isinstance(format, str | None):
+        raise unexpected("format", "str", format)
+    check_choice("after_end", after_end)
     try:
-        return read(Path(file), fmt=format, after_end=after_end)
+        return read(path, fmt=format, after_end=after_end)
     except DrillFileError as error:
-        raise refusal(Path(file), error) from error
+        raise refusal(path, error) from error
 
 
 def replay_trace(file: str | PathLike[str], *, tables: str | PathLike[str] | None = None) -> Verdict:
     """Runs a recorded trace (``.trace``, ``.seg``) again and compares it: ``failed()``, ``headline()``,
     ``message()``, the first ``difference``. Raises Refused for a file that is no trace, or a machine that is not there.
     """
-    return replay(Path(file), Library.standard(None if tables is None else Path(tables)))
+    return replay(path_of(file), library_of(tables))
 
 
-def _commands(source: Source) -> str | None:
-    """The commands as a text, a line each; None for a file."""
+def _as_made(made: Job, machine: MachineGiven, others: dict[str, Any]) -> Job:
+    """A job that is there. Raises Refused for what would make another one of it."""
+    if machine not in (DEFAULT, made.machine):
+        others = {"machine": machine, **others}
+    if others:
+        names = ", ".join(others)
+        raise Refusal(Message("the job is made already: give {names} to drillctl.job", names=names))
+    return made
+
+
+def _commands(source: object) -> str | None:
+    """The commands as a text, a line each; None for a file. Raises Refused for what is neither."""
     if isinstance(source, str):
-        return source if source.lstrip().startswith("KMD_") else None
-    return None if isinstance(source, PathLike | Job) else "\n".join(source)
-
-
-def _setup(machine: Machine, options: dict[str, Any]) -> JobSetup:
-    """The options as the journal has them, checked as there. Raises Refused for a name or a value that is none."""
-    import msgspec
-
-    try:
-        return JobSetup.checked({"machine": machine.file, **options})
-    except msgspec.ValidationError as error:
-        raise Refusal(Message("options of a job: {reason}", reason=str(error))) from error
+        return source if source.lstrip().startswith("KMD_") or "\n" in source else None
+    if isinstance(source, bytes | PathLike):
+        return None
+    wanted = "a path, a text or a list of commands"
+    if not isinstance(source, Sequence | np.ndarray):
+        raise unexpected("source", wanted, source)
+    for command in source:
+        if not isinstance(command, str):
+            raise unexpected("source", f"{wanted}, each a text", command)
+    return "\n".join(source)

@@ -1,11 +1,14 @@
 """Machines for another program: found by name or file, and changed in memory."""
 
 from collections.abc import Mapping
-from os import PathLike
-from pathlib import Path
+from os import PathLike, fsdecode
+from typing import Any
 
-from drillctl.machine import Library, Machine
-from drillctl.machine.edited import Value, edited
+from drillctl.api.arguments import named, path_of, plain, unexpected, whole
+from drillctl.language import Message
+from drillctl.machine import Library, Machine, TableError
+from drillctl.machine.edited import edited
+from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
 
 DEFAULT = "pcb-drill"
 
@@ -17,7 +20,7 @@ def machine_names(tables: str | PathLike[str] | None = None) -> list[str]:
     >>> "pcb-drill" in drillctl.machine_names()
     True
     """
-    return _library(tables).machine_names()
+    return library_of(tables).machine_names()
 
 
 def load_machine(
@@ -25,7 +28,7 @@ def load_machine(
     *,
     tables: str | PathLike[str] | None = None,
     tick_hz: int | None = None,
-    changes: Mapping[str, Value] | None = None,
+    changes: Mapping[str, Any] | None = None,
 ) -> Machine:
     """Returns a machine by its name, or by its file (``.toml``); checked, complete, immutable.
 
@@ -43,34 +46,31 @@ def load_machine(
     >>> slow.tick_hz, slow.configuration.longest_drilling_s
     (250, 2.0)
     """
-    library = _library(tables)
-    found = library.machine(str(name))
-    if changes:
-        found = edited(library, found, changes)
-    return found if tick_hz is None else found.at_rate(checked_rate(tick_hz))
-
-
-def checked_rate(tick_hz: int) -> int:
-    """Returns the interrupt frequency. Raises Refused for one that no machine may have."""
-    from drillctl.language import Message, Refusal
-    from drillctl.machine.shape import FASTEST_TICK_HZ, SLOWEST_TICK_HZ
-
-    if not SLOWEST_TICK_HZ <= tick_hz <= FASTEST_TICK_HZ:
-        raise Refusal(
-            Message(
-                "tick_hz {rate}: {slowest} to {fastest} Hz", rate=tick_hz, slowest=SLOWEST_TICK_HZ,
-                fastest=FASTEST_TICK_HZ,
-            )
-        )  # fmt: skip
-    return tick_hz
+    library = library_of(tables)
+    if not isinstance(name, str | PathLike):
+        raise unexpected("machine", "a name or a file", name)
+    found = library.machine(fsdecode(name))
+    if changes is not None:
+        values = {place: plain(value) for place, value in named(changes, "changes").items()}
+        found = edited(library, found, values) if values else found
+    return _at_rate(found, tick_hz)
 
 
 def machine_of(given: Machine | str | PathLike[str], tick_hz: int | None = None) -> Machine:
     """Returns a machine that is given itself, by name or by file; at another rate where one is given."""
-    if not isinstance(given, Machine):
-        return load_machine(given, tick_hz=tick_hz)
-    return given if tick_hz is None else given.at_rate(checked_rate(tick_hz))
+    return _at_rate(given if isinstance(given, Machine) else load_machine(given), tick_hz)
 
 
-def _library(tables: str | PathLike[str] | None) -> Library:
-    return Library.standard(None if tables is None else Path(tables))
+def library_of(tables: str | PathLike[str] | None) -> Library:
+    """Returns the tables that are searched, this folder's first. Raises TableError for a folder that is not there."""
+    folder = None if tables is None else path_of(tables, "tables")
+    if folder is not None and not folder.is_dir():
+        raise TableError(folder, Message("no such folder"))
+    return Library.standard(folder)
+
+
+def _at_rate(machine: Machine, tick_hz: int | None) -> Machine:
+    """The machine at this interrupt frequency. Raises Refused for one that no machine may have."""
+    if tick_hz is None:
+        return machine
+    return machine.at_rate(whole(tick_hz, "tick_hz", SLOWEST_TICK_HZ, FASTEST_TICK_HZ))

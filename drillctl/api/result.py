@@ -1,6 +1,7 @@
 """A run as another program sees it: its outcome, and what happened in each tick as numpy arrays.
 
 Rule: a run is kept as it was recorded; an array is made when it is asked for. (ticks,) is the number of ticks run.
+An array that the run keeps for the next who asks can't be written to.
 """
 
 from collections.abc import Mapping
@@ -8,11 +9,13 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.files.outputs import Output
+from drillctl.api.arguments import path_of
+from drillctl.files.outputs import Output, reserved
 from drillctl.generation.job import Job, MadeHole
 from drillctl.jobs.runner import JobResult
 from drillctl.lab.dynamic_rerun import AxisRun, axis_of_run
@@ -38,11 +41,13 @@ RUN = Path("run")  # how messages call a run that is in no file
 FULL_STEPS_PER_CYCLE = 4
 Integers = NDArray[np.int64]
 Floats = NDArray[np.float64]
+ArrayT = TypeVar("ArrayT", bound=NDArray[np.generic])
+SUFFIXES = (".trace", ".seg", ".vcd")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Run:
-    """A run that is over. Axes are called by name.
+    """A run that is over. Axes are called by name; ``time_s``, ``holes``, ``currents`` and ``speed`` are read-only.
 
     job      what was run, made for ``machine``
     plant    which plant it ran on, with its faults and seed
@@ -53,6 +58,10 @@ class Run:
     plant: PlantChoice
     result: JobResult
     _motions: dict[str, AxisRun] = field(default_factory=dict, init=False, repr=False)
+
+    def __repr__(self) -> str:
+        ended = self.fault.name if self.fault else "no fault"
+        return f"<Run of {self.job.name} on {self.machine.name}, {self.plant.kind} plant: {self.ticks} ticks, {ended}>"
 
     @property
     def machine(self) -> Machine:
@@ -84,14 +93,14 @@ class Run:
     @cached_property
     def time_s(self) -> Floats:
         """(ticks,): the time at which each tick began, in seconds."""
-        return np.arange(self.ticks) / self.outcome.tick_hz
+        return _kept(np.arange(self.ticks) / self.outcome.tick_hz)
 
     @cached_property
     def holes(self) -> NDArray[np.void]:
         """(holes,) in drilling order, a record each (dtype HOLES): where the bit was wanted and where it met the board,
         in the file's coordinates; of a queue, which wants no hole at a place, the wanted ones are NaN.
         """
-        return np.array([self._hole(hole) for hole in self.result.holes], HOLES)
+        return _kept(np.array([self._hole(hole) for hole in self.result.holes], HOLES))
 
     def __eq__(self, other: object) -> bool:
         """Whether two runs on machines of the same tables put out the same in every tick."""
@@ -128,15 +137,15 @@ class Run:
         """(ticks, windings): the currents of the motor on the dynamic plant, in A. Raises Refused for an axis without
         dynamics. A run on the ideal plant is driven through the dynamic one once more.
         """
-        return self._motion(axis).rotor.currents
+        return _kept(self._motion(axis).rotor.currents)
 
     def speed(self, axis: str) -> Floats:
         """(ticks,): the speed of the rotor on the dynamic plant, in rad/s. Raises Refused as ``currents``."""
-        return self._motion(axis).rotor.speed
+        return _kept(self._motion(axis).rotor.speed)
 
     def lag(self, axis: str) -> Floats:
         """(ticks,): by how many full steps the rotor is behind the column that is out; 4 are an electrical cycle, which
-        is lost. Raises Refused as ``currents``.
+        is lost. Of a drive that takes pulses 4 are a pulse, and it comes after. Raises Refused as ``currents``.
         """
         motion = self._motion(axis)
         cycle = motion.table.motor.columns_per_cycle
@@ -146,6 +155,7 @@ class Run:
         """(ticks,): any signal of the record: ``in.0``, ``out.0``, ``kmd``, ``x.column``... Raises Refused for a name
         that is none.
         """
+        name = str(name)
         trace = self._derived if "." in name and not name.startswith(("in.", "out.")) else self.trace
         if not trace.has(name):
             known = ", ".join(signal.name for signal in self._derived.signals)
@@ -159,8 +169,18 @@ class Run:
         return whole_trace(record, RUN) if isinstance(record, Segments) else record
 
     def save(self, file: str | PathLike[str]) -> None:
-        """Writes the run for others: ``.trace`` or ``.seg`` for replay, ``.vcd`` for wave viewers. Raises Refused."""
-        output, record = Output(Path(file)), self._record
+        """Writes the run for others: ``.trace`` or ``.seg`` for replay, ``.vcd`` for wave viewers. Raises Refused, also
+        for another ending; the file is whole or as it was.
+        """
+        path = path_of(file)
+        if path.suffix not in SUFFIXES:
+            raise Refusal(Message("a run is written as {suffixes}", suffixes=", ".join(SUFFIXES)).at(path))
+        record = self._record
+        with reserved([path], []) as (output,):
+            assert output is not None
+            self._write(record, output)
+
+    def _write(self, record: Trace | Segments, output: Output) -> None:
         if output.path.suffix == ".vcd":
             output.write(lambda stream: write_recorded_vcd(record, self.machine, stream))
             return
@@ -190,9 +210,10 @@ class Run:
         return np.bitwise_or.reduce([*shifted])
 
     def _motion(self, axis: str) -> AxisRun:
-        if axis not in self._motions:
-            self._motions[axis] = axis_of_run(self.trace, self.machine, RUN, self._name(axis))
-        return self._motions[axis]
+        name = self._name(axis)
+        if name not in self._motions:
+            self._motions[name] = axis_of_run(self.trace, self.machine, RUN, name)
+        return self._motions[name]
 
     def _hole(self, hole: MadeHole) -> tuple[float | None, ...]:
         wanted = self.job.file_place(hole.number) if self.job.work and hole.number else (np.nan, np.nan)
@@ -208,3 +229,8 @@ class Run:
             names = ", ".join(self.machine.axis_names)
             raise Refusal(Message("no axis {axis!r}; there are {names}", axis=axis, names=names))
         return axis
+
+
+def _kept(array: ArrayT) -> ArrayT:
+    array.setflags(write=False)
+    return array

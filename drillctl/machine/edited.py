@@ -11,6 +11,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
+from tomlkit.exceptions import ConvertError
+
 from drillctl.language import Message
 from drillctl.machine.config import parse_machine
 from drillctl.machine.edit import set_value
@@ -66,16 +68,25 @@ def _folders(library: Library, file: Path) -> tuple[Path, ...]:
 
 
 def _changed(source: Source, names: Sequence[str], value: Value) -> Source:
+    named = ".".join(names)
     try:
-        place = _place(source.tree(), names)
-        return Source(source.file, set_value(source.text, place, cast(Single, value)))
-    except (KeyError, TableError) as error:
-        reason = Message("there is no {place} in it", place=".".join(names))
-        raise TableError(source.file, reason) from error
+        place, there = _place(source.tree(), names)
+        if isinstance(there, dict) and there:
+            reason = Message("{place} is a table and no value: name one in it", place=named)
+        else:
+            return Source(source.file, set_value(source.text, place, cast(Single, value)))
+    except ConvertError:
+        reason = Message("expected {wanted}, got {found}", wanted="a text or a number", found=type(value).__name__)
+        reason = reason.at(named)
+    except (KeyError, TableError):
+        reason = Message("there is no {place} in it", place=named)
+    raise TableError(source.file, reason)
 
 
-def _place(tree: Any, names: Sequence[str]) -> tuple[str | int, ...]:
-    """The place with rows by number. Raises KeyError for a row that is not there."""
+def _place(tree: Any, names: Sequence[str]) -> tuple[tuple[str | int, ...], Any]:
+    """The place with rows by number, and what is there; {} for what is not. Raises KeyError for a row that is not
+    there.
+    """
     place: list[str | int] = []
     for name in names:
         if isinstance(tree, list):
@@ -85,7 +96,7 @@ def _place(tree: Any, names: Sequence[str]) -> tuple[str | int, ...]:
         else:
             place.append(name)
             tree = tree.get(name, {}) if isinstance(tree, dict) else {}
-    return tuple(place)
+    return tuple(place), tree
 
 
 def _row(rows: list[Any], name: str) -> int:

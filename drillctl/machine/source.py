@@ -87,7 +87,7 @@ class Source:
                 checked[key] = msgspec.convert(value, kind)
             except msgspec.ValidationError as error:
                 raise self.error(
-                    _plainly(str(error)).at(f'"{key}"').at(place[-1]),
+                    plainly(str(error)).at(f'"{key}"').at(place[-1]),
                     *place,
                     key,
                 ) from error
@@ -107,17 +107,28 @@ class Source:
         return next((lines[found] for found in outer if found in lines), None)
 
     def _shape_error(self, message: str) -> TableError:
-        found = _AT.match(message)
-        reason, path = (found[1], found[2]) if found else (message, "")
+        reason, path = _divided(message)
         place = [int(p) if p.isdigit() else p for p in re.split(r"[.\[\]]+", path) if p and p != "..."]
         unknown = _UNKNOWN.search(reason)
         line = self.line_of(*place, *([unknown[1]] if unknown else [])) if place or unknown else None
-        plain = _plainly(reason)
-        return TableError(self.file, plain.at(path) if path else plain, line)
+        return TableError(self.file, plainly(message), line)
 
 
-def _plainly(reason: str) -> Message:
-    """Returns a sentence of msgspec as a message; one that no pattern knows as it is, from a small letter on."""
+def plainly(sentence: str) -> Message:
+    """Returns what msgspec says as a message, with the place that it names. What no pattern knows is left as it is,
+    from a small letter on.
+    """
+    reason, place = _divided(sentence)
+    return _said(reason).at(place) if place else _said(reason)
+
+
+def _divided(sentence: str) -> tuple[str, str]:
+    """What is wrong, and where: ``axis[0].range``; empty where it is the whole."""
+    found = _AT.match(sentence)
+    return (found[1], found[2]) if found else (sentence, "")
+
+
+def _said(reason: str) -> Message:
     for pattern, template in _PLAINLY:
         if found := pattern.fullmatch(reason):
             return Message(template, **{name: part.replace("`", "") for name, part in found.groupdict().items()})

@@ -25,7 +25,7 @@ from drillctl.trace.files import read_record, read_trace, summary_of, takes_segm
 RUNNING_AGAIN = Message("running it again")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Verdict:
     """The result of a replay.
 
@@ -41,15 +41,19 @@ class Verdict:
     same_tables: bool
     from_tick: int = 0
 
+    def __repr__(self) -> str:
+        found = self.headline() if self.difference else "no tick differs"
+        return f"<Verdict: {found}: {self.remark()}>"
+
     def failed(self, same_tables_wanted: bool = False) -> bool:
         """Whether the behaviour differs or, where that is wanted, the tables do."""
         return self.difference is not None or (same_tables_wanted and not self.same_tables)
 
     def headline(self) -> str:
-        """One line: the first tick that differs and its command; or that the tables differ."""
+        """One line: the first tick that differs and its command; that the tables differ; or that nothing does."""
         found = self.difference
         if found is None:
-            return "recorded with other tables"
+            return "no tick differs" if self.same_tables else "recorded with other tables"
         command = _command_line(self.recorded, found.command)
         return f"differs at tick {found.tick}, " + (f"in command {command}" if command else "between commands")
 
@@ -62,6 +66,8 @@ class Verdict:
     def message(self) -> str:
         """About a dozen lines that show the first difference."""
         if self.difference is None:
+            if self.same_tables:
+                return self.headline()
             return "the tables are not those of the recording (--same-tables)"
         return render(self.difference, wire_names(self.machine))
 
