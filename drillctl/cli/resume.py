@@ -11,6 +11,7 @@ from drillctl.cli import operating, options, streams
 from drillctl.language import Counted, Message
 
 if TYPE_CHECKING:
+    from drillctl.generation.job import Job
     from drillctl.jobs.journal import Account
     from drillctl.jobs.session import Session
     from drillctl.ticker.launch import RunSettings
@@ -39,15 +40,16 @@ def call(arguments: argparse.Namespace) -> int:
 
     file = arguments.journal or _newest()
     account = read_journal(file)
-    session = _session(file, account, arguments)
+    session, whole = _session(file, account, arguments)
     with reserved((arguments.holes,), (Path(account.head.job), *session.files)) as (holes,):
-        _tell(account, session)
+        _tell(account, session, whole)
         done = operating.operated(session, arguments)
         problems = unwritten(lambda: options.write_holes(done, session.job.machine, holes))
     return options.report_outcome(done, arguments.json, problems)
 
 
-def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "Session":
+def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> tuple["Session", "Job"]:
+    """Returns the session that drills what is left, and the whole job."""
     from drillctl.generation.job_setup import JobSetup
     from drillctl.jobs.session import Session, rest_of
 
@@ -56,9 +58,9 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> "
     converter = options.converter(argparse.Namespace(converter=arguments.converter, tables=tables))
     machine = options.machine(argparse.Namespace(machine=chosen.machine, tables=tables, tick_hz=chosen.tick_hz))
     with operating.waiting() as wait:
-        left = rest_of(file, account, machine, wait).left
+        rest = rest_of(file, account, machine, wait)
     running = replace(_running(file, account, arguments), converter=converter)
-    return Session(left, running, file, account).equipped()
+    return Session(rest.left, running, file, account).equipped(), rest.whole
 
 
 def _running(file: Path, account: "Account", arguments: argparse.Namespace) -> "RunSettings":
@@ -87,7 +89,7 @@ def _newest() -> Path:
     return found[0]
 
 
-def _tell(account: "Account", session: "Session") -> None:
+def _tell(account: "Account", session: "Session", whole: "Job") -> None:
     """Prints where the job goes on, and what the journal says, before anything moves."""
     from drillctl.jobs.site import site_of
 
@@ -105,6 +107,9 @@ def _tell(account: "Account", session: "Session") -> None:
     if account.head.options.get("spot") is not None and account.holes_begun:
         spotted = "holes of the present tool may have their spot already; they are spotted again, in the same place"
         streams.tell(f"{spotted}")
+    for number in account.suspect:
+        x_mm, y_mm = whole.file_place(number)
+        streams.tell(f"look at hole {number} (X{x_mm:.4f} Y{y_mm:.4f} mm): a bit was found broken after it")
     if account.again is not None:
         x_mm, y_mm = left.file_place(account.again)
         hole = f"hole {account.again} (X{x_mm:.4f} Y{y_mm:.4f} mm)"

@@ -198,6 +198,7 @@ def _unfinished_job(file: Path, account: Account, here: Site) -> UnfinishedJob:
         torn=account.torn,
         spotted=head.options.get("spot") is not None,
         doubtful=account.doubtful,
+        suspect=account.suspect,
         ran=account.site,
         here=here,
     )

@@ -53,7 +53,10 @@ class Controller:
     zero_first  a fault has come after which only the return to zero is taken; it ends with that, or with the position
     indexes   input bits of the encoders' indexes, by axis; 0 of an axis without one
     surfaces  by axis, the place in steps in which a head's bit has touched; ``descents`` the deepest place in which it
-              is looked for, ``breakage_ranges`` how much deeper than before it may touch
+              is looked for, ``breakage_ranges`` how much deeper than before it may touch, ``depths`` how far below it a
+              hole goes, 0 where that is not entered
+    watched   contacts that a stroke down looks at; ``touching`` those that were on in the tick before, ``touched`` by
+              contact the place of its first touch in this stroke
     alarms    inputs of drives that had tripped in the tick before, none once that was acknowledged; of ``alarm_mask``
     contacts  the same of the inputs that say that a head's bit touches; ``chuck_mask`` the outputs of the chucks
     homing_ways   by row of the homing table, how each of its axes goes
@@ -109,7 +112,7 @@ class Controller:
         self.levels = tuple(masks_at(machine.levels, event) for event in (POWER_ON, STOP, FAULT, ESTOP))
         self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
         self.contacts = tuple(_contact_bit(machine, axis) for axis in range(len(machine.axes)))
-        self.descents, self.breakage_ranges = _detection(machine)
+        self.descents, self.breakage_ranges, self.depths = _detection(machine)
         self.alarm_mask = sum(_alarm_bit(machine, axis.name) for axis in machine.axes)
         self._forget_findings()
         self.chuck_mask = sum(head_output(machine, CHUCK, head) for head in machine.drill_axes)
@@ -140,6 +143,8 @@ class Controller:
         """No speed has been reached yet, no drive has tripped, and no bit has touched."""
         self.speed_reached = self.dip_ticks = self.alarms = 0
         self.surfaces: dict[int, int] = {}
+        self.watched = self.touching = 0
+        self.touched: dict[int, int] = {}
 
     def enter(self, stage: Stage) -> None:
         """Goes to this stage, and keeps condition and job in step with it."""
@@ -174,17 +179,20 @@ def _index_bit(machine: Machine, axis: int) -> int:
     return 0 if index is None else 1 << index.bit
 
 
-def _detection(machine: Machine) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """The detection descent and the breakage range of each axis in steps; more than any travel where it has none."""
+def _detection(machine: Machine) -> tuple[tuple[int, ...], tuple[int, ...], tuple[int, ...]]:
+    """The detection descent and the breakage range of each axis in steps, more than any travel where it has none; and
+    the depth below a surface that was found, 0 where it has none.
+    """
     known = machine.parameters or Parameters()
     range_mm = known.number("machining", "breakage_range_mm")
-    lengths = [(known.of_axis(table.name).number("depth_detection_descent_mm"), range_mm) for table in machine.axes]
-    scales = [table.steps_per_mm for table in machine.axes]
-    descents, ranges = (
-        tuple(NO_LIMIT if mm is None else round(mm * scale) for mm, scale in zip(row, scales, strict=True))
-        for row in zip(*lengths, strict=True)
-    )
-    return descents, ranges
+    depth_mm = known.number("system", "depth_detection_depth_mm")
+    found = []
+    for table in machine.axes:
+        descent_mm = known.of_axis(table.name).number("depth_detection_descent_mm")
+        lengths = ((descent_mm, NO_LIMIT), (range_mm, NO_LIMIT), (depth_mm, 0))
+        found.append(tuple(none if mm is None else round(mm * table.steps_per_mm) for mm, none in lengths))
+    descents, ranges, depths = zip(*found, strict=True)
+    return descents, ranges, depths
 
 
 def _alarm_bit(machine: Machine, axis_name: str) -> int:

@@ -1,10 +1,13 @@
-"""KMD_DOTYK: the heads go slowly down until their bits touch the board. Finds the surface by head, and broken bits.
+"""Depth detection: where the bits touch their boards, and which of them are broken.
 
-Rule: where a head has touched before, a bit that touches deeper than the breakage range is broken. A homing of the
-machine forgets the surfaces.
+Rule: KMD_DOTYK finds the surface by head: the heads go slowly down until their bits touch. From then on a bit that
+touches deeper than the breakage range is broken, and so is one that does not touch at the end of a stroke down. A
+homing of the machine forgets the surfaces.
 """
 
-from drillctl.execution.controller import Controller
+from collections.abc import Sequence
+
+from drillctl.execution.controller import NO_LIMIT, Controller
 from drillctl.kmd import Command, Fault
 
 
@@ -38,6 +41,34 @@ def touched(m: Controller, command: Command) -> int:
         return Fault.BIT_BROKEN
     m.surfaces.update(found)
     return Fault.NONE
+
+
+def watch_touches(m: Controller, heads: Sequence[int]) -> None:
+    """At the beginning of a stroke down: looks from now on when the bits of these heads, by axis, touch. A head whose
+    surface is not known, or that has no breakage range, is left out.
+    """
+    m.watched = 0
+    for index in heads:
+        if index in m.surfaces and m.breakage_ranges[index] != NO_LIMIT:
+            m.watched |= m.contacts[index]
+    m.touching = m.sensors & m.watched
+    m.touched.clear()
+
+
+def note_touches(m: Controller) -> None:
+    """A bit has begun or ceased to touch: notes where it did first."""
+    came, m.touching = m.sensors & m.watched & ~m.touching, m.sensors & m.watched
+    for index in m.machine.drill_axes:
+        if m.contacts[index] & came:
+            axis = m.axes[index]
+            m.touched.setdefault(index, axis.position + (axis.column_in_step > 0))  # the step that it is on
+
+
+def all_whole(m: Controller) -> bool:
+    """At the end of a stroke down: whether each bit that was watched touches its board, and did so in its range."""
+    watched, m.watched = m.watched, 0
+    too_deep = [index for index, place in m.touched.items() if place > m.surfaces[index] + m.breakage_ranges[index]]
+    return not too_deep and m.sensors & watched == watched
 
 
 def _heads(m: Controller, command: Command) -> list[int]:

@@ -1,11 +1,13 @@
 """The drilling heads: how KMD_WIERTLO_DOL and KMD_WIERTLO_GORA start and end (docs/SPEC.md, 1.10).
 
 Rule: a head goes towards its sensor at that end and stops on it; without one it goes to the distance that the machine's
-file gives. The range's end without the sensor is a fault. A command's argument of a head is its own least interval.
+file gives, down to the detected depth where its surface was found. The range's end without the sensor is a fault. A
+command's argument of a head is its own least interval.
 """
 
 from drillctl.execution.axis import Axis
 from drillctl.execution.controller import Controller
+from drillctl.execution.depth import all_whole, watch_touches
 from drillctl.kmd import Command, Fault, Op
 
 UP, DOWN = -1, 1
@@ -15,6 +17,7 @@ def lower_heads(m: Controller, command: Command) -> int:
     """Starts KMD_WIERTLO_DOL, each head to its own target; drilling is limited in time. Returns a fault code."""
     m.hole_begun = command.tag or m.hole_begun
     m.time_limit = m.longest_drilling
+    watch_touches(m, [index for index, axis in enumerate(m.axes) if _is_head(m, command, index, axis)])
     return _drive_head(m, command, DOWN)
 
 
@@ -24,9 +27,11 @@ def raise_heads(m: Controller, command: Command) -> int:
 
 
 def heads_lowered(m: Controller, command: Command) -> int:
-    """Ends KMD_WIERTLO_DOL at rest: the hole is made where every head is down. Returns a fault code."""
+    """Ends KMD_WIERTLO_DOL at rest: the hole is made where every head is down, its bit whole. Returns a fault code."""
     if not _at_sensors(m, command, DOWN):
         return Fault.DRILL_NOT_DOWN
+    if m.watched and not all_whole(m):
+        return Fault.BIT_BROKEN
     m.holes_done += command.tag > 0
     return Fault.NONE
 
@@ -45,7 +50,7 @@ def drive_to_sensors(m: Controller, command: Command, direction: int) -> int:
                 return Fault.BAD_COMMAND
             axis.seek_mask, axis.clear_mask, axis.halt_mask = sensor, 0, 0
             if not m.sensors & sensor:
-                axis.set_target(_head_target(m, axis, direction, sensor), command.floor_ticks)
+                axis.set_target(_head_target(m, index, direction, sensor), command.floor_ticks)
     return Fault.NONE
 
 
@@ -66,7 +71,8 @@ def _drive_head(m: Controller, command: Command, direction: int) -> int:
                 return Fault.HOMING_REQUIRED
             axis.seek_mask, axis.clear_mask, axis.halt_mask = sensor, 0, 0
             if not m.sensors & sensor:
-                axis.set_target(_head_target(m, axis, direction, sensor), max(command.floor_ticks, command.args[index]))
+                target = _head_target(m, index, direction, sensor)
+                axis.set_target(target, max(command.floor_ticks, command.args[index]))
     return Fault.NONE
 
 
@@ -84,13 +90,22 @@ def _head_sensor(m: Controller, axis: Axis, direction: int) -> int:
     return 0 if by_distance else axis.limits[direction] & ~m.shared
 
 
-def _head_target(m: Controller, axis: Axis, direction: int, sensor: int) -> int:
+def _head_target(m: Controller, index: int, direction: int, sensor: int) -> int:
+    axis = m.axes[index]
     if not sensor:
-        return (m.machine.drill_down_steps or axis.high) if direction == DOWN else axis.up
+        return _bottom(m, index) if direction == DOWN else axis.up
     if not m.position_known:
         least, most = axis.been()
         return max(most, least + axis.span) if direction == DOWN else min(least, most - axis.span)
     return axis.high if direction == DOWN else axis.low
+
+
+def _bottom(m: Controller, index: int) -> int:
+    """Where a head that is fed by a distance turns back: the detected depth below its surface, where both are known."""
+    axis, depth = m.axes[index], m.depths[index]
+    if depth and index in m.surfaces:
+        return min(m.surfaces[index] + depth, axis.reach[1])
+    return m.machine.drill_down_steps or axis.high
 
 
 def _at_sensors(m: Controller, command: Command, direction: int) -> bool:

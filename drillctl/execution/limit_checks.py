@@ -10,6 +10,7 @@ nothing moved tells no end, and nothing may move.
 from drillctl.execution.axis import Axis
 from drillctl.execution.conditions import raise_fault, serve_inputs
 from drillctl.execution.controller import Controller
+from drillctl.execution.depth import note_touches
 from drillctl.execution.motion import SETTLING, STOPPING
 from drillctl.execution.spindle import speed_is_lost
 from drillctl.kmd import Fault
@@ -22,6 +23,8 @@ def guard(m: Controller) -> None:
         return
     if (sensors & m.alarm_mask) != m.alarms and _drive_trips(m, sensors & m.alarm_mask):
         return
+    if m.watched and sensors & m.watched != m.touching:
+        note_touches(m)
     if m.shared:
         _note_ends(m, sensors & m.shared)
     for pair in m.pairs:

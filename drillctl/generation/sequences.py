@@ -24,7 +24,7 @@ class Change(IntFlag):
     WITHIN = 2  # among the holes of one tool of the file: another bit of the same diameter
 
 
-LOWERING = (Op.WIERTLO_DOL, Op.RUCH)  # a board's program moves its heads by these
+LOWERING = (Op.WIERTLO_DOL, Op.RUCH, Op.DOTYK)  # a board's program moves its heads by these
 LIFTING = (Op.WIERTLO_GORA, Op.GORA_X_Y)  # and raises them by these, which end a hole
 
 

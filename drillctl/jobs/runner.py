@@ -20,7 +20,7 @@ from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
 from drillctl.jobs.magazine import MagazineError
 from drillctl.jobs.operator import JobHold, Operator, ToolChange
-from drillctl.jobs.tool_keeping import ToolKeeping
+from drillctl.jobs.tool_keeping import ToolKeeping, last_of_bit
 from drillctl.kmd import Fault, Request, is_complete, is_over
 from drillctl.language import Message, Refusal
 from drillctl.replay.header import trace_header
@@ -146,8 +146,7 @@ class JobRunner:
     def progress(self) -> Progress:
         """How far the job is: holes, tool, time, and the time left where the ticks of its commands are known."""
         hz, ticks = self.job.machine.tick_hz, int(self.status["tick"] - self.first["tick"])
-        commands = int(self.status["done"] - self.first["done"])
-        left = None if self._time_left is None else self._time_left.ticks(commands, ticks) / hz
+        left = None if self._time_left is None else self._time_left.ticks(self._commands, ticks) / hz
         done = self.done_before + self.confirmed
         total = self.done_before + self.job.holes_total
         return Progress(done, total, int(self.status["tool"]), ticks, ticks / hz, left, self.hold.held)
@@ -170,8 +169,7 @@ class JobRunner:
 
     def _begin_transfer(self) -> None:
         """Notes the transfer of a tool that comes next, and then lets its first command through."""
-        commands = int(self.status["done"]) - int(self.first["done"])
-        due = self.tools is not None and self.feeder.at_barrier and self.tools.is_due(commands)
+        due = self.tools is not None and self.feeder.at_barrier and self.tools.is_due(self._commands)
         if self.tools is None or not due or self.trouble:
             return
         self._keep(self.tools.begin)
@@ -200,8 +198,7 @@ class JobRunner:
     def _change_tool(self) -> None:
         """Asks the operator for the tool that the program needs next, once everything before is done and at rest."""
         tool = self.feeder.awaited_tool()
-        done = int(self.status["done"]) - int(self.first["done"])
-        if tool is None or self.tool_change is None or done < self.feeder.put or self.status["moving"]:
+        if tool is None or self.tool_change is None or self._commands < self.feeder.put or self.status["moving"]:
             return
         groups = self.job.work.groups if self.job.work else ()
         diameter_mm = next((group.diameter_mm for group in groups if group.number == tool), None)
@@ -212,10 +209,9 @@ class JobRunner:
         """Journals the holes that are done: a hole is, once the head is up again. A lower sensor that answers too early
         is noticed there at the latest (SENSOR_CONTRADICTION), and its hole is drilled again.
         """
-        commands = int(self.status["done"]) - int(self.first["done"])
         if self.tools is not None and not self.trouble:
-            self._keep(partial(self.tools.done, commands))
-        done = self.feeder.holes_ended(commands)
+            self._keep(partial(self.tools.done, self._commands, int(self.status["fault"])))
+        done = self.feeder.holes_ended(self._commands)
         if self.journal is not None and done > self.confirmed and not self.trouble:
             try:
                 self.journal.done([self.job.hole_number(hole) for hole in range(self.confirmed + 1, done + 1)])
@@ -234,6 +230,7 @@ class JobRunner:
             return
         how = "stopped" if outcome.interrupted or self.trouble else "done"
         try:
+            self.journal.suspect(outcome.suspect)
             self.journal.ended(outcome.fault.name if outcome.fault else how)
         except JournalError as error:
             self.trouble = self.trouble or error.message
@@ -258,10 +255,22 @@ class JobRunner:
             lost_steps=dict(zip(names, by_axis["lost"], strict=False)) if self.link.measured else None,
             underruns=int(status["underruns"]),
             fault=fault_report(Fault(code), kept) if code else None,
+            suspect=self._suspect(code),
             late_count=int(status["late"]),
             late_greatest_ms=int(status["late_worst_ns"]) / 1e6,
             interrupted=interrupted or not (code or complete),
         )
+
+
+    def _suspect(self, fault: int) -> tuple[int, ...]:
+        """The hole that a bit may have broken in, by its number in the whole job, where one was found broken."""
+        last = last_of_bit(self.job.program, self._commands) if fault == Fault.BIT_BROKEN and self.job.work else None
+        return () if last is None else (self.job.hole_number(last),)
+
+    @property
+    def _commands(self) -> int:
+        """How many commands of the program are done."""
+        return int(self.status["done"]) - int(self.first["done"])
 
 
 @contextmanager

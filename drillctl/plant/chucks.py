@@ -23,8 +23,8 @@ class Chuck:
     """The chuck of one head, and the bit in it.
 
     number       of the spindle, from 1; ``axis`` is that of its head
-    short_steps  the length that has broken off its bit; ``holes`` that this bit has begun
-    breaks_at    the hole in which its bit breaks; 0: it doesn't
+    short_steps  the length that has broken off its bit; ``holes`` how often this bit has met the board
+    breaks_at    at which of these its bit breaks; 0: it doesn't
     drops_at     which of the bits that it takes falls out on the way up; 0: none
     """
 

@@ -15,6 +15,7 @@ from drillctl.kmd import (
     CommandQueue,
     Gate,
     Mailbox,
+    Op,
     Queue,
     Requests,
     TickGate,
@@ -91,11 +92,11 @@ class Ticker:
         return m.tick - first
 
     def note_touch(self) -> None:
-        """Counts a hole for each bit that has just met its board. Needs a plant."""
+        """Counts a hole for each bit that has just met its board, but in depth detection. Needs a plant."""
         assert self.plant is not None
         if self.plant.touches != self._touches:
             before, self._touches, self._met = self._met, self.plant.touches, self.plant.met.copy()
-            for axis in axes_met(before, self._met):
+            for axis in axes_met(before, self._met) if self.controller.command.opcode != Op.DOTYK else ():
                 self.touch(self.controller.tool, self.controller.hole_begun, self.places(), axis)
 
     def advance(self, wakes: int, until: Callable[[], bool] | None = None) -> int:

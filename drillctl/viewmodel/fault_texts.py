@@ -155,8 +155,10 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("see whether the bit is there and whole, and whether a board lies below it"),
     ),
     Fault.BIT_BROKEN: FaultWords(
-        Message("a bit touched the board deeper than before by more than the breakage range"),
-        Message("put a new bit in; where the board is thinner, initialise, so that its surface is found anew"),
+        Message(
+            "a bit touched the board deeper than before by more than the breakage range, or not at all in a stroke down"
+        ),
+        Message("look at the last holes and put a new bit in; the tool is noted as used up until that is said"),
     ),
     Fault.DRIVE_ALARM: FaultWords(
         Message("the drive of an axis has tripped: its motor fell too far behind its pulses"),

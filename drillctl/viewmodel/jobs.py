@@ -77,6 +77,7 @@ class UnfinishedJob(msgspec.Struct, frozen=True):
     again     holes that were under way, to be drilled again
     doubtful  the hole that may have been, by a torn last line; None where there is no doubt
     ran, here where it ran last, and where it would go on
+    suspect   holes that are drilled and may be bad, since a bit was found broken after them
     """
 
     journal: str
@@ -90,3 +91,4 @@ class UnfinishedJob(msgspec.Struct, frozen=True):
     doubtful: int | None
     ran: Site
     here: Site
+    suspect: tuple[int, ...] = ()

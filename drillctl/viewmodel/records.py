@@ -33,7 +33,9 @@ class FaultReport(msgspec.Struct, frozen=True):
 
 
 class Outcome(msgspec.Struct, frozen=True):
-    """How a job ended (docs/SPEC.md, section 4). By axis: steps made, position, lost steps (None on a real port)."""
+    """How a job ended (docs/SPEC.md, section 4). By axis: steps made, position, lost steps (None on a real port).
+    ``suspect`` are the numbers of holes that are done and may be bad: the last before a bit was found broken.
+    """
 
     machine: str
     holes_done: int
@@ -49,6 +51,7 @@ class Outcome(msgspec.Struct, frozen=True):
     late_count: int = 0
     late_greatest_ms: float = 0.0
     interrupted: bool = False
+    suspect: tuple[int, ...] = ()
 
     @property
     def machine_seconds(self) -> float:
@@ -72,6 +75,7 @@ class Outcome(msgspec.Struct, frozen=True):
             "late": {"count": self.late_count, "greatest_ms": self.late_greatest_ms},
             "starved": self.underruns,
             "interrupted": self.interrupted,
+            "suspect": list(self.suspect),
             "fault": fault and fault.as_dict(),
         }
 

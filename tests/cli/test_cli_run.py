@@ -13,7 +13,7 @@ HALF_STEP_MM = 25.4 / 1200 / 2 + 0.00006  # and the rounding to four decimals
 HOLES_MM = [(1, 0.8, 10.16, 30.48), (1, 0.8, 29.21, 30.48), (2, 1.0, 16.51, 52.07)]
 FIELDS = [
     "machine", "holes_done", "holes_total", "ticks", "tick_hz", "machine_seconds", "steps", "position",
-    "position_known", "lost_steps", "late", "starved", "interrupted", "fault",
+    "position_known", "lost_steps", "late", "starved", "interrupted", "suspect", "fault",
 ]  # fmt: skip
 
 

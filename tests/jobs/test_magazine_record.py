@@ -25,13 +25,13 @@ from tests.generation.test_worklist import drill_file
 
 SPINDLES = (1, 3)
 MOST_TICKS = 200_000
-NEAR_MM = {1: (9.0, 4.0), 2: (11.0, 4.0)}  # places of the magazine, so that a change takes few ticks
+NEAR_MM = {1: (9.0, 4.0), 2: (11.0, 4.0), 3: (13.0, 4.0)}  # places of the magazine, so that a change takes few ticks
 
 
 def near(machine: Machine) -> Machine:
     """The machine with everything near, and the first tool in the spindles when the simulation begins."""
     assert machine.parameters is not None and machine.tool_changer is not None
-    near_by = {"parking_x_mm": 7.0, "parking_y_mm": 3.0, "change_height_mm": 2.0}
+    near_by = {"parking_x_mm": 7.0, "parking_y_mm": 3.0, "change_height_mm": 2.0, "depth_detection_depth_mm": 0.2}
     system = {**dict(machine.parameters.system.values), **near_by}
     places = tuple(ParameterRow((("place", n), ("x_mm", x), ("y_mm", y))) for n, (x, y) in NEAR_MM.items())
     parameters = replace(machine.parameters, system=ParameterRow(tuple(system.items())), places=places)

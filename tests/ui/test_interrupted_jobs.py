@@ -36,6 +36,12 @@ def test_a_hole_that_may_have_been_begun_is_named() -> None:
     assert "Hole 4 may have been begun; it will be drilled again." in program.text()
 
 
+def test_a_hole_after_which_a_bit_was_found_broken_is_named() -> None:
+    program = Program(FakeConsole(unfinished_jobs=[replace(CUT, suspect=(3,))]))
+    program.press("f", "u")
+    assert "Look at hole 3: a bit was found broken after it." in program.text()
+
+
 def test_an_interrupted_job_goes_on_or_is_given_up() -> None:
     program = Program(FakeConsole(unfinished_jobs=[CUT]))
     program.press("f", "u", "right", "enter")

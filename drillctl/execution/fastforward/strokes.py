@@ -1,8 +1,9 @@
 """Strokes of the heads: what ends on a sensor is run by tick once from each place it begins at, and then known.
 
 Rule: on a plant that always answers alike, the same command from the same place is the same stroke, tick by tick. The
-place is all that a head's automaton, its rotor and its sensors remember. The ticks of an unknown stroke
-are noted by a Recording, which engine.py hands out; plan.py goes from place to place by what is ``known``.
+place is all that a head's automaton, its rotor and its sensors remember, and where the boards were found. The ticks of
+an unknown stroke are noted by a Recording, which engine.py hands out; plan.py goes from place to place by what is
+``known``.
 """
 
 from collections.abc import Hashable, Sequence
@@ -108,7 +109,7 @@ class Strokes:
         axes = [self._m.axes[head] for head in self.heads]
         states = tuple(tuple(0 if slot in left else _cooled(axis, slot) for slot in REMEMBERED) for axis in axes)
         memories = tuple(self._world.memory(head) for head in self.heads)
-        key = states, memories, self._m.position_known
+        key = states, memories, self._m.position_known, tuple(self._m.surfaces.items())
         return self._places.setdefault(key, Place(states, memories))
 
 

@@ -14,15 +14,17 @@ from drillctl.generation.eight_axis.feeds import interval_of
 from drillctl.generation.eight_axis.magazine import EMPTY, Magazine, full_magazine
 from drillctl.generation.eight_axis.tools import Stretch, is_automatic, speed_of, stretches
 from drillctl.generation.errors import JobError
-from drillctl.generation.pcb_drill.program import go_to_base, holes_of, spin_up, switch
-from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
+from drillctl.generation.pcb_drill.program import go_to_base, gotos, holes_of, spin_up, switch
+from drillctl.generation.pcb_drill.strokes import drill_stroke, mask_of, spot_stroke
 from drillctl.generation.sequences import Change, Records, numbered, record
 from drillctl.generation.spindles import heads_of
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import Group, WorkList
 from drillctl.kmd import Op
+from drillctl.kmd.commands import Flag
 from drillctl.language import Message
 from drillctl.machine import Machine
+from drillctl.machine.head_lines import CONTACT, head_input
 
 
 def board_program(
@@ -63,7 +65,7 @@ class _Program:
             parts.append(record(Op.WRZECIONO, [rev_min]))
             if self._machine.spindle is None:  # else the command waits for its speed
                 parts += spin_up(self._machine, self._outputs.get("spindle"))
-            parts += self._holes(group, stretch)
+            parts += [*self._found(stretch), *self._holes(group, stretch)]
             if stretch.tool is not None:
                 renewed = self._magazine.renew(stretch.tool) if stretch.renewed else self._magazine
                 self._magazine = renewed.hit(stretch.tool, stretch.stop - stretch.start)
@@ -114,6 +116,21 @@ class _Program:
                 ).at(self._machine.name)
             )
 
+    def _found(self, stretch: Stretch) -> list[Records]:
+        """Looks for the boards with new bits, over their first hole; the heads go fast to where they work. Nothing
+        where no head has a contact and a detection descent.
+        """
+        machine, heads = self._machine, detecting(self._machine, self._heads)
+        if not heads:
+            return []
+        self._here = self._work.steps[stretch.start]
+        lowered = self._stroke(self._working_top())
+        lowered["opcode"], lowered["flags"] = Op.RUCH, Flag.ABSOLUTE
+        touch = record(Op.DOTYK, axes=mask_of(machine, heads))
+        touch["floor_ticks"] = max(interval_of(machine, head, *_detection_speed(machine)) for head in heads)
+        up = self._fed(record(Op.WIERTLO_GORA, axes=mask_of(machine, self._heads)), stretch.tool)
+        return [gotos(self._here[None, :], machine), self._stroke(self._working_top()), lowered, touch, up]
+
     def _holes(self, group: Group, stretch: Stretch) -> list[Records]:
         """The holes of a stretch, spotted first where that is asked for, with strokes as short as they can be."""
         settings, machine = self._settings, self._machine
@@ -159,6 +176,21 @@ class _Program:
         for head, steps in zip(self._heads, tops, strict=True):
             args[head] = steps
         return record(Op.SUW, args, sum(1 << head for head in self._heads))
+
+
+def detecting(machine: Machine, heads: Sequence[int]) -> tuple[int, ...]:
+    """Returns the heads that look for their boards: those with a contact and a detection descent."""
+    known = machine.parameters
+    assert known is not None
+    descents = {head: known.of_axis(machine.axis_names[head]).number("depth_detection_descent_mm") for head in heads}
+    return tuple(head for head in heads if descents[head] and head_input(machine, CONTACT, head))
+
+
+def _detection_speed(machine: Machine) -> tuple[float, str]:
+    """The speed of depth detection in mm/min, and the name of its parameter."""
+    assert machine.parameters is not None
+    name = "depth_detection_speed_mm_min"
+    return machine.parameters.number("system", name) or 0.0, f"parameters.system.{name}"
 
 
 def _renewal(stretch: Stretch) -> Change:

@@ -58,6 +58,7 @@ class Account:
     ended        how the last run ended; None while it goes on, or where it was cut off
     torn         a last line without its end was left out
     under_way    the last hole was begun in the last run, and is not done
+    suspect      numbers of holes that are done and may be bad: each the last of a bit that was found broken after it
     seal         of the last whole line
     """
 
@@ -68,6 +69,7 @@ class Account:
     ended: str | None = None
     torn: bool = False
     under_way: bool = False
+    suspect: tuple[int, ...] = ()
     seal: str = NO_SEAL
 
     @property
@@ -134,6 +136,11 @@ class Account:
             raise OutOfPlace(Message("done {hole!r} is out of its place: {state}", hole=hole, state=self._state()))
         return replace(self, holes_done=self.next, under_way=False)
 
+    def _with_suspect(self, hole: object) -> "Account":
+        if self.ended is not None or type(hole) is not int or hole not in self.done:
+            raise OutOfPlace(Message("suspect {hole!r} is out of its place: {state}", hole=hole, state=self._state()))
+        return replace(self, suspect=(*self.suspect, hole))
+
     def _with_end(self, how: object) -> "Account":
         early = how == DONE and not self.complete
         if self.ended is not None or not isinstance(how, str) or early:
@@ -166,6 +173,7 @@ class Account:
 PLACES: dict[tuple[str, ...], Callable[..., Account]] = {
     ("begun",): Account._with_begun,
     ("done",): Account._with_done,
+    ("suspect",): Account._with_suspect,
     ("ended",): Account._with_end,
     ("resumed", "again"): Account._with_resumption,
 }

@@ -4,7 +4,7 @@ Rule: each line is on the disk before what it announces may happen, and is check
 """
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -66,6 +66,11 @@ class Journal:
         """Writes that holes are done; to be called after execution has confirmed them."""
         for hole in holes:
             self._write({"done": hole})
+
+    def suspect(self, holes: Sequence[int]) -> None:
+        """Writes that holes which are done may be bad."""
+        for hole in holes:
+            self._write({"suspect": hole})
 
     def ended(self, how: str) -> None:
         """Writes how the run ended: ``done``, ``stopped`` or the name of a fault."""

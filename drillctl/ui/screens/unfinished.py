@@ -63,6 +63,8 @@ def job_lines(job: UnfinishedJob) -> list[str]:
         lines.append(_("Hole {numbers} was cut off in the middle; it will be drilled again.").format(numbers=again))
     if job.doubtful is not None:
         lines.append(_("Hole {number} may have been begun; it will be drilled again.").format(number=job.doubtful))
+    for hole in job.suspect:
+        lines.append(_("Look at hole {number}: a bit was found broken after it.").format(number=hole))
     if job.spotted:
         lines.append(_("Holes of the present tool may have their spot already; they are spotted again."))
     meaning = _("Going on initialises, takes the same working base and drills the rest. The board must lie as it lay.")
