@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from drillctl.cli import board_trials, drawing, options, streams
 from drillctl.language import Message
+from drillctl.viewmodel.choices import GREATEST_SPREAD, MOST_DRAWS, MOST_WORKERS
 
 if TYPE_CHECKING:
     from drillctl.lab.question import Question
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
 
 VALUES = "N,N,... or FROM:TO:STEP"
 STEPS = "1,10,100"
-MOST_WORKERS = 1024
-MOST_DRAWS = 100_000
-GREATEST_SPREAD = 0.5
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -75,7 +73,7 @@ def _add_draws(verb: argparse.ArgumentParser) -> None:
 
 def _question(arguments: argparse.Namespace, machine: "Machine", library: "Library") -> "Question":
     from drillctl.cli.number_lists import numbers, whole_numbers
-    from drillctl.lab.question import FASTEST_HZ, LONGEST_STEPS, SLOWEST_HZ, Question
+    from drillctl.lab.question import FASTEST_HZ, GREATEST_LOAD_NM, LONGEST_STEPS, SLOWEST_HZ, Question
     from drillctl.lab.tables import axis_of, phases, ramps
 
     board_trials.check_only_with_board(arguments)
@@ -91,7 +89,7 @@ def _question(arguments: argparse.Namespace, machine: "Machine", library: "Libra
         ramps(arguments.ramp, axis, library),
         phases(arguments.phase, axis, library),
         tuple(_varied(text) for text in arguments.vary),
-        numbers(arguments.load_nm or "0", "--load-nm", 0, 100),
+        numbers(arguments.load_nm or "0", "--load-nm", 0, GREATEST_LOAD_NM),
         () if board else whole_numbers(arguments.steps or STEPS, "--steps", 1, LONGEST_STEPS),
         arguments.draws,
         arguments.spread,
@@ -111,9 +109,10 @@ def _check_no_moves(arguments: argparse.Namespace) -> None:
 
 def _varied(text: str) -> tuple[str, tuple[float, ...]]:
     from drillctl.cli.number_lists import numbers
+    from drillctl.lab.question import FACTORS
 
     name, _, values = text.partition("=")
-    return name, numbers(values, f"--vary {name}", 0.001, 1000)
+    return name, numbers(values, f"--vary {name}", *FACTORS)
 
 
 def _work(question: "Question", results: "Results", pool: "WorkerPool") -> None:

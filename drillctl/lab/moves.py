@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.execution.axis import Axis
+from drillctl.lab.errors import LabError
 from drillctl.language import Message
 from drillctl.machine import AxisTable
 
@@ -28,7 +29,7 @@ class Move:
 def move(table: AxisTable, steps: int, column: int = -1, rest_ticks: int = REST_TICKS) -> Move:
     """At rest on a column (from 0; -1 as at power-up), a move of so many steps, and at rest again.
 
-    Raises ValueError for a move of more than LONGEST_MOVE_TICKS.
+    Raises LabError for a move of more than LONGEST_MOVE_TICKS.
     """
     axis = Axis(table, (0, 0, 0))
     axis.column = column % axis.length
@@ -38,7 +39,7 @@ def move(table: AxisTable, steps: int, column: int = -1, rest_ticks: int = REST_
     axis.set_target(steps, 0)
     while axis.counting:
         if len(images) > LONGEST_MOVE_TICKS:
-            raise ValueError(
+            raise LabError(
                 Message(
                     "a move of {steps} steps takes more than {longest_move_ticks} ticks",
                     steps=steps,

@@ -14,6 +14,7 @@ import numpy as np
 
 from drillctl.lab.board import Board, scaled
 from drillctl.lab.errors import LabError
+from drillctl.lab.trials import check_moves
 from drillctl.language import Message, known_words
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.machine.phase import PhaseTable
@@ -25,6 +26,8 @@ SPREAD = ("resistance_ohm", "inductance_h", "torque_nm_per_a", "inertia_kgm2", "
 SLOWEST_HZ, FASTEST_HZ = 50, 20_000  # below 50 Hz a tick has more substeps
 MOST_MACHINES = 10_000_000
 LONGEST_STEPS = 100_000
+FACTORS = 0.001, 1000  # of a parameter of the dynamics
+GREATEST_LOAD_NM = 100
 LAW = f"dynamic {SUBSTEPS}"  # of the plant: to be changed with its equations
 
 
@@ -72,6 +75,8 @@ class Question:
             raise LabError(
                 Message("axis {name} has no dynamics; docs/PLANT.md says how to name some", name=self.axis.name)
             )
+        if self.board is None:
+            check_moves(self.axis.dynamics)
         for name, _ in self.times:
             if name not in PARAMETERS:
                 raise LabError(

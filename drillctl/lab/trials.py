@@ -10,7 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.lab.errors import LabError
 from drillctl.lab.moves import Move, side_by_side
+from drillctl.language import Message, message_of
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.plant.dynamic.fleet import Fleet, Lane
 from drillctl.plant.dynamic.rotor import rest_cycles, wires_of
@@ -32,13 +34,32 @@ class Trial:
 
 
 def errors_full_steps(table: AxisTable, trials: Sequence[Trial]) -> NDArray[np.float64]:
-    """(n,): commanded minus reached, in full steps, forward counted. All tick rates from 50 Hz on."""
+    """(n,): commanded minus reached, in full steps, forward counted. All tick rates from 50 Hz on. Raises LabError for
+    a motor that makes no moves alone, and a phase table that holds no rotor.
+    """
+    for trial in trials:
+        check_moves(trial.dynamics)
     errors = np.empty(len(trials))
     by_length = sorted(range(len(trials)), key=lambda index: len(trials[index].move.images))
     for first in range(0, len(trials), LANES):
         chosen = by_length[first : first + LANES]
-        errors[chosen] = _fleet_errors(table, [trials[index] for index in chosen])
+        try:
+            errors[chosen] = _fleet_errors(table, [trials[index] for index in chosen])
+        except ValueError as error:  # of a column
+            raise LabError(message_of(error)) from error
     return errors
+
+
+def check_moves(dynamics: Dynamics) -> None:
+    """Raises LabError for a motor that can't make single moves alone: fleets have unipolar ones only."""
+    if dynamics.kind != "unipolar":
+        raise LabError(
+            Message(
+                "sweeps of single moves take unipolar motors; {name} is a {kind} motor's: sweep --board takes it",
+                name=dynamics.name,
+                kind=dynamics.kind,
+            )
+        )
 
 
 def lost(errors: NDArray[np.float64]) -> NDArray[np.bool_]:

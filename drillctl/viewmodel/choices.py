@@ -1,4 +1,5 @@
-"""What options of a job may be, by name: one table for the command line, the screens, journals, and layer 2.
+"""What options of a job and of a sweep may be, by name: one table for the command line, the library, the screens,
+journals, and layer 2.
 
 Rule: nothing heavy is imported here.
 """
@@ -15,3 +16,6 @@ MIRRORED: tuple[str, ...] = get_args(Mirror)
 ORDERS: tuple[str, ...] = get_args(Order)
 MOST_ORDER_SECONDS = 86_400
 AFTER_END: tuple[str, ...] = get_args(AfterEnd)
+MOST_WORKERS = 1024  # processes of a sweep
+MOST_DRAWS = 100_000
+GREATEST_SPREAD = 0.5

@@ -75,6 +75,35 @@ def test_what_is_no_argument_is_refused_by_its_name(call: Callable[[], Any], wor
     assert words in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"hz": 500}, "hz: expected a list, got int"),
+        ({"hz": ()}, "hz: the list is empty"),
+        ({"hz": (500, 500.0)}, "hz: a value stands in the list twice"),
+        ({"hz": (0,)}, "hz 0: 50 to 20000"),
+        ({"steps": (-5,)}, "steps -5: 1 to 100000"),
+        ({"vary": {"coulomb_nm": (float("nan"),)}}, "coulomb_nm nan: 0.001 to 1000"),
+        ({"vary": ["coulomb_nm"]}, "vary: expected a dict, got list"),
+        ({"load_nm": ("1",)}, "load_nm: expected a number, got str"),
+        ({"draws": 0}, "draws 0: 1 to 100000"),
+        ({"spread": 5}, "spread 5: 0 to 0.5"),
+        ({"workers": 1.5}, "workers: expected a whole number, got float"),
+        ({"axis": 0}, "no axis '0'; there are x, y, z"),
+        ({"machine": "eight-axis"}, "take unipolar motors"),
+    ],
+)
+def test_a_sweep_that_can_not_be_meant_is_refused(arguments: dict[str, Any], words: str) -> None:
+    with pytest.raises(drillctl.Refused) as refused:
+        drillctl.sweep(**{"steps": (5,), **arguments})
+    assert words in str(refused.value)
+
+
+def test_a_sweep_takes_arrays_and_a_single_name() -> None:
+    rows = drillctl.sweep(hz=np.arange(500, 700, 100), steps=np.array([5]), ramp="seven-state", phase="one phase alone")
+    assert rows["tick_hz"].tolist() == [500, 600] and set(rows["phase"]) == {"one phase alone"}
+
+
 @pytest.mark.parametrize("options", [{"offset": (1e30, 0.0)}, {"rotate": 1e300}, {"panel": (2, 1, 1e300, 5.0)}])
 def test_a_place_beyond_all_machines_is_refused_as_it_was_given(options: dict[str, Any]) -> None:
     with warnings.catch_warnings():

@@ -171,12 +171,19 @@ def test_draws_are_within_their_spread_and_alike_over_the_grid() -> None:
         ({"times": (("coulomb_nm", (1.0,)),) * 2}, "varied twice"),
         ({"draws": 100_000, "loads_nm": tuple(range(100))}, "at most"),
         ({"axis": LIBRARY.machine("mega-28byj48").axes[0]}, "no dynamics"),
+        ({"axis": LIBRARY.machine("eight-axis").axes[0]}, "take unipolar motors; .* is a drive motor's"),
         ({"phases": (("other", LIBRARY.machine("cnc-shield").axes[0].phase),)}, "has the wires"),
     ],
 )
 def test_a_question_that_can_not_be_tried_is_refused(change: dict[str, object], reason: str) -> None:
     with pytest.raises(LabError, match=reason):
         replace(ASKED, **change)
+
+
+def test_a_table_that_holds_no_rotor_is_refused_when_it_is_tried() -> None:
+    off = replace(AXIS.phase, wires=tuple(replace(wire, forward=(False,) * 12) for wire in AXIS.phase.wires))
+    with pytest.raises(LabError, match="holds no rotor"):
+        answer(replace(ASKED, phases=(("off", off),)), range(1))
 
 
 def test_every_parameter_can_be_varied() -> None:
