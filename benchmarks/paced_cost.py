@@ -1,8 +1,9 @@
-"""What a wake of the ticker's process costs while two axes move: CPU time without the sleep, beside the tick alone.
+"""What a wake of the ticker's process costs: CPU time without the sleep, beside the tick alone.
 
     python -m benchmarks.paced_cost
 
-The wake takes requests and gate from the mapped file, ticks, and publishes heartbeat and status, as in a paced run.
+The wake takes requests and gate from the mapped file, ticks, and publishes heartbeat and status, as in a paced run:
+while all axes move, and in a command that only waits. Hot in the caches; paced_processes.py measures with the sleep.
 """
 
 import os
@@ -23,8 +24,8 @@ from drillctl.ticker.edited_tables import TableSlot
 from drillctl.ticker.ticker import Ticker
 
 MACHINES = ("pcb-drill", "eight-axis")
-MOVE = "KMD_RUCHd x=9000 y=9000\n"
 WAKES, RUNS = 5_000, 5
+WAITS = "KMD_CZEKAJ 1000000\n"
 
 
 class NoSleep:
@@ -51,7 +52,12 @@ class NoSleep:
         return 0
 
 
-def wake_us(machine: Machine, folder: Path) -> float:
+def moves(machine: Machine) -> str:
+    """A command that moves all axes for longer than is measured."""
+    return "KMD_RUCHd " + " ".join(f"{axis.name}={axis.span_steps // 2}" for axis in machine.axes) + "\n"
+
+
+def wake_us(machine: Machine, command: str, folder: Path) -> float:
     """CPU microseconds of a wake."""
     plant, clock, ends = IdealPlant(machine), NoSleep(machine.tick_hz), os.pipe()
     clock.channel = channel = Channel(folder / "channel", True)
@@ -59,7 +65,7 @@ def wake_us(machine: Machine, folder: Path) -> float:
         machine, SimulatedCard(plant), plant, channel, TableSlot(), None, False, ends[1], ends[1], 10**12
     )
     body.desk = os.getppid()
-    body.queue.put(parse_program(MOVE, names_of(machine)))
+    body.queue.put(parse_program(command, names_of(machine)))
     channel["desk_beat_ns"] = time.monotonic_ns()
     # A stand-in for the class: a clock that never sleeps, made before.
     ticker_process.PacedClock = lambda tick_hz: clock  # type: ignore[assignment,misc]
@@ -71,10 +77,10 @@ def wake_us(machine: Machine, folder: Path) -> float:
     return spent / WAKES * 1e6
 
 
-def tick_us(machine: Machine) -> float:
+def tick_us(machine: Machine, command: str) -> float:
     """CPU microseconds of a tick and nothing beside it."""
     ticker = Ticker.simulated(machine)
-    ticker.queue.put(parse_program(MOVE, names_of(machine)))
+    ticker.queue.put(parse_program(command, names_of(machine)))
     before = time.process_time()
     for _ in range(WAKES):
         ticker.run(1)
@@ -82,15 +88,16 @@ def tick_us(machine: Machine) -> float:
 
 
 def main() -> int:
-    """Prints a line a machine."""
+    """Prints two lines a machine."""
     library = Library((shipped_tables(),))
     with tempfile.TemporaryDirectory() as folder:
         for name in MACHINES:
             machine = library.machine(name)
-            wakes = median(wake_us(machine, Path(folder)) for _ in range(RUNS))
-            ticks = median(tick_us(machine) for _ in range(RUNS))
-            told = f"{name}: {wakes:.1f} us a wake, {ticks:.1f} of them the tick"
-            print(f"{told}; median of {RUNS}, load {os.getloadavg()[0]:.1f}", flush=True)
+            for does, command in (("all axes move", moves(machine)), ("it waits", WAITS)):
+                wakes = median(wake_us(machine, command, Path(folder)) for _ in range(RUNS))
+                ticks = median(tick_us(machine, command) for _ in range(RUNS))
+                told = f"{name}, {does}: {wakes:.1f} us a wake, {ticks:.1f} of them the tick"
+                print(f"{told}; median of {RUNS}, load {os.getloadavg()[0]:.1f}", flush=True)
     return 0
 
 

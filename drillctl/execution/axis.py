@@ -216,9 +216,9 @@ class Axis:
     def put_column(self) -> bool:
         """Puts the next column out; True when that completes a step."""
         turn = self.direction * self.direction_sign
-        self.column = (self.column + turn) % self.length
-        self.bits = self.drive_patterns[turn][self.column]
-        self.hold_bits = self.hold_patterns[turn][self.column]
+        self.column = column = (self.column + turn) % self.length
+        self.bits = self.drive_patterns[turn][column]
+        self.hold_bits = self.hold_patterns[turn][column]
         self.travelled += self.direction
         self.column_in_step += 1
         if self.column_in_step < self.columns_per_step:

@@ -44,6 +44,7 @@ CHANNEL = np.dtype(
         ("ticker_pid", "<i8"),  # desk
         ("ticker_beat_ns", "<i8"),  # ticker
         ("taken", "<u8"),  # records taken; ticker
+        ("ticks", "<i8"),  # run so far, in a traced run each in the ring; ticker
         ("tick_ns", "<i8"),  # length of a tick: the beat may be silent for so long; ticker, before the fork desk
         ("safe_image", "<u8"),  # what makes the outputs safe now, of the first two cards; ticker, before the fork desk
         ("ended", "<u4"),  # 1 when the ticker is leaving, its outputs safe; ticker

@@ -104,9 +104,12 @@ class Plant:
 
     def turn_index(self, axis: int) -> None:
         """Lets the index of an axis's encoder answer to where the axis is."""
+        self._turn_index(axis, self.position_steps(axis))
+
+    def _turn_index(self, axis: int, steps: float) -> None:
         pulses = self.carriages[axis].pulses
         if pulses is not None:
-            self.inputs = self.inputs & ~pulses.bit | pulses.level(self.position_steps(axis))
+            self.inputs = self.inputs & ~pulses.bit | pulses.level(steps)
 
     def place_mm(self, axis: int) -> float:
         """Returns where a carriage is, in millimetres from machine zero."""
@@ -120,7 +123,7 @@ class Plant:
 
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)
-        self.turn_index(index)
+        self._turn_index(index, steps)
         if self.chucks.slipping and self.chucks.lifted(index, self.place_mm(index)):
             self.inputs = self.chucks.shown(self.inputs)
         for sensor in self.carriages[index].sensors:

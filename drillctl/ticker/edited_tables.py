@@ -34,6 +34,8 @@ class TableSlot:
 
     def __init__(self) -> None:
         self._fields = np.frombuffer(mmap.mmap(-1, SLOT.itemsize), SLOT, 1)
+        # Views: they are looked up at every wake.
+        self._offered, self._answered = self._fields["offered"], self._fields["answered"]
 
     def offer(self, text: str) -> bool:
         """Offers a text to the ticker; False, and nothing offered, where it is too long."""
@@ -42,13 +44,13 @@ class TableSlot:
             return False
         self._fields["text"][0, : len(data)] = np.frombuffer(data, np.uint8)
         self._fields["length"] = len(data)
-        self._fields["offered"] += 1
+        self._offered += 1
         return True
 
     @property
     def waiting(self) -> bool:
         """Whether a text was offered and not answered yet."""
-        return bool(self._fields["offered"][0] != self._fields["answered"][0])
+        return self._offered.item() != self._answered.item()
 
     def text(self) -> str:
         """The text that was offered last."""
@@ -59,7 +61,7 @@ class TableSlot:
         data = message_text(reason).encode() if reason is not None else b""
         self._fields["reply"][0, : len(data)] = np.frombuffer(data, np.uint8)
         self._fields["reply_length"] = len(data)
-        self._fields["answered"] = self._fields["offered"]
+        self._answered[:] = self._offered
 
     def reply(self) -> Message | None:
         """The answer to the last text: why it was refused; None where it was taken."""

@@ -168,13 +168,13 @@ class PacedLink:
         if self._ring is None or self._signals is None:
             return None
         self._drain()
-        status = self.status()
+        status, ticks = self.status(), self._channel["ticks"]
         changes = np.concatenate([np.zeros(0, CHANGE), *self._changes])
-        changes = changes[changes["tick"] < status["tick"]]  # a ticker that was killed in a tick has not published it
+        changes = changes[changes["tick"] < ticks]  # a ticker that was killed in a tick has not counted it
         trailer = [f"late {status['late']} worst_ns {status['late_worst_ns']}"]
         overrun = [("overrun", "1")] if self._ring.overrun else []
         columns = (changes["tick"], changes["signal"], changes["value"])
-        return Trace.of_changes([*header, *overrun], self._signals, *columns, int(status["tick"]), trailer)
+        return Trace.of_changes([*header, *overrun], self._signals, *columns, ticks, trailer)
 
     def notices(self) -> list[Message]:
         """What the ticker has sent: measures for real time that were refused, why a port was lost; and a lost guard."""

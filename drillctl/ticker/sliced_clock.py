@@ -39,6 +39,9 @@ class SlicedClock:
         self._left = 0  # of a tick, in 1/1e9
         self._passed_ns = self._measured_ns = self._ran = 0
 
+    def rest(self) -> None:
+        """A frame is rest enough."""
+
     def wait(self) -> int:
         """Sleeps to the next frame. Returns the periods by which it begins too late: always 0."""
         sleep_ns = self.begun_ns + self._frame_ns - self._now_ns()

@@ -36,6 +36,8 @@ DESK_SAFE_NS = 800_000_000  # and after which the outputs go off
 SLICE_NS = 60_000_000  # a slice of ticks takes no longer, so that heartbeat and status go on
 LOOK_NS = 20_000_000  # at rest the sensors are read so often
 DESK_IDLE_NS = 60_000_000_000  # a screen's, at rest and without a job, may be busy so long: a large board is planned
+STATUS_NS = 900_000  # the desk reads a hundred times a second: up to 1 kHz each tick has its record, above some
+DESK_TURN_NS = 20_000_000  # a desk that lives has beaten since, mostly: its process need not be asked after
 TOUCH = struct.Struct(f"<iiii{MOST_AXES}d")  # tool, tag, axis, axes, places; below PIPE_BUF, so written whole
 IGNORED = system.signals("SIGINT", "SIGHUP", "SIGQUIT", "SIGTSTP")  # they are the desk's
 
@@ -61,7 +63,7 @@ class TickerProcess:
             queue=self.queue, requests=self.requests, gate=self.gate, keeper=ring,
         )  # fmt: skip
         self.vouched = ConfirmedStatus(carried(port))
-        self.looked_ns = 0
+        self.looked_ns = self.published_ns = 0
         self.spared = False  # a real machine's clock stands still, and its forcing was taken off
         self.desk = os.getpid()
 
@@ -86,22 +88,27 @@ class TickerProcess:
                 if self.slot.waiting:
                     self._load()
                 elif self._is_wanted():
-                    m = self.ticker.controller
-                    harmless = min(axis.interval[0] for axis in m.axes)  # a gap so short is no news to any motor
-                    m.gap = gap if gap > harmless else 0
-                    if m.gap and self.ticker.plant is None:
-                        self.requests.own.post(Request.PAUSE)  # real motors have stood still for so long
+                    if gap:
+                        self._note_gap(gap)
                     self.ticker.late(clock.late, clock.worst_ns)
                     self._go_on()
                     self._advance(clock)
                     self._follow_rate(clock)
                 else:
                     self._stand(clock.begun_ns)
+                    clock.rest()
             except OSError as error:
                 self._notice(message_of(error))
                 self._end_by(Fault.PORT_SLOW if isinstance(error, PortSlow) else Fault.PORT_LOST)
                 return
             self._publish()
+
+    def _note_gap(self, gap: int) -> None:
+        """Has the next tick serve a gap of so many periods, unless it is so short that it is no news to any motor."""
+        m = self.ticker.controller
+        m.gap = gap if gap > min(axis.interval[0] for axis in m.axes) else 0
+        if m.gap and self.ticker.plant is None:
+            self.requests.own.post(Request.PAUSE)  # real motors have stood still for so long
 
     def _clock(self) -> PacedClock | SlicedClock:
         return (SlicedClock if self.sliced else PacedClock)(self.ticker.machine.tick_hz)
@@ -141,9 +148,10 @@ class TickerProcess:
         """Whether this wake is to be a tick: there is a command, a request, a move, or a winding to be cooled."""
         if self.ticker.waits:
             return False
+        if not self.ticker.over() or self.requests.waiting:
+            return True
         takes = self.ticker.controller.condition != Condition.LATCHED
-        asked = self.requests.waiting or self.gate.left > 0 or self.ticker.controller.hot_until > 0
-        return not self.ticker.over() or asked or (takes and len(self.queue) > 0)
+        return self.gate.left > 0 or self.ticker.controller.hot_until > 0 or (takes and len(self.queue) > 0)
 
     def _follow_rate(self, clock: PacedClock | SlicedClock) -> None:
         """Paces by the rate in force after a PACE. The period is published, as the guard's patience depends on it."""
@@ -166,11 +174,15 @@ class TickerProcess:
             self.requests.own.post(Request.PAUSE)
 
     def _publish(self) -> None:
-        self.channel["ticker_beat_ns"] = time.monotonic_ns()
+        """After each wake the heartbeat, what is safe now and the ticks; the status record where the last is old."""
+        self.channel["ticker_beat_ns"] = now_ns = time.monotonic_ns()
         self.channel["safe_image"] = self.ticker.controller.safe_image
-        if (status := self.vouched.newest(self.ticker.report())) is not None:
-            self.channel.publish(status)
+        self.channel["ticks"] = self.ticker.controller.tick
         self._tell_touches()
+        if now_ns - self.published_ns >= STATUS_NS:
+            self.published_ns = now_ns
+            if (status := self.vouched.newest(self.ticker.report())) is not None:
+                self.channel.publish(status)
 
     def _tell_touches(self) -> None:
         for tool, tag, places, axis in self.ticker.touched:
@@ -184,7 +196,7 @@ class TickerProcess:
         """
         m = self.ticker.controller
         silent_ns = time.monotonic_ns() - self.channel["desk_beat_ns"]
-        dead = os.getppid() != self.desk
+        dead = silent_ns > DESK_TURN_NS and os.getppid() != self.desk
         if (dead or silent_ns > DESK_HOLD_NS) and m.condition == Condition.READY and m.job:
             self.requests.own.post(Request.HOLD)
         patience_ns = DESK_SAFE_NS if m.job or m.moving else self.idle_ns

@@ -51,6 +51,17 @@ def test_jitter_does_not_add_up() -> None:
     assert begun(jitter_ns, 3000)[-1] == 3000 * PERIOD_NS + 50_000
 
 
+@pytest.mark.parametrize(("tick_hz", "periods"), [(500, 1), (1000, 1), (5000, 5), (8000, 8), (100_000, 100)])
+def test_at_rest_a_wake_comes_a_millisecond_later_or_a_period(tick_hz: int, periods: int) -> None:
+    time = FakeTime([])
+    clock = PacedClock(tick_hz, time.now_ns, time.sleep_s)
+    assert clock.wait() == 0
+    first_ns = clock.begun_ns
+    clock.rest()
+    assert clock.wait() == 0 and clock.begun_ns - first_ns == periods * clock.period_ns
+    assert clock.wait() == 0 and clock.begun_ns - first_ns == (periods + 1) * clock.period_ns
+
+
 def test_a_gap_moves_every_later_deadline_with_it() -> None:
     gap_ns = 7 * PERIOD_NS + 11
     assert begun([0, gap_ns], 5) == [PERIOD_NS, *(n * PERIOD_NS + gap_ns for n in (2, 3, 4, 5))]
