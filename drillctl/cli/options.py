@@ -2,7 +2,7 @@
 
 import argparse
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +11,6 @@ from drillctl.cli import streams
 from drillctl.language import Message, json_text
 
 if TYPE_CHECKING:
-    from drillctl.files.outputs import Output
     from drillctl.jobs.runner import JobResult
     from drillctl.machine import Library, Machine
     from drillctl.plant import PlantChoice
@@ -221,22 +220,6 @@ def add_results(verb: argparse.ArgumentParser) -> None:
         "--holes", type=Path, metavar="F", help="write the holes that the simulated machine drilled (CSV)"
     )
     verb.add_argument("--json", action="store_true", help="print the outcome as one JSON object")
-
-
-def write_holes(done: "JobResult", machine: "Machine", output: "Output | None") -> None:
-    """Writes the holes CSV (docs/SPEC.md, section 3), where ``--holes`` was given."""
-    if output is not None:
-        output.write(lambda file: file.writelines(_holes_csv(done, len(machine.drill_axes))))
-
-
-def _holes_csv(done: "JobResult", spindles: int) -> "Iterator[str]":
-    """Yields the lines; the column ``spindle`` is left out where the machine has one."""
-    several = spindles > 1
-    yield f"tool,diameter_mm,x_mm,y_mm{',spindle' if several else ''}\n"
-    for hole in done.holes:
-        diameter = "" if hole.diameter_mm is None else f"{hole.diameter_mm:.4f}"
-        by = f",{hole.spindle}" if several else ""
-        yield f"{hole.tool},{diameter},{hole.x_mm:.4f},{hole.y_mm:.4f}{by}\n"
 
 
 def report_outcome(done: "JobResult", as_json: bool, problems: Sequence[str] = ()) -> int:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import operating, options, streams
+from drillctl.cli.holes_csv import write_holes
 from drillctl.language import Counted, Message
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def call(arguments: argparse.Namespace) -> int:
     with reserved((arguments.holes,), (Path(account.head.job), *session.files)) as (holes,):
         _tell(account, session, whole)
         done = operating.operated(session, arguments)
-        problems = unwritten(lambda: options.write_holes(done, session.job.machine, holes))
+        problems = unwritten(lambda: write_holes(session.job, done, holes))
     return options.report_outcome(done, arguments.json, problems)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs, operating, options, streams
+from drillctl.cli.holes_csv import write_holes
 from drillctl.language import Message
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def call(arguments: argparse.Namespace) -> int:
         problems = unwritten(
             lambda: _write_trace(job, done, trace),
             lambda: _write_vcd(job, done, vcd),
-            lambda: options.write_holes(done, machine, holes),
+            lambda: write_holes(job, done, holes),
         )
     return options.report_outcome(done, arguments.json, problems)
 

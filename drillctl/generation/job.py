@@ -89,9 +89,14 @@ class Job:
 
     def file_place(self, number: int) -> tuple[float, float]:
         """Where a hole, by its number in the whole job, stands in the file (mm)."""
+        return self._file_places[number]
+
+    @cached_property
+    def _file_places(self) -> dict[int, tuple[float, float]]:
+        """By number: asked for at every hole."""
         assert self.work is not None
-        x_mm, y_mm = self.work.hits.xy_mm[int(np.searchsorted(self.work.number, number))].tolist()
-        return x_mm, y_mm
+        x_mm, y_mm = self.work.hits.xy_mm.T.tolist()
+        return dict(zip(self.work.number.tolist(), zip(x_mm, y_mm, strict=True), strict=True))
 
     def _hole(self, tag: int) -> tuple[Group | None, Affine]:
         """The tool group and the board of a hole by its number, as far as a work list knows it."""

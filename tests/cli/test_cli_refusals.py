@@ -218,7 +218,7 @@ def test_an_output_goes_through_a_link_and_replaces_what_was_there(drillctl: Dri
             (folder / "kept" / "holes.csv").write_text(old)
         assert drillctl("run", "hole.kmd", "--holes", "h.csv").returncode == 0
         assert (folder / "h.csv").is_symlink() and [f.name for f in (folder / "kept").iterdir()] == ["holes.csv"]
-        assert (folder / "kept" / "holes.csv").read_text().startswith("tool,diameter_mm,x_mm,y_mm\n")
+        assert (folder / "kept" / "holes.csv").read_text().startswith("tool,diameter_mm,x_mm,y_mm,")
 
 
 @pytest.mark.parametrize(
