@@ -83,7 +83,8 @@ def sweep(
         None if board is None else _board(path_of(board, "board"), wanted, axes, rates, options),
     )
     done = on_cores(question, chunks(question), whole(workers, "workers", 1, MOST_WORKERS))
-    return _records(head(question).split(","), [row for chunk in done for row in chunk])
+    *names, _ = head(question).split(",")
+    return _records(names, [row for chunk in done for row in chunk])
 
 
 def _axes(machine: Machine, name: str | None, of_board: bool) -> tuple[int, ...]:
@@ -118,6 +119,6 @@ def _once(what: str, values: tuple[ValueT, ...]) -> tuple[ValueT, ...]:
 
 
 def _records(names: Sequence[str], rows: Sequence[str]) -> NDArray[np.void]:
-    """The rows of a results file as records."""
+    """The rows of a results file as records, without the last column, which is the question's."""
     kinds = [(name, "U40" if name in TEXTS else "i8" if name in COUNTS else "f8") for name in names]
-    return np.array([tuple(row.split(",")) for row in rows], kinds)
+    return np.array([tuple(row.split(",")[:-1]) for row in rows], kinds)

@@ -18,6 +18,8 @@ from drillctl.viewmodel.fault_texts import FAULT_WORDS
 FIXED_HEAD = ("phase", "ramp", "tick_hz")
 MOVES_TAIL = ("load_nm", "draw", "moves", "lost", "worst_full_steps")
 BOARD_TAIL = ("draw", "holes", "lost", "lost_steps", "worst_mm", "seconds", "fault")
+QUESTION = "question"  # the last column: which question the row answers
+MARK = "sweep2-"  # before its digest, so that nobody takes sixteen digits for a number
 BOARDS_A_CHUNK = 4
 FAULT_NAMES = {int(fault): fault.name for fault in FAULT_WORDS}
 
@@ -25,7 +27,12 @@ FAULT_NAMES = {int(fault): fault.name for fault in FAULT_WORDS}
 def head(question: Question) -> str:
     """The first line of the table: the names of its columns."""
     tail = MOVES_TAIL if question.board is None else BOARD_TAIL
-    return ",".join((*FIXED_HEAD, *(name for name, _ in question.times), *tail))
+    return ",".join((*FIXED_HEAD, *(name for name, _ in question.times), *tail, QUESTION))
+
+
+def mark(question: Question) -> str:
+    """The value of the last column, the same in every row of a question."""
+    return MARK + question.digest
 
 
 def moves_a_machine(question: Question) -> int:
@@ -89,10 +96,10 @@ def _board_row(question: Question, board: Board, variant: Variant) -> str:
     seconds = f"{found.ticks / variant.tick_hz:.3f}"
     counted = (variant.draw, found.holes, int(not found.sound), found.lost_steps, f"{found.worst_mm:.4f}", seconds)
     head = (variant.phase, variant.axis.ramp.name, str(variant.tick_hz))
-    return ",".join((*head, *parameters, *map(str, counted), FAULT_NAMES.get(found.fault, "")))
+    return ",".join((*head, *parameters, *map(str, counted), FAULT_NAMES.get(found.fault, ""), mark(question)))
 
 
 def _row(question: Question, variant: Variant, losing: np.ndarray, worst: np.float64) -> str:
     parameters = (repr(getattr(variant.dynamics, name)) for name, _ in question.times)
     tried = (repr(variant.load_nm), str(variant.draw), str(len(losing)), str(losing.sum()), f"{worst:.4f}")
-    return ",".join((variant.phase, variant.axis.ramp.name, str(variant.tick_hz), *parameters, *tried))
+    return ",".join((variant.phase, variant.axis.ramp.name, str(variant.tick_hz), *parameters, *tried, mark(question)))

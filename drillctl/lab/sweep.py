@@ -1,8 +1,8 @@
 """A sweep: the machines of a question tried one after the other, their rows appended to a results file.
 
-Rule: rows come in the order of the machines and depend on the question alone. Its digest is in the file's first line,
-so that rows of two questions are never mixed. A torn last line is taken off; any other damage refuses the file. While
-a sweep writes, the file is locked.
+Rule: rows come in the order of the machines and depend on the question alone. Its digest is the last value of every
+row, so that rows of two questions are never mixed, and the file is a plain table. A torn last line is taken off; any
+other damage refuses the file. While a sweep writes, the file is locked.
 """
 
 import os
@@ -13,14 +13,16 @@ from typing import BinaryIO
 
 from drillctl.files import system
 from drillctl.files.inputs import check_kind
-from drillctl.lab.answers import chunks, head
+from drillctl.lab.answers import FIXED_HEAD, MARK, QUESTION, chunks, head, mark
 from drillctl.lab.errors import LabError
 from drillctl.lab.question import Question
 from drillctl.lab.workers import on_cluster, on_cores
 from drillctl.language import Message
 
-MAGIC = "# drillctl-sweep 1"
+OLD_MAGIC = b"# drillctl-sweep 1"  # began the files of earlier versions, before the names of the columns
 LONGEST_ROW_BYTES = 4096
+FIRST_NAMES, LAST_NAME = ",".join(FIXED_HEAD).encode(), f",{QUESTION}".encode()
+ANOTHER = "holds the answer to another question (or of another version of the plant)"
 
 
 class Results:
@@ -50,30 +52,41 @@ class Results:
 
     def _begun(self, question: Question) -> int:
         """Checks what the file holds and makes it ready for the next row; returns how many rows it has."""
-        limit = (question.machines + len(_first_lines(question))) * LONGEST_ROW_BYTES
+        limit = (question.machines + 1) * LONGEST_ROW_BYTES
         data = self._file.read(limit + 1)
         if len(data) > limit:
             raise LabError(
                 Message("larger than any answer to this question; give the new one another file").at(self.path)
             )
         *whole, torn = data.split(b"\n")
-        wanted = _first_lines(question)
-        begun = wanted[0].startswith(torn) if not whole else whole[:2] == wanted[: len(whole)]
-        if not begun:
-            raise LabError(
-                Message("{what_else}; give the new one another file", what_else=_what_else(whole)).at(self.path)
-            )
-        _check_rows(whole[2:], wanted[1], question, self.path)
+        names, value = head(question).encode(), mark(question).encode()
+        if other := _what_else(whole, torn, names, value):
+            raise LabError(Message("{what_else}; give the new one another file", what_else=other).at(self.path))
+        _check_rows(whole[1:], names, value, question, self.path)
         self._file.seek(-len(torn), os.SEEK_END)
         self._file.truncate()
-        self._file.write(b"".join(line + b"\n" for line in wanted[len(whole) :]))
+        if not whole:
+            self._file.write(names + b"\n")
         self._file.flush()
-        return max(len(whole) - len(wanted), 0)
+        return max(len(whole) - 1, 0)
 
 
-def _first_lines(question: Question) -> list[bytes]:
-    """The two lines that the file begins with: magic and digest, then the names of the columns."""
-    return [f"{MAGIC} {question.digest}".encode(), head(question).encode()]
+def _what_else(whole: list[bytes], torn: bytes, names: bytes, value: bytes) -> str:
+    """What a file holds that is no part of this answer, as its first lines tell; "" for one that is, or is empty."""
+    first = whole[0] if whole else torn
+    if first.startswith(OLD_MAGIC):
+        return "is of an earlier version, whose first line was no table; it is a table without that line"
+    if first != names and (whole or not names.startswith(first)):
+        a_sweep = first.startswith(FIRST_NAMES) and first.endswith(LAST_NAME)
+        return ANOTHER if a_sweep else "is no results file of a sweep"
+    if len(whole) > 1 and _value(whole[1]) != value and _value(whole[1]).startswith(MARK.encode()):
+        return ANOTHER
+    return ""
+
+
+def _value(row: bytes) -> bytes:
+    """The last value of a row."""
+    return row.rpartition(b",")[2]
 
 
 def _opened(path: Path) -> BinaryIO:
@@ -87,25 +100,19 @@ def _opened(path: Path) -> BinaryIO:
         raise
 
 
-def _what_else(whole: list[bytes]) -> str:
-    if whole and whole[0].startswith(MAGIC.encode()):
-        return "holds the answer to another question (or of another version of the plant)"
-    return "is no results file of a sweep"
-
-
-def _check_rows(rows: list[bytes], names: bytes, question: Question, path: Path) -> None:
-    """Raises LabError for more rows than machines, or one without a value for every column."""
+def _check_rows(rows: list[bytes], names: bytes, value: bytes, question: Question, path: Path) -> None:
+    """Raises LabError for more rows than machines, or one without a value for every column, or of another question."""
     if len(rows) > question.machines:
         raise LabError(
             Message(
                 "has {count} rows, and the question {machines} machines", count=len(rows), machines=question.machines
             ).at(path)
         )
-    values = names.count(b",")
+    commas = names.count(b",")
     for number, row in enumerate(rows):
-        if row.count(b",") != values:
+        if row.count(b",") != commas or _value(row) != value:
             raise LabError(
-                Message("not a row of this table; take away this line and all below it").at(path, number + 3)
+                Message("not a row of this table; take away this line and all below it").at(path, number + 2)
             )
 
 

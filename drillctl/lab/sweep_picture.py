@@ -28,7 +28,7 @@ Factor = tuple[str, tuple[float, ...] | tuple[str, ...]]
 def losing(path: Path, question: Question) -> NDArray[np.bool_]:
     """(machines,): which of them lost steps in any move or on the board, from a whole results file."""
     lost = head(question).split(",").index("lost")
-    rows = read_bytes(path, LARGEST_RESULTS_BYTES, Message("a results file")).decode().splitlines()[2:]
+    rows = read_bytes(path, LARGEST_RESULTS_BYTES, Message("a results file")).decode().splitlines()[1:]
     return np.array([row.split(",")[lost] != "0" for row in rows])
 
 

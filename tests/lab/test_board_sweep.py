@@ -66,7 +66,7 @@ def test_a_row_is_what_the_machine_does_in_a_run(
     the ticks of `run`.
     """
     content = answered(asked, tmp_path / "s.csv")
-    rows = [*csv.DictReader(io.StringIO(content.decode().split("\n", 1)[1]))]
+    rows = [*csv.DictReader(io.StringIO(content.decode()))]
     assert [(row["phase"], row["tick_hz"]) for row in rows] == [
         (name, str(hz)) for name, _ in asked.phases for hz in RATES_HZ
     ]
@@ -91,7 +91,7 @@ def test_an_interrupted_sweep_of_boards_goes_on_to_the_same_bytes(asked: Questio
     begun.write_bytes(b"".join(lines[:4]) + lines[4][:7])
     assert answered(asked, begun) == whole
     sent = pickle.loads(pickle.dumps(asked))
-    assert sent.digest == asked.digest and answer(sent, range(1)) == [lines[2].decode().rstrip()]
+    assert sent.digest == asked.digest and answer(sent, range(1)) == [lines[1].decode().rstrip()]
 
 
 def test_another_board_is_another_question(asked: Question, board: Board, tmp_path: Path) -> None:

@@ -51,7 +51,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 
 def table(content: bytes) -> list[dict[str, str]]:
-    return [*csv.DictReader(io.StringIO(content.decode().split("\n", 1)[1]))]
+    return [*csv.DictReader(io.StringIO(content.decode()))]
 
 
 def test_a_row_is_a_machine_in_its_order(whole: bytes) -> None:
@@ -66,6 +66,14 @@ def test_a_row_is_a_machine_in_its_order(whole: bytes) -> None:
         assert (row["phase"], int(row["tick_hz"]), float(row["load_nm"])) == (
             variant.phase, variant.tick_hz, variant.load_nm,
         )  # fmt: skip
+
+
+def test_any_reader_of_tables_takes_the_file_as_it_is(whole: bytes, tmp_path: Path) -> None:
+    file = tmp_path / "r.csv"
+    file.write_bytes(whole)
+    found = np.genfromtxt(file, delimiter=",", names=True, dtype=None, encoding="utf-8")
+    assert found.shape == (ASKED.machines,) and set(found["tick_hz"].tolist()) == {300, 640}
+    assert set(found["question"].tolist()) == {f"sweep2-{ASKED.digest}"} and found["lost"].dtype.kind == "i"
 
 
 def test_it_finds_what_loses_steps(whole: bytes) -> None:
@@ -105,7 +113,7 @@ def test_one_interrupted_in_its_first_lines_begins_anew(tmp_path: Path) -> None:
     small = replace(ASKED, rates_hz=(640,), ramps=ASKED.ramps[:1], phases=ASKED.phases[:1], times=(), draws=1)
     file = tmp_path / "r.csv"
     complete = answered(small, file)
-    for cut in (0, 20, 60):
+    for cut in (0, 20, len(complete.splitlines()[0]), len(complete.splitlines()[0]) + 9):
         file.write_bytes(complete[:cut])
         assert answered(small, file) == complete
 
@@ -121,18 +129,21 @@ def test_what_is_done_is_not_tried_again(whole: bytes, tmp_path: Path, monkeypat
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (b"# drillctl-sweep 1 0123456789abcdef\nphase\n", "another question"),
+        (b"# drillctl-sweep 1 0123456789abcdef\nphase\n", "is of an earlier version, .* a table without that line"),
+        (b"phase,ramp,tick_hz,load_nm,draw,moves,lost,worst_full_steps,question\n", "another question"),
         (b"tool,x\n1,2\n", "no results file"),
         (b"#\n", "no results file"),
-        (None, r"r.csv:3: not a row"),
+        (b"HEAD\nshort,row\n", r"r.csv:2: not a row"),
+        (b"HEAD\n1,2,3,4,5,6,7,8,9,sweep2-0123456789abcdef\n", "another question"),
+        (b"HEAD\nFIRST\n1,2,3,4,5,6,7,8,9,sweep2-0123456789abcdef\n", r"r.csv:3: not a row"),
     ],
 )
 def test_what_is_no_part_of_this_answer_is_left_alone(
-    content: bytes | None, reason: str, whole: bytes, tmp_path: Path
+    content: bytes, reason: str, whole: bytes, tmp_path: Path
 ) -> None:
     file = tmp_path / "r.csv"
-    head = b"\n".join(whole.split(b"\n")[:2])
-    file.write_bytes(content or head + b"\nshort,row\n")
+    head, first, *_ = whole.split(b"\n")
+    file.write_bytes(content.replace(b"HEAD", head).replace(b"FIRST", first))
     before = file.read_bytes()
     with pytest.raises(LabError, match=reason):
         Results(file, ASKED)
@@ -285,6 +296,6 @@ def test_nobody_at_the_cluster_s_address_is_told(tmp_path: Path, monkeypatch: py
 
 def test_an_answer_is_the_same_alone_and_in_its_chunk(whole: bytes) -> None:
     """Machines of a fleet don't touch each other."""
-    rows = whole.decode().splitlines()[2:]
+    rows = whole.decode().splitlines()[1:]
     for number in (0, 50, ASKED.machines - 1):
         assert answer(ASKED, range(number, number + 1)) == [rows[number]]
