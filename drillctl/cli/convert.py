@@ -179,6 +179,7 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
             drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
     except DrillFileError as error:
         raise refusal(arguments.file, error) from error
+    drill_file = jobs.with_pins(drill_file, arguments.pins)
     try:
         data = write(drill_file, arguments.style or "mm,decimal")
     except Complaint as error:

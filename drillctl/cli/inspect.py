@@ -21,6 +21,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     verb.add_argument("file", type=Path, metavar="FILE", help=kinds)
     options.add_machine(verb)
     jobs.add_reading(verb)
+    jobs.add_pins(verb)
     jobs.add_store(verb)
     part_programs.add_language(verb)
     verb.add_argument("--json", action="store_true", help="print one JSON object, also for a refused file")
@@ -68,6 +69,7 @@ def _drill_file(arguments: argparse.Namespace) -> int:
         from drillctl.generation.pcb_drill.board import refusal
 
         raise refusal(arguments.file, error) from error
+    drill_file = jobs.with_pins(drill_file, arguments.pins)
     contents = summary(drill_file)
     if arguments.json:
         print(json_text(contents, 2))

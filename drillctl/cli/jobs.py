@@ -11,14 +11,15 @@ from drillctl.cli import options, streams
 from drillctl.cli.operating import waiting
 from drillctl.files.inputs import real_path
 from drillctl.language import Message
-from drillctl.viewmodel.choices import AFTER_END, MIRRORED, MOST_ORDER_SECONDS, ORDERS, ORIGINS
+from drillctl.viewmodel.choices import AFTER_END, MIRRORED, MOST_ORDER_SECONDS, ORDERS, ORIGINS, PIN_PLACES
 
 if TYPE_CHECKING:
     from drillctl.generation.alignment import Alignment
+    from drillctl.generation.drillfile import DrillFile
     from drillctl.generation.job import Job
     from drillctl.generation.job_setup import JobSetup
     from drillctl.machine import Machine
-    from drillctl.viewmodel.job_options import JobOptions
+    from drillctl.viewmodel.job_options import JobOptions, PinsOf
 
 JOB_HELP = "a drill file, a queue of commands (.kmd), a part program (.sentences), or a workpiece (01..99)"
 
@@ -37,6 +38,7 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     )
     placing.add_argument("--align", type=Path, metavar="FILE", help="measured holes: file_x file_y machine_x machine_y")
     placing.add_argument("--panel", type=_panel, metavar="CxR:PX,PY", help="step and repeat, e.g. 3x2:40,30 (mm)")
+    add_pins(placing)
     drilling = verb.add_argument_group("drilling")
     drilling.add_argument("--order", choices=ORDERS, default="file", help="order of each tool's holes")
     seconds = "let --order optimised look for a shorter way for S seconds at most; default: until none is found"
@@ -58,6 +60,22 @@ def add_reading(verb: "argparse._ActionsContainer") -> None:
         "--after-end", choices=AFTER_END, default="refuse",
         help="holes behind the end of the program (M30): refuse the file (default), leave them out, or drill them too",
     )  # fmt: skip
+
+
+def add_pins(verb: "argparse._ActionsContainer") -> None:
+    """Adds ``--pins``."""
+    where = (
+        f"holes for registration pins of MM, so far outside the extent of all holes (default: 5 mm); WHERE: "
+        f"{', '.join(PIN_PLACES)}. With --mirror they are there already: the board lies turned over on them"
+    )
+    verb.add_argument("--pins", type=_pins, metavar="MM[:WHERE[:MM]]", help=where)
+
+
+def with_pins(drill_file: "DrillFile", pins: "PinsOf | None") -> "DrillFile":
+    """Returns a file with the holes of ``--pins``; as it is without. Raises PlacingError."""
+    from drillctl.generation.pins import with_pins as pinned
+
+    return drill_file if pins is None else pinned(drill_file, pins).drill_file
 
 
 def add_store(verb: argparse.ArgumentParser) -> None:
@@ -90,6 +108,7 @@ def _job_options(arguments: argparse.Namespace) -> "JobOptions":
         offset_mm=arguments.offset,
         align=_absolute(arguments.align),
         panel=arguments.panel and PanelOf(*arguments.panel),
+        pins=arguments.pins,
         order=arguments.order,
         order_seconds=arguments.order_seconds,
         skip_tools=tuple(sorted(arguments.skip_tools)),
@@ -176,6 +195,15 @@ def _panel(text: str) -> tuple[int, int, float, float]:
     if not cross:
         raise argparse.ArgumentTypeError(f"{text!r} is not COLUMNSxROWS:PITCH_X,PITCH_Y")
     return (int(columns), int(rows), *_pair(pitch))
+
+
+def _pins(text: str) -> "PinsOf":
+    from drillctl.viewmodel.job_options import PinsOf
+
+    try:
+        return PinsOf.typed(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 _pair.__name__, _numbers.__name__, _panel.__name__ = "X,Y", "list of tool numbers", "panel"

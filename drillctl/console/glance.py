@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from drillctl.generation.pins import with_pins
 from drillctl.generation.placing import Placing, PlacingError, boards
 from drillctl.viewmodel.console import HolesView, ToolView
 from drillctl.viewmodel.job_options import JobOptions
@@ -23,11 +24,14 @@ def holes_of(file: Path, options: JobOptions) -> HolesView | None:
         if not file.is_file() or file.stat().st_size > MOST_BYTES:
             return None
         drill_file = read(file, fmt=options.format, after_end=options.after_end)
+        if options.pins is not None:
+            drill_file = with_pins(drill_file, options.pins).drill_file
         ends_mm = drill_file.slot_mm.reshape(-1, 2)
         xy_mm = np.concatenate([drill_file.hole_xy_mm, ends_mm])
         placing = Placing(
-            origin=options.origin, mirror=options.mirror, rotate_deg=options.rotate_deg, offset_mm=options.offset_mm
-        )
+            origin=options.origin, mirror=options.mirror, rotate_deg=options.rotate_deg, offset_mm=options.offset_mm,
+            pinned=options.pins is not None,
+        )  # fmt: skip
         placed = boards(placing, xy_mm)[0].apply(xy_mm)
     except (DrillFileError, PlacingError, OSError):
         return None

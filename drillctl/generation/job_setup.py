@@ -105,6 +105,8 @@ class JobSetup(msgspec.Struct, frozen=True):
             peck_mm=options.peck_mm,
             spot_mm=options.spot_mm,
             base_steps=self.base,
+            pins=options.pins,
+            face_down=options.mirror is not None,
             store=Path(options.store) if options.store else None,
             spindles=options.spindles,
             order_seconds=options.order_seconds,
@@ -118,6 +120,7 @@ class JobSetup(msgspec.Struct, frozen=True):
             mirror=None if aligned else options.mirror,
             rotate_deg=options.rotate_deg,
             offset_mm=options.offset_mm,
+            pinned=options.pins is not None,
             panel=None if options.panel is None else Panel(*options.panel),
             alignment=aligned.affine.then(self._to_base(machine)) if aligned else None,
         )

@@ -153,6 +153,8 @@ class Placing:
     offset_mm  (x, y), added last
     alignment  the map found from measured holes; it decides alone, so mirror, rotate, origin and
                offset are refused beside it
+    pinned     the board has pins, in its extent, and is turned over on them: it is mirrored about the middle of its
+               extent, whose corners alone count for origin 'base'. So both sides have the pins in the same places
     panel      repeats along the machine's axes; with an alignment along the measured axes of the sheet
 
     Raises PlacingError.
@@ -163,6 +165,7 @@ class Placing:
     rotate_deg: float = 0.0
     offset_mm: tuple[float, float] = (0.0, 0.0)
     panel: Panel | None = None
+    pinned: bool = False
     alignment: Affine | None = None
 
     def __post_init__(self) -> None:
@@ -196,8 +199,15 @@ def transform(placing: Placing, xy_mm: ArrayLike) -> Affine:
     """
     if placing.alignment is not None:
         return placing.alignment
-    turned = Affine.of(_rotation(placing.rotate_deg) @ np.array(MIRRORS[placing.mirror]))
-    return turned.then(Affine.of(np.eye(2), _corner_shift_mm(placing, turned, xy_mm) + placing.offset_mm))
+    points_mm = np.asarray(xy_mm, np.float64).reshape(-1, 2)
+    mirrored = Affine.of(MIRRORS[placing.mirror])
+    if placing.pinned and len(points_mm):
+        low, high = points_mm.min(axis=0), points_mm.max(axis=0)
+        middle = (low + high) / 2
+        mirrored = Affine.of(mirrored.linear, middle - mirrored.linear @ middle)
+        points_mm = np.array([low, high, (low[0], high[1]), (high[0], low[1])])
+    turned = mirrored.then(Affine.of(_rotation(placing.rotate_deg)))
+    return turned.then(Affine.of(np.eye(2), _corner_shift_mm(placing, turned, points_mm) + placing.offset_mm))
 
 
 def boards(placing: Placing, xy_mm: ArrayLike) -> tuple[Affine, ...]:

@@ -11,6 +11,7 @@ from drillctl.generation.drills import DrillTable
 from drillctl.generation.errors import JobError
 from drillctl.generation.placing import Placing
 from drillctl.language import Message
+from drillctl.viewmodel.job_options import PinsOf
 
 LEAST_PECK_MM = 0.05
 
@@ -20,6 +21,8 @@ class WorkSettings:
     """Order is 'file', 'nearest' or 'optimised'; peck and spot are depths below the board's surface, None = none.
 
     base_steps  the working base that the job is drilled from: X and Y from machine zero
+    pins        the holes for pins that are added to the file; None: none
+    face_down   the board lies turned over: its pins are drilled already
     store       the file of the RAM in which workpieces are looked up; None: the machine's own
     spindles    the spindles that drill, by number from 1; none named: all
 
@@ -35,6 +38,8 @@ class WorkSettings:
     peck_mm: float | None = None
     spot_mm: float | None = None
     base_steps: tuple[int, int] = (0, 0)
+    pins: PinsOf | None = None
+    face_down: bool = False
     store: Path | None = None
     spindles: tuple[int, ...] = ()
     order_seconds: float | None = None

@@ -253,7 +253,7 @@ def _check_reach(
                 y=y_mm,
                 machine=machine.name,
                 axes=listed,
-            ).at(drill_file.name, hits.line[hole])
+            ).at(drill_file.name, int(hits.line[hole]) or None)  # a pin stands in no line
         )
     if problems:
         raise JobError(*problems)

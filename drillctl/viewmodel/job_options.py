@@ -5,17 +5,21 @@ Rule: one shape for the verbs, the screens, the list of recent jobs and the jour
 names of the command line. ``generation/job_setup.py`` adds the machine and the working base that a job is made for.
 """
 
-from typing import Annotated, NamedTuple
+import re
+from typing import Annotated, NamedTuple, cast
 
 import msgspec
 
-from drillctl.viewmodel.choices import MOST_ORDER_SECONDS, AfterEnd, Mirror, Order, Origin
+from drillctl.language import Message
+from drillctl.viewmodel.choices import MOST_ORDER_SECONDS, PIN_PLACES, AfterEnd, Mirror, Order, Origin, PinPlaces
 
 MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
 FilePath = Annotated[str, msgspec.Meta(min_length=1, pattern=r"\A[^\x00]*\Z")]  # no argument of a program has a NUL
 Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
 OrderSeconds = Annotated[float, msgspec.Meta(ge=0, le=MOST_ORDER_SECONDS)]
 OrderSteps = Annotated[int, msgspec.Meta(ge=0, le=2**62)]
+DEFAULT_PIN_MARGIN_MM = 5.0
+PINS_TYPED = re.compile(rf"(\d{{1,5}}(?:\.\d{{1,6}})?)(?::({'|'.join(PIN_PLACES)}))?(?::(\d{{1,4}}(?:\.\d{{1,6}})?))?")
 NAMES_IN_FILES = {"rotate_deg": "rotate", "offset_mm": "offset", "peck_mm": "peck", "spot_mm": "spot"}
 
 
@@ -37,6 +41,30 @@ class PanelOf(NamedTuple):
     pitch_y_mm: float
 
 
+class PinsOf(NamedTuple):
+    """Registration pins: their diameter, where they are, and how far outside the extent of all holes."""
+
+    diameter_mm: Millimetres
+    where: PinPlaces = "corners"
+    margin_mm: Millimetres = DEFAULT_PIN_MARGIN_MM
+
+    @classmethod
+    def typed(cls, text: str) -> "PinsOf":
+        """From a text such as ``3``, ``3:left-right`` or ``3:corners:8``. Raises ValueError with a message."""
+        found = PINS_TYPED.fullmatch(text.strip())
+        if found is None:
+            raise ValueError(
+                Message("{text!r} is not MM:WHERE:MM, with WHERE one of {places}", text=text[:40],
+                        places=", ".join(PIN_PLACES))
+            )  # fmt: skip
+        diameter, where, margin = found.groups()
+        margin_mm = DEFAULT_PIN_MARGIN_MM if margin is None else float(margin)
+        return cls(float(diameter), cast(PinPlaces, where or PIN_PLACES[0]), margin_mm)
+
+    def __str__(self) -> str:
+        return f"{self.diameter_mm:g}:{self.where}:{self.margin_mm:g}"
+
+
 class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename=NAMES_IN_FILES):
     """Paths are absolute. The types are what the command line takes; they are checked where a file or a screen gives
     the values (``JobSetup.checked``, ``RecentJobs.read``), and not when a record is made.
@@ -44,6 +72,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     origin             None: the lowest X and Y of the board come to lie at the working base
     align              an alignment file, or the measured holes themselves; these alone say where the board lies
     peck_mm, spot_mm   depths below the board's surface
+    pins               holes for the pins that a board of two sides is turned over on; None: none
     order_seconds      for how long an optimised order may be looked for; None: until it is found
     order_steps        for how many steps, in place of seconds: of a job whose search the seconds have cut short
     drills             the file of the drills at hand
@@ -59,6 +88,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     offset_mm: tuple[float, float] = (0.0, 0.0)
     align: FilePath | tuple[MeasuredHole, ...] | None = None
     panel: PanelOf | None = None
+    pins: PinsOf | None = None
     order: Order = "file"
     order_seconds: OrderSeconds | None = None
     order_steps: OrderSteps | None = None

@@ -13,6 +13,7 @@ from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.pcb_drill.program import board_program
+from drillctl.generation.pins import with_pins
 from drillctl.generation.sequences import Records
 from drillctl.generation.waits import ORDERING, Waits, reading
 from drillctl.generation.work_settings import WorkSettings
@@ -50,11 +51,22 @@ def load_board(
         found = read(path, fmt=setup.options.format, after_end=setup.options.after_end, advance=advance)
     except DrillFileError as error:
         raise refusal(path, error) from error
-    drill_file = replace(found, name=str(path))
+    drill_file, settings = pinned(replace(found, name=str(path)), settings)
     programmed = partial(program_of, machine=machine, settings=settings)
     work = build(drill_file, settings, machine, waits(ORDERING))
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work), *_order_warnings(path, settings, work))
     return Job(path.name, programmed(work), machine, work, warnings, programmed)
+
+
+def pinned(drill_file: "DrillFile", settings: WorkSettings) -> "tuple[DrillFile, WorkSettings]":
+    """The file with its pins, and the settings that leave them out where the board lies face down on them. Raises
+    PlacingError.
+    """
+    if settings.pins is None:
+        return drill_file, settings
+    found, tool = with_pins(drill_file, settings.pins)
+    skipped = settings.skip_tools | ({tool} if settings.face_down else set())
+    return found, replace(settings, skip_tools=skipped)
 
 
 def refusal(path: Path, error: "DrillFileError") -> JobError:

@@ -80,7 +80,8 @@ OTHER_OPTIONS: Mapping[str, tuple[str, Callable[[JobOptions], str]]] = {  # by t
     "panel": (N_("Panel"), lambda options: _set_or_none(options.panel)),
     "how_to_drill": (
         N_("How to drill"),
-        lambda options: _set_or_none(options.peck_mm or options.spot_mm or options.skip_tools or options.drills),
+        lambda options: _set_or_none(options.peck_mm or options.spot_mm or options.skip_tools or options.drills
+                                     or options.pins),
     ),
 }
 
@@ -122,6 +123,9 @@ def _further(options: JobOptions) -> list[str]:
     if panel := options.panel:
         text = _("Panel: {columns} x {rows}, {x:g} by {y:g} mm")
         lines.append(text.format(columns=panel.columns, rows=panel.rows, x=panel.pitch_x_mm, y=panel.pitch_y_mm))
+    if pins := options.pins:
+        lines.append(_("Pins of {diameter:g} mm, {margin:g} mm outside").format(
+            diameter=pins.diameter_mm, margin=pins.margin_mm))  # fmt: skip
     if options.measured:
         count = len(options.measured)
         placed = ngettext("Placed by {count} measured hole", "Placed by {count} measured holes", count)

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeVar
 from drillctl.language import Message, message_of
 from drillctl.language.words import N_
 from drillctl.ui.widgets.dialogs import Accept, Answered
-from drillctl.viewmodel.job_options import PanelOf
+from drillctl.viewmodel.job_options import PanelOf, PinsOf
 
 
 class Format(NamedTuple):
@@ -61,6 +61,11 @@ def panel_of(texts: Sequence[str]) -> PanelOf | None:
     columns, rows = (_count(text) for text in texts[:2])
     pitch_x_mm, pitch_y_mm = (length_mm(text) or 0.0 for text in texts[2:])
     return None if columns == rows == 1 else PanelOf(columns, rows, pitch_x_mm, pitch_y_mm)
+
+
+def pins_of(text: str) -> PinsOf | None:
+    """Pins as ``--pins`` takes them; None where nothing is typed."""
+    return PinsOf.typed(text) if text.strip() else None
 
 
 def length_mm(text: str) -> float | None:
