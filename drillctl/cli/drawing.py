@@ -1,5 +1,6 @@
 """Draws a picture where the operator wants it: in a PNG or SVG file, else in the terminal."""
 
+import argparse
 import shutil
 import sys
 from collections.abc import Callable, Iterator
@@ -10,13 +11,24 @@ from typing import TYPE_CHECKING
 from drillctl.cli import streams
 
 if TYPE_CHECKING:
+    from drillctl.ui.widgets.series_colours import Theme
     from drillctl.viewmodel.reports import Picture
 
 ROWS = 14  # of a chart in characters
+THEMES = ("light", "dark")
+
+
+def add_theme(verb: argparse.ArgumentParser) -> None:
+    """Adds ``--theme`` to a verb that draws into files."""
+    verb.add_argument(
+        "--theme", choices=THEMES, default=THEMES[0], help="paper of a picture in a file; default: %(default)s"
+    )
 
 
 @contextmanager
-def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[Picture], None]]":
+def drawn(
+    file: Path | None, inputs: "tuple[Path, ...]", theme: "Theme" = "light"
+) -> "Iterator[Callable[[Picture], None]]":
     """Reserves the picture's file and gives the function that draws.
 
     Raises OutputError and PictureRefused before anything is computed.
@@ -31,7 +43,7 @@ def drawn(file: Path | None, inputs: "tuple[Path, ...]") -> "Iterator[Callable[[
             if output is None:
                 _print(picture)
                 return
-            content = picture_bytes(picture, kind)
+            content = picture_bytes(picture, kind, theme)
             output.write_bytes(content)
             print("\n".join((f"{file}: {picture.title}", *picture.notes)))
 

@@ -4,6 +4,7 @@ Rule: the port images are those of the trace. A run that was made on the dynamic
 its faults and its seed; of any other run this is what motors with inertia would have made of it.
 """
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,8 +25,12 @@ from drillctl.replay.derived_signals import with_columns
 from drillctl.replay.header import choice_of, machine_of, same_tables
 from drillctl.trace import Trace, dense
 from drillctl.trace.files import read_trace
+from drillctl.trace.text import COMMAND
+from drillctl.viewmodel.reports import BoardPlan
 
 MOST_TICKS = 5_000_000  # 120 bytes each, and some minutes of the plant
+
+TOOL_NOTED = re.compile(r"KMD_NARZEDZIE (\d{1,9})\b")
 
 Counts = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -37,7 +42,7 @@ class AxisRun:
 
     commanded  (ticks,) columns put out since power-up, forward counted
     rotor      what its motor did meanwhile
-    sent_mm, drilled_mm   (holes, 2): where X and Y were sent, and where they were, when the bit met the board
+    holes      where X and Y were sent, and where they were, when the bit met the board
     as_run     the run was made on this very plant
     """
 
@@ -45,8 +50,7 @@ class AxisRun:
     table: AxisTable
     commanded: Counts
     rotor: Motion
-    sent_mm: Floats
-    drilled_mm: Floats
+    holes: BoardPlan
     as_run: bool
 
     @property
@@ -94,8 +98,8 @@ def axis_of_run(recorded: Trace, machine: Machine, file: Path, axis_name: str | 
     columns = columns_of(again, machine)
     index = axis_index(machine, axis_name) if axis_name else _farthest(columns)
     plant, as_run = _plant(recorded, machine)
-    rotor, sent_mm, drilled_mm = _driven(plant, recorded, machine, index, columns)
-    return AxisRun(machine, machine.axes[index], columns[index], rotor, sent_mm, drilled_mm, as_run)
+    rotor, holes = _driven(plant, recorded, machine, index, columns)
+    return AxisRun(machine, machine.axes[index], columns[index], rotor, holes, as_run)
 
 
 def columns_of(again: Trace, machine: Machine) -> list[Counts]:
@@ -132,8 +136,8 @@ def _plant(recorded: Trace, machine: Machine) -> tuple[DynamicPlant, bool]:
 
 def _driven(
     plant: DynamicPlant, recorded: Trace, machine: Machine, index: int, columns: list[Counts]
-) -> tuple[Motion, Floats, Floats]:
-    """Drives the plant through all ticks of the run; returns what one motor did, and the holes sent and drilled."""
+) -> tuple[Motion, BoardPlan]:
+    """Drives the plant through all ticks of the run; returns what one motor did, and the holes."""
     recorder, touches, places = MotionRecorder(plant.motors[index]), 0, []
     for tick, image in enumerate(images_of(recorded, machine).tolist()):
         plant.drive(image)
@@ -141,7 +145,7 @@ def _driven(
         if plant.touches != touches:
             touches = plant.touches
             places.append((tick, [plant.position_steps(axis) for axis in plane_of(machine)]))
-    return recorder.finish(), *holes_of(places, machine, columns)
+    return recorder.finish(), holes_of(places, recorded, machine, columns)
 
 
 def images_of(recorded: Trace, machine: Machine) -> Counts:
@@ -155,21 +159,40 @@ def plane_of(machine: Machine) -> tuple[int, ...]:
     return tuple(axis for axis in range(len(machine.axes)) if axis not in machine.drill_axes)[:2]
 
 
-def holes_of(places: list[tuple[int, list[float]]], machine: Machine, columns: list[Counts]) -> tuple[Floats, Floats]:
-    """Returns where holes were sent and drilled, (holes, 2) each, in mm from the start, from the ticks in which the bit
-    met the board, with the places of the plane's axes then. A hole that is come to again (peck after peck) counts once.
+def holes_of(
+    places: list[tuple[int, list[float]]], recorded: Trace, machine: Machine, columns: list[Counts]
+) -> BoardPlan:
+    """Returns where holes were sent and drilled, in mm from the start, from the ticks in which the bit met the board,
+    with the places of the plane's axes then. A hole that is come to again (peck after peck) counts once. A trace tells
+    the numbers of tools, and not their diameters.
     """
     sent: list[list[float]] = []
     drilled: list[list[float]] = []
+    ticks: list[int] = []
     for tick, reached in places:
         plane = [(machine.axes[axis], int(columns[axis][tick])) for axis in plane_of(machine)]
         wanted = [table.start_steps + _steps(table, travelled) for table, travelled in plane]
         if not sent or wanted != sent[-1]:
             sent.append(wanted)
             drilled.append(reached)
+            ticks.append(tick)
     scale = np.array([machine.axes[axis].steps_per_mm for axis in plane_of(machine)])
     shape = (len(sent), len(scale))  # a machine may have no axis that positions the board
-    return np.array(sent).reshape(shape) / scale, np.array(drilled).reshape(shape) / scale
+    sent_mm, made_mm = (np.array(each).reshape(shape) / scale for each in (sent, drilled))
+    return BoardPlan(sent_mm, made_mm, np.full(len(sent), np.nan), _tools_at(recorded, ticks))
+
+
+def _tools_at(recorded: Trace, ticks: list[int]) -> Counts:
+    """(ticks,): the number of the tool that the program had noted last, 0 before the first."""
+    texts = [line.partition(" ") for line in recorded.header_values(COMMAND)]
+    tools = {int(number): int(found[1]) for number, _, text in texts if (found := TOOL_NOTED.match(text))}
+    signal = recorded.signals[recorded.index_of("kmd")]
+    begun, values = recorded.changes_of("kmd")
+    current = [signal.show(value).partition(":")[0] for value in values.tolist()]
+    noted = [(tick, tools[int(number)]) for tick, number in zip(begun.tolist(), current, strict=True)
+             if number.isdecimal() and int(number) in tools]  # fmt: skip
+    row = np.searchsorted([tick for tick, _ in noted], ticks, side="right")
+    return np.array([0, *(tool for _, tool in noted)], np.int64)[row]
 
 
 def _steps(table: AxisTable, columns: int) -> float:

@@ -17,12 +17,11 @@ from drillctl.lab.trials import FULL_STEPS_PER_CYCLE, Trial, errors_full_steps, 
 from drillctl.language import Message
 from drillctl.machine import AxisTable, Dynamics
 from drillctl.plant.rotor import FULL_TURN
-from drillctl.viewmodel.reports import Chart, Curve, Picture, Style
+from drillctl.viewmodel.reports import BoardPlan, Chart, Curve, Picture, Style
 
 Floats = NDArray[np.float64]
 STANDING_TICKS = 100  # no column for so long: it stands
 RATES_HZ = range(100, 701, 25)
-LONGEST_ERROR = 0.08  # of the board: an error is drawn so long at most
 TIME = "time, s"
 WAYS = {"forward": 1, "backward": -1}
 
@@ -77,6 +76,12 @@ def lag(run: AxisRun, window: Window) -> Picture:
     return Picture(_title(run, "lag"), charts, (notes, _whose(run)))
 
 
+def motion(run: AxisRun, window: Window) -> Picture:
+    """Speed, and by how many full steps the rotor was behind meanwhile, one above the other."""
+    fast, late = speed(run, window), lag(run, window)
+    return Picture(_title(run, "speed and lag"), (fast.charts[0], late.charts[1]), (fast.notes[0], *late.notes))
+
+
 def currents(run: AxisRun, window: Window) -> Picture:
     """The currents of the windings, one phase above the other: of a unipolar motor two half windings each."""
     assert run.table.dynamics is not None
@@ -96,23 +101,22 @@ def currents(run: AxisRun, window: Window) -> Picture:
 
 def board(run: AxisRun, _window: Window) -> Picture:
     """The holes of the whole run: where each was sent, and how far off it was drilled, enlarged. Raises LabError."""
-    sent, error = run.sent_mm, run.drilled_mm - run.sent_mm
-    if not len(sent):
+    if not len(run.holes.tool):
         raise LabError(Message("the bit never met the board in this run: there is no hole to be shown"))
-    off_mm = np.hypot(*error.T)
-    times = _enlarged(sent, off_mm)
-    holes = Curve.of("sent to", sent[:, 0], sent[:, 1], Style.POINTS)
-    ends = np.stack([sent, sent + error * times, np.full_like(sent, np.nan)], axis=1).reshape(-1, 2)
-    drilled = Curve.of(f"off by, {times} times as long", ends[:, 0], ends[:, 1])
-    plan = Chart("x, mm", "y, mm", (holes, drilled), to_scale=True)
+    return board_picture(f"{run.machine.name}: board as drilled", run.holes, (_whose(run),))
+
+
+def board_picture(title: str, holes: BoardPlan, notes: tuple[str, ...] = ()) -> Picture:
+    """Holes from above, and how far each is off."""
+    sent, off_mm = holes.sent_mm, holes.error_mm
     by_hole = Curve.of("error", np.arange(1, len(off_mm) + 1), off_mm * 1000, Style.POINTS)
     worst = int(off_mm.argmax())
     note = (
         f"{len(off_mm)} holes, off by {off_mm.mean() * 1000:.0f} um on average, {off_mm[worst] * 1000:.0f} um at most "
         f"(hole {worst + 1} at {sent[worst, 0]:.2f}, {sent[worst, 1]:.2f} mm)"
     )
-    title = f"{run.machine.name}: board as drilled"
-    return Picture(title, (plan, Chart("hole", "error, um", (by_hole,))), (note, _whose(run)))
+    scale = f"errors are drawn {holes.times} times as long as they are" if off_mm.any() else "no hole is off"
+    return Picture(title, (holes, Chart("hole", "error, um", (by_hole,))), (note, scale, *notes))
 
 
 def pull_out_curve(run: AxisRun, _window: Window) -> Picture:
@@ -130,6 +134,7 @@ Drawing = Callable[[AxisRun, Window], Picture]
 PICTURES: dict[str, Drawing] = {
     "speed": speed,
     "lag": lag,
+    "motion": motion,
     "board": board,
     "currents": currents,
     "pull-out": pull_out_curve,
@@ -169,13 +174,6 @@ def _sent_columns_per_tick(commanded: NDArray[np.int64]) -> Floats:
     rates = np.where(waited > STANDING_TICKS, 0.0, moved[ticks] / waited)
     until = np.append(ticks, len(commanded))
     return np.repeat(np.append(rates, 0.0), np.diff(until, prepend=0))
-
-
-def _enlarged(sent_mm: Floats, off_mm: Floats) -> int:
-    """How many times as long errors are drawn, that the worst is seen: 1, 2, 5, 10, 20, 50, ..."""
-    wanted = LONGEST_ERROR * max(float(np.ptp(sent_mm, axis=0).max()), 1.0) / max(float(off_mm.max()), 1e-6)
-    steps = [digit * 10**power for power in range(5) for digit in (1, 2, 5)]
-    return max((step for step in steps if step <= wanted), default=1)
 
 
 COLUMNS = 300  # of a trial's move

@@ -25,12 +25,12 @@ from drillctl.trace import Difference, Trace, VcdVar, first_difference, render
 from drillctl.trace.files import read_trace
 from drillctl.trace.text import COMMAND
 from drillctl.viewmodel.fault_texts import FAULT_WORDS
+from drillctl.viewmodel.reports import BoardPlan
 from drillctl.viewmodel.run_report import (
     Comparison,
     ReportAxis,
     ReportCommand,
     ReportEvent,
-    ReportHoles,
     ReportWave,
     RunReport,
 )
@@ -96,7 +96,7 @@ def comparison(first: str, second: str, found: Difference | None, machine: Machi
 class _Motion:
     """What a plant did on the images of a run: places (ticks, axes) in columns where it is dynamic, and the holes."""
 
-    def __init__(self, places: Floats, holes: ReportHoles, lost: tuple[int, ...]):
+    def __init__(self, places: Floats, holes: BoardPlan, lost: tuple[int, ...]):
         self.places, self.holes, self.lost = places, holes, lost
 
 
@@ -115,11 +115,11 @@ def _played(recorded: Trace, machine: Machine, choice: PlantChoice, columns: lis
         if plant.touches != touches:
             touches = plant.touches
             touched.append((tick, [plant.position_steps(axis) for axis in plane_of(machine)]))
-    sent_mm, made_mm = holes_of(touched, machine, columns)
+    holes = holes_of(touched, recorded, machine, columns)
     lost = tuple(
         round(plant.lost_steps(index, int(column[-1]) if len(column) else 0)) for index, column in enumerate(columns)
     )
-    return _Motion(places, ReportHoles(sent_mm, made_mm), lost)
+    return _Motion(places, holes, lost)
 
 
 def _driving(images: Ints, every: bool) -> Iterator[tuple[int, int]]:

@@ -4,7 +4,7 @@ Rule: a picture is data. A curve breaks where a value is not a number.
 """
 
 from enum import Enum
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 import numpy as np
@@ -77,6 +77,9 @@ class LatencyReport(msgspec.Struct, frozen=True):
 
 
 Floats = NDArray[np.float64]
+NO_DIAMETER_MM = 0.8  # a hole is drawn so wide where nobody tells
+LONGEST_ERROR = 0.06  # of the board: an error is drawn so long at most
+ENLARGED = tuple(digit * 10**power for power in range(5) for digit in (1, 2, 5))
 
 
 class Style(Enum):
@@ -126,9 +129,74 @@ class HeatMap(msgspec.Struct, frozen=True, eq=False):
     share: Floats
 
 
+class PlannedTool(NamedTuple):
+    """A tool of a board: its number (0: nobody tells), its diameter, and the rows of its holes."""
+
+    number: int
+    diameter_mm: float | None
+    holes: NDArray[np.int64]
+
+
+class BoardPlan(msgspec.Struct, frozen=True, eq=False):
+    """A board from above, in mm: where each hole was sent to and where it was made, (n, 2) each; (n,) the diameter of
+    its drill, not a number where nobody tells, and the number of its tool.
+    """
+
+    sent_mm: Floats
+    made_mm: Floats
+    diameter_mm: Floats
+    tool: NDArray[np.int64]
+
+    @property
+    def error_mm(self) -> Floats:
+        """(n,): how far each hole is from where it was sent."""
+        off = self.made_mm - self.sent_mm
+        return np.hypot(off[:, 0], off[:, 1])
+
+    @property
+    def drawn_mm(self) -> Floats:
+        """(n,): the diameters as they are drawn."""
+        return np.where(np.isfinite(self.diameter_mm), self.diameter_mm, NO_DIAMETER_MM)
+
+    @property
+    def outline_mm(self) -> tuple[Floats, Floats]:
+        """The lowest and the highest corner of all holes, their edges included; n > 0."""
+        radius = self.drawn_mm[:, None] / 2
+        return (self.sent_mm - radius).min(axis=0), (self.sent_mm + radius).max(axis=0)
+
+    @property
+    def times(self) -> int:
+        """How many times as long errors are drawn, that the worst is seen: 1, 2, 5, 10, 20, 50, ..."""
+        longest = max(float(np.ptp(self.sent_mm, axis=0).max()), 1.0)
+        wanted = LONGEST_ERROR * longest / max(float(self.error_mm.max()), 1e-6)
+        return max((step for step in ENLARGED if step <= wanted), default=1)
+
+    @property
+    def ends_mm(self) -> Floats:
+        """(n, 2): where the line of each error ends that begins where the hole was sent to."""
+        return self.sent_mm + (self.made_mm - self.sent_mm) * self.times
+
+    @property
+    def tools(self) -> tuple[PlannedTool, ...]:
+        """The tools, by number."""
+        rows = [(int(number), np.flatnonzero(self.tool == number)) for number in np.unique(self.tool)]
+        sizes = [float(self.diameter_mm[holes[0]]) for _, holes in rows]
+        return tuple(
+            PlannedTool(number, size if np.isfinite(size) else None, holes)
+            for (number, holes), size in zip(rows, sizes, strict=True)
+        )
+
+    def as_chart(self) -> Chart:
+        """The same as points and lines, for what can draw no circles."""
+        ends = np.stack([self.sent_mm, self.ends_mm, np.full_like(self.sent_mm, np.nan)], axis=1).reshape(-1, 2)
+        holes = Curve.of("sent to", self.sent_mm[:, 0], self.sent_mm[:, 1], Style.POINTS)
+        off = Curve.of(f"off by, {self.times} times as long", ends[:, 0], ends[:, 1])
+        return Chart("x, mm", "y, mm", (holes, off), to_scale=True)
+
+
 class Picture(msgspec.Struct, frozen=True, eq=False):
     """Charts one below the other, and sentences that say what they show."""
 
     title: str
-    charts: tuple[Chart | HeatMap, ...]
+    charts: tuple[Chart | HeatMap | BoardPlan, ...]
     notes: tuple[str, ...] = ()

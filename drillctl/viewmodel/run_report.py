@@ -9,22 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import Message
+from drillctl.viewmodel.reports import BoardPlan
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-
-class ReportHoles(msgspec.Struct, frozen=True, eq=False):
-    """Where the bit was sent and where it met the board, (n, 2) each, mm from where the machine was switched on."""
-
-    sent_mm: Floats
-    made_mm: Floats
-
-    @property
-    def error_mm(self) -> Floats:
-        """(n,): how far each hole is from where it was sent."""
-        off = self.made_mm - self.sent_mm
-        return np.hypot(off[:, 0], off[:, 1])
 
 
 class ReportAxis(msgspec.Struct, frozen=True, eq=False):
@@ -70,7 +58,9 @@ class ReportWave(msgspec.Struct, frozen=True, eq=False):
 
 
 class RunReport(msgspec.Struct, frozen=True, eq=False):
-    """A run. ``waves_to``: the tick up to which the waves go; all of the run where it is not longer."""
+    """A run. ``holes``: in mm from where the machine was switched on. ``waves_to``: the tick up to which the waves go;
+    all of the run where it is not longer.
+    """
 
     name: str
     machine: str
@@ -79,7 +69,7 @@ class RunReport(msgspec.Struct, frozen=True, eq=False):
     tick_hz: int
     ticks: int
     fault: tuple[str, Message, Message] | None  # name, cause, remedy
-    holes: ReportHoles
+    holes: BoardPlan
     axes: tuple[ReportAxis, ...]
     commands: tuple[ReportCommand, ...]
     events: tuple[ReportEvent, ...]

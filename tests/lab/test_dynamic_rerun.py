@@ -45,8 +45,8 @@ def test_holes_are_as_far_off_as_they_were_in_the_run(recorded: Recording) -> No
         in_run = [(float(row["x_mm"]), float(row["y_mm"])) for row in csv.DictReader(stream)]
     wanted = np.array(SENT) / [axis.steps_per_mm for axis in run.machine.axes[:2]]
     assert run.as_run
-    assert run.drilled_mm - run.sent_mm == pytest.approx(np.array(in_run) - wanted, abs=1e-4)
-    assert np.abs(run.drilled_mm - run.sent_mm)[:, 0].max() > 0.1
+    assert run.holes.made_mm - run.holes.sent_mm == pytest.approx(np.array(in_run) - wanted, abs=1e-4)
+    assert np.abs(run.holes.made_mm - run.holes.sent_mm)[:, 0].max() > 0.1
 
 
 @pytest.mark.parametrize("machine", ["pcb-drill", "pcb-drill-ramp-lab"])
@@ -69,7 +69,7 @@ def test_an_axis_the_other_way_about(recorded: Recording, tmp_path: Path) -> Non
     inverted = ("--tables", str(tmp_path), "--machine", "pcb-drill", "--plant", "dynamic")
     turned = rerun_axis(recorded(*inverted), Library((tmp_path, shipped_tables())), "x")
     assert turned.table.invert
-    assert turned.sent_mm == pytest.approx(plain.sent_mm, abs=0.1)
+    assert turned.holes.sent_mm == pytest.approx(plain.holes.sent_mm, abs=0.1)
     assert turned.columns_per_mm == -plain.columns_per_mm
     assert turned.rotor.columns[-1] / turned.columns_per_mm == pytest.approx(
         plain.rotor.columns[-1] / plain.columns_per_mm, abs=0.1
@@ -86,8 +86,9 @@ def test_pictures_say_what_the_run_did(recorded: Recording) -> None:
     assert seen["lag"].charts[1].curves[0].y == pytest.approx((run.commanded - run.rotor.columns) / 3)
     windings = [curve.label for chart in seen["currents"].charts for curve in chart.curves]
     assert windings == ["1a", "1b", "2b", "2a"] or windings == ["1a", "1b", "2a", "2b"]
-    holes = seen["board"].charts[0].curves[0]
-    assert holes.x.tolist() == run.sent_mm[:, 0].tolist() and "2 holes" in seen["board"].notes[0]
+    assert seen["board"].charts[0] is run.holes and "2 holes" in seen["board"].notes[0]
+    assert f"{run.holes.times} times as long" in seen["board"].notes[1] and run.holes.tool.tolist() == [0, 0]
+    assert [chart.y_label for chart in seen["motion"].charts] == ["speed, mm/s", "lag, full steps"]
 
 
 def test_a_window_cuts_out_its_ticks(recorded: Recording) -> None:

@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.language import visible
+from drillctl.ui.widgets.series_colours import LOOKS
 from drillctl.viewmodel.records import Outcome
 
 WIDTH_PX, MARGIN_PX = 640, 24
 LEAST_RADIUS_PX = 1.5
 NO_DIAMETER_MM = 0.8  # drawn so wide where the file has none
 OFF_MM = 0.05  # a hole that is farther off is marked
-TOOL_COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00")  # Okabe and Ito, 2008
+TOOL_COLOURS = LOOKS["light"].series
 OFF_COLOUR = "#d55e00"
 
 

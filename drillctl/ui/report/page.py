@@ -10,7 +10,8 @@ from importlib.resources import files
 
 from drillctl.language import visible
 from drillctl.language.words import _
-from drillctl.ui.report.drawings import board_figure, curve_figures
+from drillctl.ui.report.board_plan import board_figure
+from drillctl.ui.report.drawings import curve_figures
 from drillctl.ui.report.facts import axes_table, commands_table, events_list, summary
 from drillctl.ui.report.waves import waves_section
 from drillctl.viewmodel.run_report import Comparison, RunReport
@@ -42,7 +43,7 @@ def _of_run(report: RunReport, number: int) -> list[str]:
     parts = [
         f'<header><h1>{text(report.name)}</h1><p>{text(report.machine)}: {text(report.description)}</p></header>',
         summary(report),
-        board_figure(report),
+        board_figure(report.holes),
         axes_table(report),
         *curve_figures(report),
         waves_section(report, number),

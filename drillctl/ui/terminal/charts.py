@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from drillctl.language import visible
 from drillctl.ui.terminal.heat import heat_lines
 from drillctl.ui.widgets.dots import BRAILLE, CELL_DOTS, braille_cells
-from drillctl.viewmodel.reports import Chart, Curve, Floats, HeatMap, Picture, Style
+from drillctl.viewmodel.reports import BoardPlan, Chart, Curve, Floats, HeatMap, Picture, Style
 
 MARGIN = 10  # characters left of a chart, for the numbers
 LEAST_COLUMNS = MARGIN + 10
@@ -40,7 +40,8 @@ def picture_lines(picture: Picture, look: ChartLook) -> list[str]:
         if isinstance(chart, HeatMap):
             lines += ["", *heat_lines(chart, max(look.columns, LEAST_COLUMNS), look.plain)]
         else:
-            lines += ["", *_chart_lines(chart, look)]
+            plain = chart.as_chart() if isinstance(chart, BoardPlan) else chart
+            lines += ["", *_chart_lines(plain, look)]
     return [*lines, "", *map(visible, picture.notes)]
 
 
