@@ -1,6 +1,8 @@
 """Writes the pages of docs/ that tables, docstrings and the command line's parser already say. A test compares."""
 
+import argparse
 import inspect
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -228,14 +230,43 @@ def man_page() -> str:
 
 
 def _options(verb: Parser) -> list[str]:
-    lines = []
+    return [line for option, told in _told_options(verb) for line in (".TP", f".B {_roff(option)}", _roff(told))]
+
+
+def verbs_page() -> str:
+    """The command line as a page, from its parser."""
+    intro = f"{DESCRIPTION} {EPILOG[:1].upper()}{EPILOG[1:]}."
+    parts = [MADE.format("the command line's parser"), "", "# Verbs", "", intro, ""]
+    for name, verb in parser().verbs().items():
+        for inner_name, inner in (verb.verbs() or {"": verb}).items():
+            parts += [f"## drillctl {name}{inner_name and ' '}{inner_name}", "", _one_paragraph(inner.description), ""]
+            rows = [f"| `{_cell_text(option)}` | {_cell_text(told)} |" for option, told in _told_options(inner)]
+            parts += ["| | |", "|---|---|", *rows, ""] if rows else []
+            parts += ["```text", *inner.examples, "```", ""] if inner.examples else []
+    return "\n".join(parts)
+
+
+def _cell_text(text: str) -> str:
+    return _one_paragraph(text).replace("|", "\\|")
+
+
+def _one_paragraph(text: str | None) -> str:
+    return " ".join((text or "").replace("``", "`").split())
+
+
+def _told_options(verb: Parser) -> Iterator[tuple[str, str]]:
+    """Each option that help shows, with its value, and what is said of it."""
     for action in verb._actions:
         if action.help and action.help != "==SUPPRESS==" and "help" not in action.dest:
             name = ", ".join(action.option_strings) or str(action.metavar or action.dest)
-            value = f" {action.metavar or action.dest.upper()}" if action.option_strings and action.nargs != 0 else ""
+            value = f" {_value(action)}" if action.option_strings and action.nargs != 0 else ""
             told = action.help % {"default": action.default, "prog": "drillctl"}
-            lines += [".TP", f".B {_roff(name + value)}", _roff(told)]
-    return lines
+            yield name + value, told
+
+
+def _value(action: argparse.Action) -> str:
+    choices = f"{{{','.join(map(str, action.choices))}}}" if action.choices else ""
+    return str(action.metavar or choices or action.dest.upper())
 
 
 def _roff(text: str) -> str:
@@ -246,6 +277,7 @@ def _roff(text: str) -> str:
 
 PAGES = {
     "drillctl.1": man_page,
+    "VERBS.md": verbs_page,
     "KMD.md": commands_page,
     "FAULTS.md": faults_page,
     "STATES.md": states_page,

@@ -15,7 +15,7 @@ from drillctl.ui.pcb_drill.menus import MENUS
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
-FOLDERS = ("docs/*.md", "docs/lab/*.md", "README.md", "CONTRIBUTING.md")
+FOLDERS = ("docs/*.md", "docs/lab/*.md", "docs/tutorials/*.md", "docs/howto/*.md", "*.md")
 PAGES = [page for pattern in FOLDERS for page in sorted(ROOT.glob(pattern))]
 
 
@@ -33,7 +33,7 @@ def drillctl_lines() -> list[list[str]]:
     return [shlex.split(line, comments=True) for line in lines if line.startswith(".venv/bin/drillctl")]
 
 
-@pytest.mark.parametrize("name", ["KMD.md", "FAULTS.md", "STATES.md", "GEARS.md", "API.md", "drillctl.1"])
+@pytest.mark.parametrize("name", ["KMD.md", "FAULTS.md", "STATES.md", "GEARS.md", "API.md", "VERBS.md", "drillctl.1"])
 def test_generated_page_is_current(name: str) -> None:
     assert (ROOT / "docs" / name).read_text("utf-8") == generator().PAGES[name]()
 
@@ -74,8 +74,18 @@ def test_ci_runs_the_readme_test_command() -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text("utf-8")):
-        assert (page.parent / target).exists(), f"{page.name} links to {target}"
+    for target in re.findall(r"\]\((?!https?://)([^)\s]+)\)", page.read_text("utf-8")):
+        name, _, anchor = target.partition("#")
+        aim = page.parent / name if name else page
+        assert aim.exists(), f"{page.name} links to {target}"
+        assert not anchor or anchor in anchors(aim), f"{page.name} links to {target}"
+
+
+def anchors(page: Path) -> set[str]:
+    """Of a page's headings, as forges and docs/conf.py make them."""
+    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.S | re.M)
+    headings = re.findall(r"^#+ (.+)$", text, re.M)
+    return {re.sub(r"[^\w\- ]", "", heading).strip().lower().replace(" ", "-") for heading in headings}
 
 
 def sources() -> str:

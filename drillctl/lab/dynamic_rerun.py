@@ -177,8 +177,9 @@ def holes_of(
             drilled.append(reached)
             ticks.append(tick)
     scale = np.array([machine.axes[axis].steps_per_mm for axis in plane_of(machine)])
-    shape = (len(sent), len(scale))  # a machine may have no axis that positions the board
-    sent_mm, made_mm = (np.array(each).reshape(shape) / scale for each in (sent, drilled))
+    shape = (len(sent), len(scale))  # a machine may have one axis that positions the board, or none: the rest is 0
+    missing = ((0, 0), (0, 2 - len(scale)))
+    sent_mm, made_mm = (np.pad(np.array(each).reshape(shape) / scale, missing) for each in (sent, drilled))
     return BoardPlan(sent_mm, made_mm, np.full(len(sent), np.nan), _tools_at(recorded, ticks))
 
 

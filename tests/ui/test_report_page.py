@@ -87,6 +87,15 @@ def test_the_figures_are_those_of_the_run(traces: Path, dynamic: RunReport) -> N
         assert 9 < axis.speed_mm_s.max() < 11  # full speed: a column a tick
 
 
+@pytest.mark.parametrize(("sheet", "axis"), [("01-phase-sequences", "paper"), ("02-forcing", "x")])
+def test_a_bench_that_positions_no_board_has_a_page(sheet: str, axis: str, tmp_path: Path) -> None:
+    tables = ROOT / "docs" / "lab" / sheet / "drillctl" / "tables"
+    (machine,) = (tables / "machines").iterdir()
+    load("run")(f"KMD_RUCHd {axis}=9", str(machine)).save(tmp_path / "bench.trace")
+    report = run_report(tmp_path / "bench.trace", Library.standard(tables))
+    assert f"KMD_RUCHd {axis}=9" in report_page([report], "en")
+
+
 def test_waves_are_unfolded_to_the_changes_of_the_run(dynamic: RunReport) -> None:
     data = json.loads(re.findall(r'<script type="application/json">(.*?)</script>', report_page([dynamic]))[0])
     assert [wave["name"] for wave in data["waves"]] == [wave.name for wave in dynamic.waves]
