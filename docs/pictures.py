@@ -1,4 +1,4 @@
-"""Takes the pictures of the screens: the real program on a pseudo-terminal, worked by keys.
+"""Takes the pictures of the screens: the real program on a pseudo-terminal, worked by keys; and plots (plots.py).
 
     .venv/bin/python docs/pictures.py [FOLDER]                  # those of the documents; default: docs/pictures
     .venv/bin/python docs/pictures.py --all FOLDER              # every screen at four sizes in three themes
@@ -23,6 +23,7 @@ from docs import picture_scripts as scripts
 from docs.moving_picture import animated
 from docs.picture_page import page
 from docs.picture_scripts import BOARD, TRACE, Script
+from docs.plots import plotted
 from docs.screen_svg import drawn
 from drillctl.language import words
 from drillctl.ui.widgets.themes import THEMES
@@ -121,6 +122,7 @@ def of_the_documents(folder: Path) -> None:
     for session in SESSIONS:
         for name, svg in taken(session):
             _keep(folder / f"{name}.svg", svg)
+    plotted(folder)
 
 
 def of_every_screen(asked: argparse.Namespace) -> None:

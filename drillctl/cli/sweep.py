@@ -42,6 +42,8 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
         "--out", type=Path, required=True, metavar="F.csv", help="file of results; one that was begun is continued"
     )
     verb.add_argument("--picture", type=Path, metavar="F.png|.svg", help="draw into this file, not in the terminal")
+    heat = "draw the two factors with most values as a heat map, as with --board"
+    verb.add_argument("--heat", action="store_true", help=heat)
     drawing.add_theme(verb)
     verb.add_argument("--workers", type=options.up_to(MOST_WORKERS), metavar="N", help="processes; default: all cores")
     verb.add_argument("--cluster", metavar="ADDRESS", help="send the work to a dask scheduler, tcp://HOST:PORT")
@@ -61,7 +63,7 @@ def call(arguments: argparse.Namespace) -> int:
     with drawing.drawn(arguments.picture, (arguments.out,), arguments.theme) as draw:
         with Results(arguments.out, question) as results:
             _work(question, results, WorkerPool(arguments.workers or cores(), arguments.cluster))
-        draw(sweep_picture(question, losing(arguments.out, question), machine.name))
+        draw(sweep_picture(question, losing(arguments.out, question), machine.name, arguments.heat))
     return 0
 
 

@@ -32,12 +32,15 @@ def losing(path: Path, question: Question) -> NDArray[np.bool_]:
     return np.array([row.split(",")[lost] != "0" for row in rows])
 
 
-def sweep_picture(question: Question, lost: NDArray[np.bool_], machine: str) -> Picture:
-    """The picture, from which machines lost steps (machines,); ``machine`` is the name of the one that was varied."""
+def sweep_picture(question: Question, lost: NDArray[np.bool_], machine: str, heat: bool = False) -> Picture:
+    """The picture, from which machines lost steps (machines,); ``machine`` is the name of the one that was varied;
+    ``heat``: the two factors with most values as a heat map, as it always is where a board is drilled.
+    """
     factors = _factors(question)
     across = max(range(TICK_HZ, len(factors) - 1), key=lambda place: len(factors[place][1]))
     board = question.board
-    beside = _lines_by(factors, across) if board is None else [_row_factor(factors, across)]
+    heat = heat or board is not None
+    beside = [_row_factor(factors, across)] if heat else _lines_by(factors, across)
     shares = _mean_but(lost.astype(np.float64).reshape(question.shape), across, beside)
     notes = [f"{int(lost.sum())} of {len(lost)} machines lose steps"]
     if mixed := [factors[n][0] for n in range(len(factors)) if n not in (across, *beside) and len(factors[n][1]) > 1]:
@@ -45,11 +48,11 @@ def sweep_picture(question: Question, lost: NDArray[np.bool_], machine: str) -> 
     fixed = ", ".join(f"{name} {values[0]}" for name, values in factors[:-1] if len(values) == 1)
     notes += [f"with {fixed}"] * bool(fixed) + [f"the question: {question.digest}"]
     labels = _labels([factors[place] for place in beside])
-    if board is None:
-        title = f"{machine}, axis {question.axis.name}: which machines lose steps"
-        return Picture(title, (_lines(factors[across], labels, shares),), tuple(notes))
-    title = f"{machine}: which machines lose steps, or do not drill {board.name} to its end"
-    return Picture(title, (_heat(factors[across], factors[beside[0]], shares),), tuple(notes))
+    title = f"{machine}, axis {question.axis.name}: which machines lose steps"
+    if board is not None:
+        title = f"{machine}: which machines lose steps, or do not drill {board.name} to its end"
+    drawn = _heat(factors[across], factors[beside[0]], shares) if heat else _lines(factors[across], labels, shares)
+    return Picture(title, (drawn,), tuple(notes))
 
 
 def _lines(across: Factor, labels: list[str], shares: NDArray[np.float64]) -> Chart:

@@ -17,6 +17,7 @@ from drillctl.lab.sweep import Results, WorkerPool, sweep
 from drillctl.lab.sweep_picture import losing, sweep_picture
 from drillctl.lab.tables import axis_of, phases, ramps
 from drillctl.machine import Library, shipped_tables
+from drillctl.viewmodel.reports import HeatMap
 
 LIBRARY = Library((shipped_tables(),))
 LAB = LIBRARY.machine("pcb-drill-ramp-lab")
@@ -218,6 +219,16 @@ def test_the_picture_has_a_line_for_each_pair_of_tables(whole: bytes, tmp_path: 
     assert lost.sum() == sum(row["lost"] != "0" for row in rows)
     assert picture.notes[1] == "each point is the mean over all values of times inertia_kgm2, load_nm, draw"
     assert picture.title.startswith("a-machine, axis x") and ASKED.digest in picture.notes[-1]
+
+
+def test_on_demand_the_two_longest_factors_are_a_heat_map(whole: bytes, tmp_path: Path) -> None:
+    (tmp_path / "r.csv").write_bytes(whole)
+    lost = losing(tmp_path / "r.csv", ASKED)
+    (heat,) = sweep_picture(ASKED, lost, "a-machine", heat=True).charts
+    assert isinstance(heat, HeatMap) and heat.columns == ("0.5", "1", "2")
+    assert (heat.x_label, heat.y_label) == ("times coulomb_nm", "phase") and heat.share.shape == (2, 3)
+    forced = [row["lost"] != "0" for row in table(whole) if row["phase"] == "two-phase-forced"]
+    assert heat.share[0].mean() == pytest.approx(np.mean(forced))
 
 
 @pytest.mark.parametrize(

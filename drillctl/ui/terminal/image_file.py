@@ -20,8 +20,8 @@ WIDTH_IN, CHART_IN, PLAN_IN, NOTE_IN = 9.0, 3.2, 6.0, 0.22
 DOTS_PER_IN = 120
 ROW_IN, MOST_NAMES = 0.25, 16  # of a heat map
 LEGEND_CHARACTERS = 118  # so many names of curves stand beside each other
-SETTINGS: Any = {"svg.hashsalt": "drillctl", "font.size": 9.0, "axes.grid": True, "axes.axisbelow": True,
-                 "axes.xmargin": 0.01}  # fmt: skip
+SETTINGS: Any = {"svg.hashsalt": "drillctl", "svg.fonttype": "none", "font.size": 9.0, "axes.grid": True,
+                 "axes.axisbelow": True, "axes.xmargin": 0.01}  # fmt: skip
 STYLES: dict[Style, dict[str, Any]] = {
     Style.LINE: {"linewidth": 1.2},
     Style.STAIRS: {"linewidth": 1.2, "drawstyle": "steps-post"},
