@@ -10,7 +10,7 @@ from drillctl.execution.line import Line
 from drillctl.kmd import Command, CommandQueue, Condition, Fault, Mailbox
 from drillctl.kmd.faults import reactions_of
 from drillctl.machine import Machine, ways
-from drillctl.machine.head_lines import CHUCK, CONTACT, alarm_input, head_input, head_output
+from drillctl.machine.head_lines import CHUCK, CONTACT, alarm_input, answering_inputs, head_input, head_output
 from drillctl.machine.levels import ESTOP, FAULT, POWER_ON, SPEED_ACTUAL, SPEED_WANTED, STOP, masks_at
 from drillctl.machine.parameters import Parameters
 from drillctl.ports import Driver
@@ -58,7 +58,8 @@ class Controller:
     watched   contacts that a stroke down looks at; ``touching`` those that were on in the tick before, ``touched`` by
               contact the place of its first touch in this stroke
     alarms    inputs of drives that had tripped in the tick before, none once that was acknowledged; of ``alarm_mask``
-    contacts  the same of the inputs that say that a head's bit touches; ``chuck_mask`` the outputs of the chucks
+    contacts  the same of the inputs that say that a head's bit touches
+    answered  the outputs beside the axes that inputs answer to
     homing_ways   by row of the homing table, how each of its axes goes
     homing_fault  why the current row of the homing table could not begin
     return_rows the axes of the return to zero, in the order in which they go
@@ -115,7 +116,7 @@ class Controller:
         self.descents, self.breakage_ranges, self.depths = _detection(machine)
         self.alarm_mask = sum(_alarm_bit(machine, axis.name) for axis in machine.axes)
         self._forget_findings()
-        self.chuck_mask = sum(head_output(machine, CHUCK, head) for head in machine.drill_axes)
+        self.answered = _answered(machine)
         self.homes_by_sensor = machine.homes_by_sensor
         self.set_rate(machine.tick_hz)
 
@@ -199,6 +200,14 @@ def _alarm_bit(machine: Machine, axis_name: str) -> int:
     """The input bit that is on where the drive of an axis has tripped, 0 of an axis without one."""
     line = alarm_input(machine, axis_name)
     return 0 if line is None else 1 << line.bit
+
+
+def _answered(machine: Machine) -> int:
+    """The output bits that inputs answer to: those of the chucks, and of what has a switch of its own."""
+    bits = sum({head_output(machine, CHUCK, head) for head in machine.drill_axes})
+    for _, outputs, _ in answering_inputs(machine):
+        bits |= outputs
+    return bits
 
 
 def _contact_bit(machine: Machine, axis: int) -> int:

@@ -132,6 +132,8 @@ class ToolChangeRow(Strict, frozen=True):
     to: Literal["old", "new", "parking"] | None = None
     level: Level | None = None
     delay_s: Annotated[float, msgspec.Meta(gt=0, le=600)] | None = None
+    input: Name | None = None
+    reads: Level | None = None
     in_turn: bool = False
 
 

@@ -14,6 +14,7 @@ from drillctl.machine.source import Source
 TOGETHER, IN_TURN = "together", "in turn"
 OLD, NEW, PARKING = "old", "new", "parking"
 TO = ("x", "y", "xy")  # steps that go somewhere
+LOOKING = ("left", "taken")  # steps that look at the tool sensors
 LEVELLED = ("foot", "chuck")  # steps that set an output to a level
 
 
@@ -25,6 +26,8 @@ class ChangeStep:
              ``to``; "height": the heads down to the change height; "chuck": to ``level``, 1 is open; "delay": a pause;
              "left", "taken": the tool sensors say so
     part     "old" or "new": belongs to leaving the old tool or to taking the new one; "" to any change
+    input    must read ``reads`` then: the name of an input, or ``NAME`` for ``NAME_1`` and so on of the spindles that
+             change; "" where nothing answers
     in_turn  carried out for one spindle after the other, where the spindles change in turn
     """
 
@@ -35,6 +38,8 @@ class ChangeStep:
     to: str = ""
     level: int = 0
     delay_s: float = 0.0
+    input: str = ""
+    reads: int = 1
     in_turn: bool = False
 
 
@@ -75,8 +80,11 @@ def _step(source: Source, raw: MachineFile, index: int) -> ChangeStep:
         (row.to in (OLD, NEW) and row.to != row.part, "to", Message("the place of a tool belongs to the part of it")),
         ((row.level is not None) != (row.do in LEVELLED), "level", Message("foot and chuck have a level, no others")),
         ((row.delay_s is not None) != (row.do == "delay"), "delay_s", Message("delay has a time, no others")),
+        (row.input is None and row.reads is not None, "reads", Message("what it reads belongs to an input")),
+        (row.input is not None and not _known(raw, row.input), "input", Message("the machine has no such input")),
+        (row.input is not None and row.do in LOOKING, "input", Message("it looks at the tool sensors")),
         ((row.delay_s or 0.0) >= row.limit_s, "limit_s", Message("the time limit must be longer than the delay")),
-        (row.do in ("left", "taken", "chuck") and row.part is None, "part", Message("it belongs to old or to new")),
+        (row.do in (*LOOKING, "chuck") and row.part is None, "part", Message("it belongs to old or to new")),
     )
     for is_wrong, key, reason in wrong:
         if is_wrong:
@@ -84,5 +92,13 @@ def _step(source: Source, raw: MachineFile, index: int) -> ChangeStep:
             named = Message("tool_change step {n}: {why}", n=index + 1, why=reason)
             raise source.error(named, "tool_change", index, *at)
     return ChangeStep(
-        row.do, row.limit_s, row.fault, row.part or "", row.to or "", row.level or 0, row.delay_s or 0.0, row.in_turn
-    )
+        row.do, row.limit_s, row.fault, row.part or "", row.to or "", row.level or 0, row.delay_s or 0.0,
+        row.input or "", 1 if row.reads is None else row.reads, row.in_turn,
+    )  # fmt: skip
+
+
+def _known(raw: MachineFile, name: str) -> bool:
+    """Whether a machine has this input, or one of the name for each of its spindles."""
+    names = {row.name for row in raw.input}
+    heads = len(raw.drill.axes) if raw.drill else 0
+    return name in names or (heads > 0 and all(f"{name}_{number}" in names for number in range(1, heads + 1)))

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from drillctl.machine import Machine
 from drillctl.machine.head_lines import CHUCK, TOOL, head_input, head_output
+from drillctl.plant.answers import Answer, answers_of
 from drillctl.plant.carriage import Line
 from drillctl.plant.faults import Faults
 from drillctl.plant.magazine import Bit, Magazine, magazine_of
@@ -60,12 +61,16 @@ class Chuck:
 
 
 class Chucks:
-    """All chucks of a machine. ``outputs`` are the bits that open them, ``slipping`` says that a bit may fall."""
+    """All chucks of a machine, and the inputs that answer to their outputs and the presser foot's. ``outputs`` are the
+    bits of these, ``slipping`` says that a bit may fall.
+    """
 
-    def __init__(self, chucks: Sequence[Chuck], magazine: Magazine | None):
+    def __init__(self, chucks: Sequence[Chuck], magazine: Magazine | None, answers: Sequence[Answer] = ()):
         self._chucks = {chuck.axis: chuck for chuck in chucks}
-        self._magazine = magazine
-        self.outputs = sum(chuck.output for chuck in chucks)
+        self._magazine, self._answers = magazine, answers
+        self._image = self.outputs = 0
+        for part in (*(chuck.output for chuck in chucks), *(answer.mask for answer in answers)):
+            self.outputs |= part
         self.slipping = False
 
     def of(self, axis: int) -> Chuck | None:
@@ -73,9 +78,11 @@ class Chucks:
         return self._chucks.get(axis)
 
     def shown(self, inputs: int) -> int:
-        """Returns the input image with what the tool sensors say."""
+        """Returns the input image with what the tool sensors and the answering inputs say."""
         for chuck in self._chucks.values():
             inputs = chuck.tool.put(inputs, chuck.held)
+        for answer in self._answers:
+            inputs = answer.shown(self._image, inputs)
         return inputs
 
     def switch(self, before: int, image: int, place_mm: Callable[[int], float]) -> None:
@@ -83,6 +90,7 @@ class Chucks:
         for chuck in self._chucks.values():
             if (before ^ image) & chuck.output:
                 (self._open if image & chuck.output else self._close)(chuck, place_mm)
+        self._image = image
         self.slipping = any(chuck.slips for chuck in self._chucks.values())
 
     def lifted(self, axis: int, height_mm: float) -> bool:
@@ -123,7 +131,7 @@ def chucks_of(machine: Machine, known_faults: Faults | None = None) -> Chucks:
             line = Line.of(head_input(machine, TOOL, axis))
             breaks, drops = (_count(known_faults, kind, table.name) for kind in ("breaks", "dropped"))
             found.append(Chuck(axis, number, output, line, table.steps_per_mm, breaks, drops))
-    return Chucks(found, magazine_of(machine, known_faults))
+    return Chucks(found, magazine_of(machine, known_faults), answers_of(machine, known_faults))
 
 
 def _count(known_faults: Faults | None, kind: str, head: str) -> int:

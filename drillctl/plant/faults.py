@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from drillctl.language import Message, Refusal, nearest
 from drillctl.machine import Machine
-from drillctl.machine.head_lines import CHUCK, head_output
+from drillctl.machine.head_lines import CHUCK, answering_inputs, head_output
 
 
 class PlantRefused(Refusal):
@@ -20,8 +20,8 @@ class PlantRefused(Refusal):
 
 @dataclass(frozen=True, slots=True)
 class FaultKind:
-    """What a fault's value means, and its bounds; ``part`` is what it belongs to: a sensor, the wire of a sensor or an
-    encoder's index, an axis, a head with a chuck of its own, or nothing.
+    """What a fault's value means, and its bounds; ``part`` is what it belongs to: a sensor, the wire of a sensor, of an
+    encoder's index or of an input that answers to outputs, an axis, a head with a chuck of its own, or nothing.
     """
 
     part: str
@@ -63,6 +63,7 @@ class Faults:
     def __init__(self, texts: Iterable[str], machine: Machine):
         sensors = [sensor.name for sensor in machine.sensors]
         wires = [*sensors, *(index.name for index in machine.indexes)]
+        wires += [name for name, *_ in answering_inputs(machine)]
         parts = {"sensor": sensors, "wire": wires, "axis": machine.axis_names, "": [""]}
         parts["head"] = [machine.axes[head].name for head in machine.drill_axes if head_output(machine, CHUCK, head)]
         self._values: dict[tuple[str, str], float] = {}

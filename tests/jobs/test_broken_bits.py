@@ -26,7 +26,7 @@ from drillctl.ticker.launch import RunSettings, start
 from drillctl.ticker.link import LocalLink
 from tests.generation.eight_axis.test_board_program import tool, with_tools
 from tests.generation.test_worklist import drill_file
-from tests.jobs.test_magazine_record import near
+from tests.jobs.near_machine import near
 from tests.support import journalled
 
 BODY = "T1\nX4Y4\nX5Y4\nX5Y5\nX4Y5\nT2\nX5Y5"  # holes 1 to 5, of 0.8 and 1.0 mm

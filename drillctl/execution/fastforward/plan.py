@@ -93,7 +93,7 @@ def _of_a_kind(m: Controller, commands: Records, stroked: Rows, heads: Sequence[
     moves = np.isin(ops, MOVES) & (commands["axes"] & busy == 0) & (commands["flags"] & Flag.LINKED == 0)
     there = np.array([m.output_mask >> bit & 1 for bit in range(256)], bool)[first & 0xFF]
     still = np.isin(ops, STILL) & (there | (ops != Op.WYJSCIE))
-    acted_on = (ops == Op.WYJSCIE) & np.array([m.chuck_mask >> bit & 1 for bit in range(256)], bool)[first & 0xFF]
+    acted_on = (ops == Op.WYJSCIE) & np.array([m.answered >> bit & 1 for bit in range(256)], bool)[first & 0xFF]
     still &= ~_turns_spindle(m, commands) & ~acted_on  # else the plant changes inputs
     return (moves | stroked | still) & (commands["epoch"] == m.epoch)
 

@@ -16,9 +16,10 @@ from drillctl.generation.worklist import positioning_axes
 from drillctl.kmd import Op
 from drillctl.kmd.commands import Flag
 from drillctl.machine import Machine
+from drillctl.machine.head_lines import FOOT
 from drillctl.machine.tool_change import IN_TURN, NEW, OLD, PARKING, ChangeStep
 
-FOOT, CHUCK, SENSOR = "presser_foot", "chuck_{}", "tool_{}"
+CHUCK, SENSOR = "chuck_{}", "tool_{}"
 
 
 class ChangeMaker:
@@ -42,6 +43,7 @@ class ChangeMaker:
             for chosen in [[spindle] for spindle in spindles] if turn else [spindles]:
                 for number, step in block:
                     parts += [record(Op.KROK, [number]), *self._step(step, tools.get(step.part, 0), chosen)]
+                    parts += self._answered(step, chosen)
                     if old == EMPTY and number == wanted[0][0]:
                         parts += self._chucks(spindles, 1)  # nothing can fall out
         return [*parts, record(Op.KROK, [0])]
@@ -58,7 +60,6 @@ class ChangeMaker:
         return gotos(np.array([self._place(PARKING, 0)], np.int64), self._machine)
 
     def _step(self, step: ChangeStep, tool: int, spindles: Sequence[int]) -> Iterator[Records]:
-        ticks = max(1, round(step.limit_s * self._machine.tick_hz))
         if step.do == "home":
             yield record(Op.WIERTLO_DOM)
         elif step.do == "foot":
@@ -72,7 +73,20 @@ class ChangeMaker:
         elif step.do == "delay":
             yield record(Op.CZEKAJ, [round(step.delay_s * self._machine.tick_hz)])
         else:
-            yield from (_of_tool(part, tool) for part in self._look(spindles, int(step.do == "taken"), ticks))
+            looks = self._look(spindles, int(step.do == "taken"), self._limit(step))
+            yield from (_of_tool(part, tool) for part in looks)
+
+    def _answered(self, step: ChangeStep, spindles: Sequence[int]) -> list[Records]:
+        """Waits until what answers to a step has done so."""
+        if not step.input:
+            return []
+        own = [self._inputs.get(step.input)]
+        bits = [self._inputs[f"{step.input}_{n}"] for n in spindles] if own == [None] else own
+        return [record(Op.CZEKAJ_WE, [bit or 0, step.reads, self._limit(step)]) for bit in bits]
+
+    def _limit(self, step: ChangeStep) -> int:
+        """The time limit of a step in ticks."""
+        return max(1, round(step.limit_s * self._machine.tick_hz))
 
     def _travel(self, step: ChangeStep, tool: int, spindles: Sequence[int]) -> Records:
         changer = self._machine.tool_changer

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.eight_axis.change import FOOT, ChangeMaker
+from drillctl.generation.eight_axis.change import ChangeMaker
 from drillctl.generation.eight_axis.feeds import interval_of
 from drillctl.generation.eight_axis.magazine import EMPTY, Magazine, full_magazine
 from drillctl.generation.eight_axis.tools import Stretch, is_automatic, speed_of, stretches
@@ -24,7 +24,7 @@ from drillctl.kmd import Op
 from drillctl.kmd.commands import Flag
 from drillctl.language import Message
 from drillctl.machine import Machine
-from drillctl.machine.head_lines import CONTACT, head_input
+from drillctl.machine.head_lines import CONTACT, FOOT, head_input
 
 
 def board_program(
