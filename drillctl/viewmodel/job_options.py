@@ -15,6 +15,7 @@ from drillctl.viewmodel.choices import MOST_ORDER_SECONDS, PIN_PLACES, AfterEnd,
 
 MAX_MM = 10_000.0  # ten metres: beyond any machine, so a number like that is a slip
 FilePath = Annotated[str, msgspec.Meta(min_length=1, pattern=r"\A[^\x00]*\Z")]  # no argument of a program has a NUL
+PathOrRows = Annotated[str, msgspec.Meta(min_length=1)]  # beside a list msgspec 0.22 frees a pattern wrongly
 Millimetres = Annotated[float, msgspec.Meta(ge=-MAX_MM, le=MAX_MM)]
 OrderSeconds = Annotated[float, msgspec.Meta(ge=0, le=MOST_ORDER_SECONDS)]
 OrderSteps = Annotated[int, msgspec.Meta(ge=0, le=2**62)]
@@ -86,7 +87,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     mirror: Mirror | None = None
     rotate_deg: float = 0.0
     offset_mm: tuple[float, float] = (0.0, 0.0)
-    align: FilePath | tuple[MeasuredHole, ...] | None = None
+    align: PathOrRows | tuple[MeasuredHole, ...] | None = None
     panel: PanelOf | None = None
     pins: PinsOf | None = None
     order: Order = "file"
