@@ -1,5 +1,6 @@
 """Runs a job for another program: on the simulated machine, as fast as it goes."""
 
+import signal
 from collections.abc import Mapping
 from math import inf
 from typing import Any
@@ -40,7 +41,9 @@ def run(
     tick_hz  interrupt frequency in Hz in place of the machine's own
     trace    False keeps no record of the ticks: only outcome and holes; takes less memory
 
-    A fault of the machine is no error: ``Run.fault`` has it. Raises Refused for what can't be run at all.
+    A fault of the machine is no error: ``Run.fault`` has it. Raises Refused for what can't be run at all, as is a run
+    of more than 100,000,000 ticks (3,000,000 on the dynamic plant) with its record. Ctrl-C brings the machine to a
+    stop first.
 
     >>> import drillctl
     >>> moved = drillctl.run(["KMD_GOTOdXdY 30 0", "KMD_GOTOdXdY 0 -10"])
@@ -54,7 +57,10 @@ def run(
     running = RunSettings(traced=trace, plant=choice)
     taped = trace and in_batches(running) and made.machine.cards <= MOST_CARDS
     running = RunSettings(traced=trace, plant=choice, taped=taped)
-    return Run(made, choice, Session(made, running).run(_unwatched))
+    done = Run(made, choice, Session(made, running).run(_unwatched))
+    if done.result.signal is not None:
+        signal.raise_signal(done.result.signal)  # the machine stands: now the caller's own handler has it
+    return done
 
 
 def _written(faults: object) -> tuple[str, ...]:

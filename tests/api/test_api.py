@@ -1,6 +1,7 @@
 """What a script or a notebook sees: the names, the shapes, the errors, and how little an import costs."""
 
 import doctest
+import signal
 import subprocess
 import sys
 import threading
@@ -12,6 +13,8 @@ import pytest
 
 import drillctl
 from drillctl.api import PUBLIC
+from drillctl.jobs.interrupts import caught
+from drillctl.viewmodel.records import Progress
 
 BOARD = Path(__file__).resolve().parent.parent.parent / "examples" / "blinker.drl"
 MODULES = sorted({*PUBLIC.values()})
@@ -126,6 +129,26 @@ def test_runs_in_a_thread_too() -> None:
     thread.start()
     thread.join(60)
     assert ticks == [drillctl.estimate("KMD_GOTOdXdY 30 0").ticks]
+
+
+def test_ctrl_c_reaches_the_script_when_the_machine_stands(monkeypatch: pytest.MonkeyPatch) -> None:
+    def pressed(progress: Progress) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("drillctl.api.runs._unwatched", pressed)
+    with pytest.raises(KeyboardInterrupt):
+        drillctl.run("KMD_GOTOdXdY 30 0")
+    own: list[int] = []
+    with caught(lambda number, frame: own.append(number)):
+        assert drillctl.run("KMD_GOTOdXdY 30 0").outcome.interrupted
+    assert own and set(own) == {signal.SIGINT}
+
+
+def test_a_script_ends_soundly_where_memory_is_checked() -> None:
+    """Python's checks of its memory find what a compiled library frees wrongly; else it ends a script at times."""
+    script = f"import drillctl; drillctl.run({str(BOARD)!r}, order='nearest', align=[(0, 0, 0, 0), (9, 0, 9, 0)])"
+    done = subprocess.run([sys.executable, "-X", "dev", "-c", script], capture_output=True, check=False, timeout=100)
+    assert (done.returncode, done.stderr[:200]) == (0, b"")
 
 
 def test_the_script_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
