@@ -176,8 +176,8 @@ plt.savefig("lost.png")
 ```
 
 In pytest the same functions are in the fixture `drill`, which every test of a repository has where drillctl is
-installed; files are looked for beside the test, and two runs that are compared are told apart by the first tick that
-differs:
+installed (its type: `drillctl.api.fixture.Drill`); files are looked for beside the test, and two runs that are
+compared are told apart by the first tick that differs:
 
 ```python
 def test_the_head_comes_up_again(drill):

@@ -47,13 +47,15 @@ __all__ = [
 ]  # fmt: skip
 
 
-def __getattr__(name: str) -> object:
-    """Loads a public name. Raises AttributeError for one that is not public."""
-    if name.startswith("_"):  # asked for by every importer of a package
-        raise AttributeError(f"module 'drillctl' has no attribute {name!r}")
-    from drillctl.api import load
+if not TYPE_CHECKING:  # else a type checker would take any name for one that is there
 
-    return load(name)
+    def __getattr__(name: str) -> object:
+        """Loads a public name. Raises AttributeError for one that is not public."""
+        if name.startswith("_"):  # asked for by every importer of a package
+            raise AttributeError(f"module 'drillctl' has no attribute {name!r}")
+        from drillctl.api import load
+
+        return load(name)
 
 
 def __dir__() -> list[str]:

@@ -4,16 +4,20 @@ Rule: what can't be meant is refused by the name of the argument, with what is e
 """
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drillctl.language import Message, Refusal
 
 NUMBERS = (int, float, np.integer, np.floating)
+Whole = SupportsIndex  # as type checkers see a number of Python or of numpy
+Wholes = Sequence[int] | NDArray[np.integer[Any]]
+Reals = Sequence[float] | NDArray[np.integer[Any]] | NDArray[np.floating[Any]]
 
 
 def path_of(given: object, what: str = "file") -> Path:

@@ -62,6 +62,7 @@ def explain(left: Run, right: Run) -> list[str]:
     """Returns why two runs are not equal, line by line: what pytest shows below ``assert run == other``."""
     found = first_difference(left.trace, right.trace)
     if found is None:
-        return ["the runs differ in their machines", f"{left.machine.name} and {right.machine.name}"]
+        told = (f"{run.machine.name} {run.machine.digest}" for run in (left, right))
+        return ["the same in every tick, but by other tables", " and ".join(told)]
     shown = render(found, wire_names(left.machine))
     return ["the runs differ (the left one is taken as recorded)", *shown.splitlines()]

@@ -5,8 +5,9 @@ from os import PathLike
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drillctl.api.arguments import path_of, unexpected
+from drillctl.api.arguments import Whole, path_of, unexpected
 from drillctl.api.machines import DEFAULT, library_of, machine_of
 from drillctl.api.options import check_choice, setup_of
 from drillctl.generation.drillfile import DrillFile, DrillFileError, read
@@ -20,11 +21,11 @@ from drillctl.machine import Machine
 from drillctl.replay.compare import Verdict, replay
 from drillctl.viewmodel.records import Estimate
 
-Source = str | PathLike[str] | Sequence[str] | Job
+Source = str | PathLike[str] | Sequence[str] | NDArray[np.str_] | Job
 MachineGiven = Machine | str | PathLike[str]
 
 
-def job(source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: int | None = None, **options: Any) -> Job:
+def job(source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: Whole | None = None, **options: Any) -> Job:
     """Returns what is to be run, made for a machine.
 
     source   a file as ``drillctl run`` takes it (a path), or the commands themselves: a string each in a list or tuple,
@@ -53,7 +54,7 @@ def job(source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: int | None 
 
 
 def estimate(
-    source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: int | None = None, **options: Any
+    source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: Whole | None = None, **options: Any
 ) -> Estimate:
     """Returns how long a job takes on the ideal plant, to the tick: ``ticks``, ``tick_hz``, ``holes_total``,
     ``tools``, and ``fault`` where it would end in one. Arguments as of ``job``. Raises Refused.

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from os import PathLike, fsdecode
 from typing import Any
 
-from drillctl.api.arguments import named, path_of, plain, unexpected, whole
+from drillctl.api.arguments import Whole, named, path_of, plain, unexpected, whole
 from drillctl.language import Message
 from drillctl.machine import Library, Machine, TableError
 from drillctl.machine.edited import edited
@@ -27,7 +27,7 @@ def load_machine(
     name: str | PathLike[str] = DEFAULT,
     *,
     tables: str | PathLike[str] | None = None,
-    tick_hz: int | None = None,
+    tick_hz: Whole | None = None,
     changes: Mapping[str, Any] | None = None,
 ) -> Machine:
     """Returns a machine by its name, or by its file (``.toml``); checked, complete, immutable.
@@ -56,7 +56,7 @@ def load_machine(
     return _at_rate(found, tick_hz)
 
 
-def machine_of(given: Machine | str | PathLike[str], tick_hz: int | None = None) -> Machine:
+def machine_of(given: Machine | str | PathLike[str], tick_hz: Whole | None = None) -> Machine:
     """Returns a machine that is given itself, by name or by file; at another rate where one is given."""
     return _at_rate(given if isinstance(given, Machine) else load_machine(given), tick_hz)
 
@@ -69,7 +69,7 @@ def library_of(tables: str | PathLike[str] | None) -> Library:
     return Library.standard(folder)
 
 
-def _at_rate(machine: Machine, tick_hz: int | None) -> Machine:
+def _at_rate(machine: Machine, tick_hz: Whole | None) -> Machine:
     """The machine at this interrupt frequency. Raises Refused for one that no machine may have."""
     if tick_hz is None:
         return machine

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from math import inf
 from typing import Any
 
-from drillctl.api.arguments import decimals, named, number, whole
+from drillctl.api.arguments import Whole, decimals, named, number, whole
 from drillctl.api.jobs import MachineGiven, Source, job
 from drillctl.api.machines import DEFAULT
 from drillctl.api.result import Run
@@ -26,8 +26,8 @@ def run(
     *,
     plant: str = "ideal",
     faults: Mapping[str, float] | None = None,
-    seed: int = 0,
-    tick_hz: int | None = None,
+    seed: Whole = 0,
+    tick_hz: Whole | None = None,
     trace: bool = True,
     **options: Any,
 ) -> Run:

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.api.arguments import named, number, path_of, several, whole
+from drillctl.api.arguments import Reals, Wholes, named, number, path_of, several, whole
 from drillctl.api.jobs import MachineGiven, job
 from drillctl.api.machines import DEFAULT, machine_of
 from drillctl.lab.answers import chunks, head
@@ -31,12 +31,12 @@ def sweep(
     machine: MachineGiven = DEFAULT,
     *,
     axis: str | None = None,
-    hz: Sequence[int] | None = None,
-    ramp: Sequence[str] | None = None,
-    phase: Sequence[str] | None = None,
-    vary: Mapping[str, Sequence[float]] | None = None,
-    load_nm: Sequence[float] = (0.0,),
-    steps: Sequence[int] = (1, 10, 100),
+    hz: Wholes | None = None,
+    ramp: str | Sequence[str] | None = None,
+    phase: str | Sequence[str] | None = None,
+    vary: Mapping[str, Reals] | None = None,
+    load_nm: Reals = (0.0,),
+    steps: Wholes = (1, 10, 100),
     board: str | PathLike[str] | None = None,
     draws: int = 1,
     spread: float = 0.0,
