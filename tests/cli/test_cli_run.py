@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.vcd_reader import vcdvcd_read
+
 Drillctl = Callable[..., "subprocess.CompletedProcess[str]"]
 HALF_STEP_MM = 25.4 / 1200 / 2 + 0.00006  # and the rounding to four decimals
 HOLES_MM = [(1, 0.8, 10.16, 30.48), (1, 0.8, 29.21, 30.48), (2, 1.0, 16.51, 52.07)]
@@ -102,9 +104,8 @@ def test_a_trace_replays_the_same(drillctl: Drillctl, folder: Path) -> None:
 
 
 def test_a_vcd_can_be_read(drillctl: Drillctl, folder: Path) -> None:
-    vcdvcd = pytest.importorskip("vcdvcd")
     done = drillctl("run", "hole.kmd", "--vcd", "h.vcd", "--json")
-    vcd = vcdvcd.VCDVCD(str(folder / "h.vcd"))
+    vcd = vcdvcd_read(vcd_path=str(folder / "h.vcd"))
     assert vcd.timescale["magnitude"] == 1 and vcd.timescale["unit"] == "ms"
     position = next(name for name in vcd.signals if name.startswith("x.position"))
     assert int(vcd[position].tv[-1][1], 2) == json.loads(done.stdout)["position"]["x"] == 100

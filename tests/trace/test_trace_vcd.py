@@ -2,7 +2,6 @@
 
 import io
 import shutil
-import signal
 import subprocess
 from fractions import Fraction
 from pathlib import Path
@@ -16,6 +15,7 @@ from vcd import VCDWriter
 
 from drillctl.trace import Recorder, Signal, Trace, VcdVar, dense, stretches, vcd_compiled, vcd_lines, vcd_pages
 from drillctl.trace.vcd import write_vcd, write_vcd_run
+from tests.support.vcd_reader import vcdvcd_read
 
 LAYOUT = (
     VcdVar("x", "1a", "wire", "out.0", bit=0),
@@ -91,15 +91,6 @@ def test_a_page_at_a_time_is_the_same_file_as_a_change_at_a_time(
     assert vcd_of(trace, WIDE) == written_change_by_change(trace, WIDE)
 
 
-def read_back(text: str) -> Any:
-    """The file as vcdvcd understands it. Its import resets a process-wide signal, which is put back here."""
-    before = signal.getsignal(signal.SIGPIPE)
-    from vcdvcd import VCDVCD
-
-    signal.signal(signal.SIGPIPE, before)
-    return VCDVCD(vcd_string=text)
-
-
 def changes(vcd: Any, name: str) -> list[tuple[int, int]]:
     """Times and values of a wire or (in two's complement) an integer, as the other reader found them."""
     values = [(time, int(bits, 2)) for time, bits in vcd[name].tv]
@@ -114,7 +105,7 @@ def at_rate(tick_hz: int, end: int = 7) -> Trace:
 
 @pytest.mark.usefixtures("form")
 def test_values_as_an_independent_reader_finds_them(trace: Trace) -> None:
-    vcd = read_back(vcd_of(trace))
+    vcd = vcdvcd_read(vcd_string=vcd_of(trace))
     assert changes(vcd, "x.1a") == [(0, 0), (12, 1)]
     assert changes(vcd, "x.24a") == [(0, 0), (12, 1), (20, 0)]
     assert changes(vcd, "x.position") == [(0, 0), (12, -1), (20, -2)]
@@ -262,7 +253,7 @@ def test_gtkwave_takes_it_and_gives_it_back(trace: Trace, tmp_path: Path) -> Non
     write_vcd(trace, source, LAYOUT)
     run("vcd2fst", str(source), str(fst))
     run("fst2vcd", "-f", str(fst), "-o", str(back))
-    ours, theirs = read_back(source.read_text()), read_back(back.read_text())
+    ours, theirs = vcdvcd_read(vcd_string=source.read_text()), vcdvcd_read(vcd_string=back.read_text())
     for var in LAYOUT:
         if var.kind != "string":
             name = f"{var.scope}.{var.name}"
