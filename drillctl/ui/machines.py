@@ -7,7 +7,7 @@ ui/models and ui/widgets, and nothing of the program around it; the program reac
 from collections.abc import Sequence
 
 from drillctl.ui.boiler_drum import BOILER_DRUM
-from drillctl.ui.eight_axis import MACHINE, MachineScreen
+from drillctl.ui.eight_axis import MACHINE, machine_screen
 from drillctl.ui.pcb_drill import PCB_DRILL
 from drillctl.ui.screens.shell import MachineScreens
 from drillctl.viewmodel.console import MachineView
@@ -17,7 +17,7 @@ FILES, DRILLING, *OTHERS = PCB_DRILL.menus
 EIGHT_AXIS = PCB_DRILL._replace(
     recognises=lambda view: view.production,
     menus=(FILES, DRILLING._replace(items=(*DRILLING.items, MACHINE)), *OTHERS),
-    makers={**PCB_DRILL.makers, "drilling": MachineScreen},
+    makers={**PCB_DRILL.makers, "drilling": machine_screen},
 )
 FAMILIES = (BOILER_DRUM, EIGHT_AXIS, PCB_DRILL)  # asked from the first on; the last takes every machine
 

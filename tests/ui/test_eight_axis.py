@@ -10,9 +10,8 @@ from msgspec.structs import replace
 from drillctl.language import Message, words
 from drillctl.machine.library import user_tables
 from drillctl.machine.parameter_table import GROUPS, PARAMETERS
-from drillctl.ui.eight_axis import MachineScreen
 from drillctl.ui.eight_axis.lines import coordinate_lines, magazine_lines, tool_in_use, tool_lines, work_lines
-from drillctl.ui.eight_axis.machine import BUTTONS
+from drillctl.ui.eight_axis.machine import BUTTONS, MachineScreen
 from drillctl.ui.eight_axis.parameters import ParameterForm
 from drillctl.ui.widgets.texts import Line
 from drillctl.viewmodel.job_options import JobOptions

@@ -1,5 +1,7 @@
 """The screens of a family of machines: chosen by what a machine has, and closed against the program and each other."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -51,6 +53,14 @@ def test_the_verbs_output_and_the_program_on_the_screen_know_nothing_of_each_oth
         assert into(imports_of(file), closed) == []
     for module in ROOT_MODULES:
         assert into(imports_of(UI / f"{module}.py"), ["terminal"]) == []
+
+
+def test_no_familys_screen_is_imported_before_it_is_opened() -> None:
+    """The first frame shows one of them, of the family that the machine belongs to."""
+    ask = "import sys, drillctl.ui.app; print(*(name for name in sys.modules if name.startswith('drillctl.ui.')))"
+    loaded = subprocess.run([sys.executable, "-c", ask], capture_output=True, text=True, check=True).stdout.split()
+    screens = {"boiler_drum.panel", "eight_axis.machine", "pcb_drill.drilling", "pcb_drill.files"}
+    assert "drillctl.ui.machines" in loaded and not screens & {name.removeprefix("drillctl.ui.") for name in loaded}
 
 
 def test_every_familys_menus_lead_to_screens_that_it_has() -> None:

@@ -19,7 +19,7 @@ from drillctl.language import words
 from drillctl.machine import Library, shipped_tables
 from drillctl.ticker.launch import RunSettings
 from drillctl.ui import app, background
-from drillctl.ui.eight_axis import MachineScreen
+from drillctl.ui.eight_axis.machine import MachineScreen
 from drillctl.viewmodel.console import Problems, Watch
 from drillctl.viewmodel.job_options import JobOptions
 from tests.ui.fake_console import Paper

@@ -7,19 +7,28 @@
     program_list.py the program with its sentence in work  wall.py         the drum wall with its row of holes
     menus.py       the menus Program and Operation         next_step.py    what the machine waits for
 
-BOILER_DRUM is the row of ui/machines.py.
+BOILER_DRUM is the row of ui/machines.py. The screen is imported when it is first made.
 """
+
+import urwid
 
 from drillctl.language.words import N_
 from drillctl.ui.boiler_drum.menus import MENUS
 from drillctl.ui.boiler_drum.next_step import next_step
-from drillctl.ui.boiler_drum.panel import Panel
-from drillctl.ui.screens.shell import MachineScreens
+from drillctl.ui.screens.shell import MachineScreens, Shell
+from drillctl.viewmodel.console import Console
+
+
+def _panel(console: Console, shell: Shell, plain: bool) -> urwid.Widget:
+    from drillctl.ui.boiler_drum.panel import Panel
+
+    return Panel(console, shell, plain)
+
 
 BOILER_DRUM = MachineScreens(
     recognises=lambda view: view.stores,
     menus=MENUS,
-    makers={"panel": Panel},
+    makers={"panel": _panel},
     first="panel",
     at_start=lambda console, shell: False,
     next_step=next_step,

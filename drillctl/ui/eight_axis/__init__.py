@@ -5,9 +5,20 @@
     parameters.py  the form of a group of parameters                   menus.py     the menu Machine
 
 Such a machine drills boards, and has the other screens and menus of those that do: ui/machines.py puts them together.
+The screen is imported when it is first made.
 """
 
-from drillctl.ui.eight_axis.machine import MachineScreen
-from drillctl.ui.eight_axis.menus import MACHINE
+import urwid
 
-__all__ = ["MACHINE", "MachineScreen"]
+from drillctl.ui.eight_axis.menus import MACHINE
+from drillctl.ui.screens.shell import Shell
+from drillctl.viewmodel.console import Console
+
+__all__ = ["MACHINE", "machine_screen"]
+
+
+def machine_screen(console: Console, shell: Shell, plain: bool) -> urwid.Widget:
+    """Makes the first screen."""
+    from drillctl.ui.eight_axis.machine import MachineScreen
+
+    return MachineScreen(console, shell, plain)

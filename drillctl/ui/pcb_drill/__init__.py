@@ -13,20 +13,34 @@
     examples.py    the example boards and the lab sheets
     menus.py       the menus Files and Drilling
 
-PCB_DRILL is the row of ui/machines.py.
+PCB_DRILL is the row of ui/machines.py. Each screen is imported when it is first made.
 """
 
-from drillctl.ui.pcb_drill.drilling import Drilling
-from drillctl.ui.pcb_drill.files import Files
+import urwid
+
 from drillctl.ui.pcb_drill.menus import MENUS
 from drillctl.ui.screens.board_steps import next_step
-from drillctl.ui.screens.shell import MachineScreens
+from drillctl.ui.screens.shell import MachineScreens, Shell
 from drillctl.ui.screens.unfinished import offer_unfinished
+from drillctl.viewmodel.console import Console
+
+
+def _drilling(console: Console, shell: Shell, plain: bool) -> urwid.Widget:
+    from drillctl.ui.pcb_drill.drilling import Drilling
+
+    return Drilling(console, shell, plain)
+
+
+def _files(console: Console, shell: Shell, plain: bool) -> urwid.Widget:
+    from drillctl.ui.pcb_drill.files import Files
+
+    return Files(console, shell, plain)
+
 
 PCB_DRILL = MachineScreens(
     recognises=lambda view: True,
     menus=MENUS,
-    makers={"drilling": Drilling, "files": Files},
+    makers={"drilling": _drilling, "files": _files},
     first="drilling",
     at_start=offer_unfinished,
     next_step=next_step,

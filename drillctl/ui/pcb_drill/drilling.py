@@ -10,7 +10,6 @@ import urwid
 from drillctl.language.words import N_
 from drillctl.ui.pcb_drill.drilling_windows import DrillingWindows
 from drillctl.ui.pcb_drill.examples import offer_examples
-from drillctl.ui.pcb_drill.files import Files
 from drillctl.ui.screens.board_controls import BOARD_KEYS, BoardControls
 from drillctl.ui.screens.jog_controls import JOG_KEYS
 from drillctl.ui.screens.shell import Shell
@@ -60,6 +59,8 @@ class Drilling(BoardControls, urwid.WidgetWrap[urwid.Widget]):
 
     def _load_example(self, file: Path) -> None:
         """Loads a board as the Files screen does, which then has it too."""
+        from drillctl.ui.pcb_drill.files import Files  # here alone: the first frame is quicker without it
+
         files = self._shell.show("files")
         if isinstance(files, Files):
             files.open_example(file)
