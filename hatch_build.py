@@ -18,7 +18,8 @@ except ModuleNotFoundError:  # run by hand
     BuildHookInterface = object
 
 LOCALE = "drillctl/locale"
-LOOPS = ("drillctl/plant/dynamic/law", "drillctl/trace/vcd_lines")  # each .py, and the .pxd with its C types
+# Each .py, and the .pxd with its C types; one that calls another stands behind it.
+LOOPS = ("drillctl/plant/dynamic/motors", "drillctl/plant/dynamic/law", "drillctl/trace/vcd_lines")
 # No contraction of a product and a sum into one rounding, and no fast-math: the plain form rounds each.
 FLAGS = ["-O2", "-ffp-contract=off"]
 DIRECTIVES = {
@@ -40,13 +41,14 @@ class CompilingHook(BuildHookInterface):  # type: ignore[misc]
             build_data["force_include"][str(catalogue)] = str(catalogue.relative_to(self.root))
         if os.environ.get("DRILLCTL_KERNEL") == "plain":
             return
-        for loop in (Path(self.root, each) for each in LOOPS):
-            for old in loop.parent.glob(f"_{loop.name}.*"):
+        for loop in LOOPS:
+            name = Path(loop).name
+            for old in Path(self.root, loop).parent.glob(f"_{name}.*"):
                 old.unlink()
             try:
-                built = build(loop)
+                built = build(Path(self.root), loop)
             except (Exception, SystemExit) as error:  # whatever a compiler's tools may raise: the package works without
-                print(f"drillctl: {loop.name} runs uncompiled: {error}", file=sys.stderr)
+                print(f"drillctl: {name} runs uncompiled: {error}", file=sys.stderr)
                 continue
             build_data["pure_python"], build_data["infer_tag"] = False, True
             build_data["force_include"][str(built)] = str(built.relative_to(self.root))
@@ -76,25 +78,37 @@ def compiled_catalogues(root: Path) -> list[Path]:
     return made
 
 
-def build(loop: Path) -> Path:
-    """Compiles the module ``loop`` (a path without suffix) into _NAME beside it; returns its file."""
+def build(root: Path, loop: str) -> Path:
+    """Compiles one of LOOPS of the tree ``root`` into _NAME beside it; returns its file."""
     from Cython.Build import cythonize
     from setuptools import Distribution, Extension
     from setuptools.command.build_ext import build_ext
 
-    name = f"_{loop.name}"
     with tempfile.TemporaryDirectory() as scratch:
-        module = Path(scratch, f"{name}.py")
-        module.write_text(f'{loop.with_suffix(".py").read_text()}\nDIGEST = "{_digest(loop)}"\n')
-        shutil.copy(loop.with_suffix(".pxd"), Path(scratch, f"{name}.pxd"))
-        extension = Extension(name, [str(module)], extra_compile_args=FLAGS)
-        modules = cythonize([extension], compiler_directives=DIRECTIVES, build_dir=scratch, quiet=True)
+        sources = {each: _copied(root, each, Path(scratch)) for each in LOOPS}
+        name = ".".join(sources[loop].relative_to(scratch).with_suffix("").parts)
+        extension = Extension(name, [str(sources[loop])], extra_compile_args=FLAGS)
+        modules = cythonize(
+            [extension], compiler_directives=DIRECTIVES, include_path=[scratch], build_dir=scratch, quiet=True
+        )
         command = build_ext(Distribution({"ext_modules": modules}))
         command.build_lib = command.build_temp = scratch
         command.ensure_finalized()
         command.run()
         made = Path(command.get_ext_fullpath(name))
-        return Path(shutil.copy(made, loop.parent / made.name))
+        return Path(shutil.copy(made, Path(root, loop).parent / made.name))
+
+
+def _copied(root: Path, loop: str, scratch: Path) -> Path:
+    """Copies a module as _NAME, with its digest, into its package below ``scratch``, where others find its C types."""
+    source = root / loop
+    target = (scratch / loop).with_name(f"_{source.name}.py")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    for package in target.relative_to(scratch).parents:
+        (scratch / package / "__init__.py").touch()
+    target.write_text(f'{source.with_suffix(".py").read_text()}\nDIGEST = "{_digest(source)}"\n')
+    shutil.copy(source.with_suffix(".pxd"), target.with_suffix(".pxd"))
+    return target
 
 
 def _digest(loop: Path) -> str:
@@ -106,4 +120,4 @@ def _digest(loop: Path) -> str:
 
 if __name__ == "__main__":  # in a clone, after a catalogue or a loop was changed: python hatch_build.py
     print(*compiled_catalogues(Path(__file__).parent), sep="\n")
-    print(*(build(Path(__file__).parent / loop) for loop in LOOPS), sep="\n")
+    print(*(build(Path(__file__).parent, loop) for loop in LOOPS), sep="\n")

@@ -16,7 +16,7 @@ from drillctl.machine.motor import Motor
 from drillctl.machine.phase import Name, PhaseTable
 from drillctl.machine.source import Source
 
-KINDS = ("unipolar", "reluctance", "drive")  # in the order of plant/dynamic/law.py
+KINDS = ("unipolar", "reluctance", "drive")  # in the order of plant/dynamic/motors.py
 # The half windings of a unipolar motor, by their electrical degrees: the order of the plant's currents.
 WINDING_DEGREES = (0, 180, 270, 90)
 # The keys that a kind must have, and that no kind without them may have.

@@ -135,12 +135,14 @@ class Surroundings:
     scatter_mm       standard deviation of where a sensor answers
     thrust_n         thrust that a sharp drill needs to advance in the board
     thrust_growth    by which part of that it grows with each metre of board drilled
+    bears_n          thrust beyond which the bit in a chuck breaks; 0: none breaks it
     spindle_rev_min_s  by how many rev/min the spindle's speed changes in a second, at most
     """
 
     scatter_mm: float = 0.0
     thrust_n: float = 0.0
     thrust_growth: float = 0.0
+    bears_n: float = 0.0
     spindle_rev_min_s: float = 20_000.0
 
 

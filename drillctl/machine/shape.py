@@ -173,6 +173,7 @@ class PlantPart(Strict, frozen=True):
     scatter_mm: Annotated[float, msgspec.Meta(ge=0, le=1)] = 0
     thrust_n: Annotated[float, msgspec.Meta(ge=0, le=10_000)] = 0
     thrust_growth: Annotated[float, msgspec.Meta(ge=0, le=1000)] = 0
+    bears_n: Annotated[float, msgspec.Meta(ge=0, le=10_000)] = 0
     spindle_rev_min_s: Annotated[float, msgspec.Meta(gt=0, le=10_000_000)] = 20_000
 
 

@@ -115,11 +115,13 @@ class Plant:
         """Returns where a carriage is, in millimetres from machine zero."""
         return self.position_steps(axis) / self._steps_per_mm[axis]
 
-    def _switch_chucks(self, before: int, image: int) -> None:
-        """Opens and closes the chucks whose outputs differ between two output images."""
-        if (before ^ image) & self.chucks.outputs:
-            self.chucks.switch(before, image, self.place_mm)
-            self.inputs = self.chucks.shown(self.inputs)
+    def _switch_chucks(self, before: int, image: int) -> bool:
+        """Opens and closes the chucks whose outputs differ between two output images; returns whether any did."""
+        if not (before ^ image) & self.chucks.outputs:
+            return False
+        self.chucks.switch(before, image, self.place_mm)
+        self.inputs = self.chucks.shown(self.inputs)
+        return True
 
     def _carry(self, index: int) -> None:
         steps = self.position_steps(index)

@@ -57,7 +57,11 @@ class Chuck:
         """Its bit has met the board."""
         self.holes += 1
         if self.holes == self.breaks_at:
-            self.short_steps = PIECE_MM * self.steps_per_mm
+            self.break_off()
+
+    def break_off(self) -> None:
+        """Its bit breaks."""
+        self.short_steps = PIECE_MM * self.steps_per_mm
 
 
 class Chucks:

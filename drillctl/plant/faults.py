@@ -37,6 +37,7 @@ FAULT_KINDS = {
     "loose": FaultKind("axis", 0, 20, Message("mm of play in the belt")),
     "jammed": FaultKind("axis", 1, 1000, Message("friction of the guide, N times the table's")),
     "blunt": FaultKind("", 0, 1000, Message("metres of board that the drill has cut already")),
+    "worn": FaultKind("head", 0, 1000, Message("metres of board that its bit has cut already, instead of blunt")),
     "broken": FaultKind("", 1, 1, Message("the drill is off and meets no board")),
     "breaks": FaultKind("head", 1, 1_000_000, Message("its bit breaks when it meets the board for the N-th time")),
     "missing": FaultKind("head", 1, 999, Message("place N of the magazine has no bit for its spindle")),

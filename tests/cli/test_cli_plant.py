@@ -100,4 +100,4 @@ def test_what_is_refused_before_anything_moves(arguments: tuple[str, ...], reaso
 
 def test_the_faults_are_listed(drillctl: Drillctl) -> None:
     done = drillctl("run", "hole.kmd", "--fault", "list")
-    assert done.returncode == 0 and len(done.stdout.splitlines()) == 10
+    assert done.returncode == 0 and len(done.stdout.splitlines()) == 11

@@ -14,7 +14,7 @@ from drillctl.generation.job import names_of
 from drillctl.kmd import Fault, Op, Queue, parse_program
 from drillctl.machine import Library, Machine, shipped_tables
 from drillctl.plant import PlantChoice
-from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic import law, motors
 from drillctl.plant.dynamic.coefficients import Coefficients
 from drillctl.plant.dynamic.kernel import KERNEL
 from drillctl.plant.dynamic.plant import DynamicPlant
@@ -51,10 +51,10 @@ def twins(machine: Machine, choice: PlantChoice, text: str, asked: Disturbances,
 
 def physics(ticker: Ticker) -> list[object]:
     assert isinstance(ticker.plant, DynamicPlant)
-    rows, wear = list(ticker.plant._rows), list(ticker.plant._bit.columns)
+    rows, wear = list(ticker.plant._rows), list(ticker.plant._bits.columns)
     for axis in range(len(ticker.plant.motors)):
         rows[axis * law.ROW + law.MOVED] = 0.0  # of the last tick, which may have been left out
-    return [rows, wear[: law.LEFT], wear[law.HOLE :]]
+    return [rows, wear[law.FIRST :]]
 
 
 def forgotten(told: dict[str, object]) -> dict[str, object]:
@@ -153,4 +153,4 @@ def test_drilling_ends_in_time_within_a_stretch() -> None:
 
 
 def test_the_rows_hold_every_coefficient() -> None:
-    assert all(hasattr(law, field.name.upper()) for field in fields(Coefficients))
+    assert all(hasattr(motors, field.name.upper()) for field in fields(Coefficients))

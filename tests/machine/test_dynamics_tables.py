@@ -63,7 +63,8 @@ def test_they_leave_the_digest(table: str, changed: Change) -> None:
 
 
 def test_what_surrounds_the_motors_is_read(changed: Change) -> None:
-    assert astuple(changed(DRILL, "scatter_mm = 0.01", "scatter_mm = 0.02").surroundings) == (0.02, 3, 1.5, 20_000)
+    found = changed(DRILL, "scatter_mm = 0.01", "scatter_mm = 0.02\nbears_n = 9").surroundings
+    assert astuple(found) == (0.02, 3, 1.5, 9, 20_000)
 
 
 @pytest.mark.parametrize(

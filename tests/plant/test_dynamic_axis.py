@@ -7,7 +7,7 @@ import pytest
 
 from drillctl.lab.moves import move
 from drillctl.machine import AxisTable, Dynamics, Library, shipped_tables
-from drillctl.plant.dynamic import law as columns
+from drillctl.plant.dynamic import motors as columns
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import SUBSTEPS, coefficients
 from drillctl.plant.dynamic.rotor import DynamicRotor, rest_cycles, wires_of

@@ -156,8 +156,8 @@ def down(machine: Machine, *faults: str) -> tuple[DynamicPlant, float]:
 
 def test_a_sharp_drill_goes_through_and_wears_by_what_it_cuts(exact: Machine) -> None:
     plant, place = down(exact)
-    assert place == pytest.approx(780, abs=2) and plant.touches == 1 and plant.bit is not None
-    assert plant.bit.wear_m == pytest.approx((place - 600) / exact.axes[2].steps_per_mm / 1000, rel=0.05)
+    assert place == pytest.approx(780, abs=2) and plant.touches == 1
+    assert plant.bits[0].wear_m == pytest.approx((place - 600) / exact.axes[2].steps_per_mm / 1000, rel=0.05)
 
 
 def test_a_blunt_drill_stalls_z_in_the_board(exact: Machine) -> None:
@@ -173,14 +173,13 @@ def test_a_head_that_turns_the_other_way_round_is_stalled_as_well(exact: Machine
 
 def test_a_broken_drill_meets_no_board(exact: Machine) -> None:
     plant, place = down(exact, "blunt=3", "broken=1")
-    assert place == pytest.approx(780, abs=2) and plant.touches == 0 and plant.bit is None
+    assert place == pytest.approx(780, abs=2) and plant.touches == 0 and not plant.bits
 
 
 def test_a_hole_that_is_made_resists_no_more_and_another_place_does(exact: Machine) -> None:
     """A bit just sharp enough wears once a hole, however often it goes in."""
     shaft = Shaft(exact, "z")
-    bit = shaft.plant.bit
-    assert bit is not None
+    (bit,) = shaft.plant.bits
     worn = []
     for axis, steps in (("z", 780), ("z", -700), ("z", 690), ("z", -760), ("x", 60), ("z", 770)):
         shaft.index = exact.axis_names.index(axis)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from drillctl.files import compiled
 from drillctl.lab.moves import move
 from drillctl.machine import Library, shipped_tables
-from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic import law, motors
 from drillctl.plant.dynamic.kernel import KERNEL, PLAIN, Kernel
 from drillctl.plant.dynamic.plant import DynamicPlant
 
@@ -21,7 +21,7 @@ FAULTS = ((), ("blunt=3",), ("broken=1",), ("loose.x=0.4", "jammed.z=3"), ("boun
 MOST_TICKS = 2500  # of a move: the drum's ticks are fine
 NEEDS_COMPILED = pytest.mark.skipif(not KERNEL.compiled, reason="the law is not compiled here (hatch_build.py)")
 
-moves = st.lists(st.tuples(st.integers(0, 2), st.integers(1, 25), st.booleans()), min_size=1, max_size=3)
+moves = st.lists(st.tuples(st.integers(0, 7), st.integers(1, 25), st.booleans()), min_size=1, max_size=3)
 
 
 def images_of(machine_name: str, wanted: list[tuple[int, int, bool]]) -> np.ndarray:
@@ -37,20 +37,20 @@ def images_of(machine_name: str, wanted: list[tuple[int, int, bool]]) -> np.ndar
 def state(plant: DynamicPlant) -> list[object]:
     motors = [(m.axis.currents, m.axis.speed, m.axis.cycles, m.degrees) for m in plant.motors]
     places = [plant.position_steps(axis) for axis in range(len(plant.motors))]
-    return [motors, places, plant.inputs, plant.touches, plant.image, plant.bit and plant.bit.wear_m]
+    return [motors, places, plant.inputs, plant.touches, plant.image, [bit.wear_m for bit in plant.bits]]
 
 
 @NEEDS_COMPILED
 @settings(max_examples=12)
 @given(
-    name=st.sampled_from(["pcb-drill", "pcb-drill-ramp-lab", "boiler-drum"]), faults=st.sampled_from(FAULTS),
-    wanted=moves,
+    name=st.sampled_from(["pcb-drill", "pcb-drill-ramp-lab", "boiler-drum", "eight-axis"]),
+    faults=st.sampled_from(FAULTS), wanted=moves,
 )  # fmt: skip
 def test_compiled_and_plain_give_the_same_bits(
     name: str, faults: tuple[str, ...], wanted: list[tuple[int, int, bool]]
 ) -> None:
     images = images_of(name, wanted)
-    faults = () if name == "boiler-drum" else faults  # it has no axis z
+    faults = faults if name.startswith("pcb-drill") else ()  # the others have no axis z
     plants = [DynamicPlant(LIBRARY.machine(name), faults, 3, each) for each in (KERNEL, PLAIN)]
     for image in images.tolist():
         for plant in plants:
@@ -79,9 +79,22 @@ def test_a_stretch_is_its_ticks_and_ends_where_an_input_changes(
 
 
 @NEEDS_COMPILED
-def test_a_kernel_of_another_text_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert compiled.compiled_form(law) is not None
+def test_a_kernel_of_another_text_is_not_taken_and_says_so(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert all(compiled.compiled_form(module) for module in (motors, law))
     monkeypatch.setattr(compiled, "digest", lambda name, read: "another")
+    assert not any(compiled.compiled_form(module) for module in (motors, law))
+    assert [record.levelname for record in caplog.records] == ["WARNING"] * 2
+    assert "dynamic.motors was changed since it was compiled" in caplog.text
+
+
+@NEEDS_COMPILED
+def test_a_kernel_that_was_built_beside_another_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(name: str) -> ModuleType:
+        raise TypeError(f"{name}: a C function has the wrong signature")
+
+    monkeypatch.setattr(compiled, "import_module", fail)
     assert compiled.compiled_form(law) is None
 
 
@@ -94,15 +107,16 @@ def build_hook() -> ModuleType:
     return hook
 
 
-def test_the_build_and_the_program_tell_texts_apart_alike() -> None:
+@pytest.mark.parametrize("name", ["motors", "law"])
+def test_the_build_and_the_program_tell_texts_apart_alike(name: str) -> None:
     folder = Path(law.__file__).parent
-    assert build_hook()._digest(folder / "law") == compiled.digest("law", lambda name: (folder / name).read_bytes())
+    assert build_hook()._digest(folder / name) == compiled.digest(name, lambda file: (folder / file).read_bytes())
 
 
 def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def no_compiler(loop: Path) -> Path:
+    def no_compiler(root: Path, loop: str) -> Path:
         raise SystemExit("command 'cc' failed")
 
     module = build_hook()

@@ -81,7 +81,7 @@ def test_the_fault_under_the_cursor_is_explained_at_every_size_and_all_are_where
             press(drawn, "down")
             assert drawn._at == min(at + 1, len(WORDS) - 1)
         assert all(words._(effect.cause)[-15:] in text_of(drawn, (158, 46)) for effect in EFFECTS.values())
-        press(drawn, *["up"] * 9)
+        press(drawn, *["up"] * len(WORDS))
 
 
 def test_a_refusal_of_the_other_plant_is_told() -> None:

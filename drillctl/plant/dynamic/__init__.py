@@ -1,7 +1,8 @@
 """The dynamic plant: a motor as the currents of its windings, an inertia, friction and a detent. docs/PLANT.md.
 
 coefficients.py  the equations, and the constants that a substep multiplies with
-law.py           what a tick does to motors, carriages and drill, in plain floats; law.pxd: its C types
+motors.py        what a tick does to a motor, in plain floats; motors.pxd: its C types
+law.py           the same for the whole machine: motors, carriages, bits; law.pxd: its C types
 kernel.py        which form of the law runs: compiled, or as it stands
 axis.py          one rotor, a tick at a time
 fleet.py         many variants of one rotor at once, the same to the bit (numpy; not needed to run a machine)

@@ -1,4 +1,4 @@
-"""One rotor with inertia: currents, speed and place, a tick at a time. It holds the row that law.py computes with.
+"""One rotor with inertia: currents, speed and place, a tick at a time. It holds what motors.py computes with.
 
 Rule: a rotor that a whole tick left as it was, to the bit, is not computed again until its image or its load changes.
 """
@@ -6,7 +6,7 @@ Rule: a rotor that a whole tick left as it was, to the bit, is not computed agai
 from dataclasses import fields
 from typing import Any
 
-from drillctl.plant.dynamic import law as columns
+from drillctl.plant.dynamic import motors as columns
 from drillctl.plant.dynamic.coefficients import Coefficients, Supply
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
 
@@ -16,7 +16,7 @@ _COEFFICIENTS = [(field.name, getattr(columns, field.name.upper())) for field in
 class DynamicAxis:
     """A rotor, at first at rest without currents at ``cycles``.
 
-    rows, at  where its columns are, as law.py names them
+    rows, at  where its columns are, as motors.py names them
     law       the coefficients that stand there
     """
 
@@ -24,7 +24,7 @@ class DynamicAxis:
 
     def __init__(self, law: Coefficients, cycles: float, kernel: Kernel = KERNEL):
         self._kernel = kernel
-        self.rows, self.at = kernel.numbers([0.0] * columns.ROW), 0
+        self.rows, self.at = kernel.numbers([0.0] * columns.MOTOR), 0
         self.rows[columns.CYCLES] = cycles
         self.take(law)
 
@@ -50,8 +50,8 @@ class DynamicAxis:
         return self.rows[self.at + columns.RESTING] != 0.0
 
     def move_to(self, rows: Any, at: int) -> None:
-        """Goes on in a row that lies beside those of other axes."""
-        rows[at : at + columns.ROW] = self.rows
+        """Goes on in a row that lies beside those of other axes, from ``at`` on."""
+        rows[at : at + columns.MOTOR] = self.rows
         self.rows, self.at = rows, at
 
     def take(self, law: Coefficients) -> None:

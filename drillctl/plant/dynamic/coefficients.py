@@ -27,7 +27,7 @@ forcing and true stiction added. One substep of h seconds: currents exactly for 
 friction as far as it can stop the rotor, then place (semi-implicit Euler).
 
 Rule: after this module only + - * and comparisons; constants and sines are rounded to 13 digits, so that the last
-bits of no mathematical library show. law.py has the substep for one rotor, fleet.py for many: the same to the bit.
+bits of no mathematical library show. motors.py has the substep for one rotor, fleet.py for many: the same to the bit.
 """
 
 import math
@@ -75,7 +75,7 @@ class Coefficients:
     advance   cycles by 1 rad/s
     limit     A at which a chopper holds a current; 0 without one
     spacing   cycles from a winding of a reluctance motor to the next
-    windings  how many; ``kind`` is one of law.py's
+    windings  how many; ``kind`` is one of motors.py's
 
     stiff     A by a pulse of following error, of a drive; ``damp`` A per rad/s
     trip      the following error in pulses at which a drive trips

@@ -1,54 +1,107 @@
-"""The drill in the board: how it resists the head and wears. And sensors and belts with faults.
+"""The bits in their boards: how each resists its head, wears and breaks. And sensors and belts with faults.
 
 Rule: thrust = F0 (1 + k wear), whatever the feed, while the bit is at the bottom of its hole; none in a hole that was
-drilled already, and none on the way up.
+drilled already, and none on the way up. Where the machine's file says how much a bit bears, more breaks it.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from random import Random
 from typing import Any
 
-from drillctl.machine import AxisTable, Sensor
-from drillctl.machine.model import MM_PER_INCH, Surroundings
+from drillctl.machine import AxisTable, Machine, Sensor
+from drillctl.machine.head_lines import CHUCK, head_output
+from drillctl.machine.model import MM_PER_INCH
 from drillctl.plant.carriage import Carriage, Pulses, Switch
+from drillctl.plant.chucks import Chuck, Chucks
 from drillctl.plant.dynamic import law
 from drillctl.plant.dynamic.kernel import Kernel
+from drillctl.plant.effects import Board
 from drillctl.plant.faults import Faults
 
 SAME_HOLE_MM = 0.1  # within this distance the bit is in the same hole again
 
 
-class Bit:
-    """The bit of one head, as law.py computes with it.
+class Bits:
+    """The bits of all heads, as law.py computes with them.
 
-    columns  what law.py reads and changes, and a place for each of the ``axes``
+    columns  what law.py reads and changes: what a run says of its last tick, then a row for each head
     """
 
-    def __init__(self, head: AxisTable, axes: int, surface_steps: int | None, surroundings: Surroundings,
-                 wear_m: float, kernel: Kernel):  # fmt: skip
+    def __init__(self, machine: Machine, boards: Mapping[int, Board], known_faults: Faults, kernel: Kernel):
+        axes, heads = len(machine.axes), machine.drill_axes
+        width = law.HOLE + axes
+        self.columns = kernel.numbers([0.0] * (law.FIRST + width * len(heads)))
+        self.of = tuple(
+            Bit(self.columns, law.FIRST + width * number, machine, head, boards.get(head), known_faults)
+            for number, head in enumerate(heads)
+        )
+
+    def break_off(self, chucks: Chucks) -> None:
+        """Tells the chucks which bits have broken in the last stretch."""
+        for bit in self.of:
+            bit.break_off(chucks.of(bit.axis))
+
+    def follow(self, chucks: Chucks) -> None:
+        """Takes over what has happened to the bits in their chucks, and which are in their boards."""
+        for bit in self.of:
+            bit.follow(chucks.of(bit.axis))
+
+
+class Bit:
+    """The bit of one head, by its ``axis``; in a row of Bits, which begins at ``at``."""
+
+    def __init__(
+        self, columns: Any, at: int, machine: Machine, axis: int, board: Board | None, known_faults: Faults
+    ):  # fmt: skip
+        head, around = machine.axes[axis], machine.surroundings
         assert head.dynamics is not None
         columns_per_turn = head.motor.columns_per_cycle * head.dynamics.cycles_per_turn
         lead_m = 0.001 * MM_PER_INCH * columns_per_turn / head.columns_per_inch
-        self.columns = kernel.numbers([0.0] * (law.HOLE + axes))
-        self.columns[law.MOUNTED] = float(surface_steps is not None)
-        self.columns[law.INVERTED] = float(head.invert)
-        self.columns[law.SURFACE] = self.columns[law.BOTTOM] = float(surface_steps or 0)
-        self.columns[law.WEAR] = wear_m
-        self.columns[law.METRES] = 0.001 / head.steps_per_mm
-        self.columns[law.THRUST], self.columns[law.GROWTH] = surroundings.thrust_n, surroundings.thrust_growth
-        self.columns[law.LEVER] = lead_m / (2 * math.pi)
-        self.columns[law.SAME] = SAME_HOLE_MM
+        self.axis, self._columns, self._at, self._board = axis, columns, at, board
+        self._taken = 0
+        surface = 0 if board is None else board.surface
+        worn_m = known_faults.of("worn", head.name)
+        if worn_m is None:
+            worn_m = known_faults.of("blunt") or 0.0
+        set_at = {
+            law.MOUNTED: board is not None, law.HEAD: axis, law.INVERTED: head.invert, law.SURFACE: surface,
+            law.BOTTOM: surface, law.WEAR: worn_m, law.METRES: 0.001 / head.steps_per_mm,
+            law.THRUST: around.thrust_n, law.GROWTH: around.thrust_growth,
+            law.LEVER: lead_m / (2 * math.pi), law.SAME: SAME_HOLE_MM,
+            law.BEARS: around.bears_n if head_output(machine, CHUCK, axis) else 0.0,
+        }  # fmt: skip
+        for column, value in set_at.items():
+            columns[at + column] = float(value)
 
     @property
     def mounted(self) -> bool:
         """Whether a drill is in the spindle."""
-        return self.columns[law.MOUNTED] != 0.0
+        return self._columns[self._at + law.MOUNTED] != 0.0
 
     @property
     def wear_m(self) -> float:
         """Metres of board that it has cut."""
-        return self.columns[law.WEAR]
+        return self._columns[self._at + law.WEAR]
+
+    def break_off(self, chuck: Chuck | None) -> None:
+        """Tells its chuck where it has broken in the last stretch."""
+        if chuck is not None and self._columns[self._at + law.BROKEN] != 0.0:
+            chuck.break_off()
+        self._columns[self._at + law.BROKEN] = 0.0
+
+    def follow(self, chuck: Chuck | None) -> None:
+        """Takes over what has happened in its chuck, where a bit that was taken is a sharp one; and whether it is in
+        its board.
+        """
+        columns, at = self._columns, self._at
+        columns[at + law.IN_BOARD] = float(self._board is not None and self._board.state)
+        if chuck is None:
+            return
+        if chuck.taken != self._taken:
+            self._taken = chuck.taken
+            columns[at + law.WEAR] = columns[at + law.BEGUN] = 0.0
+        columns[at + law.SHORT] = chuck.short_steps
 
 
 class FaultySwitch(Switch):

@@ -1,6 +1,6 @@
-"""Many variants of one rotor at once: the same substep as law.py, a lane for each, equal to the bit.
+"""Many variants of one rotor at once: the same substep as motors.py, a lane for each, equal to the bit.
 
-Rule: numpy's + - * and comparisons element by element, in the order of law.py; no reductions. Quicker than the plain
+Rule: numpy's + - * and comparisons element by element, in the order of motors.py; no reductions. Quicker than the plain
 law from about thirty lanes on. Unipolar motors only. For sweeps, tuning, and the figures of docs/PLANT.md; the machine
 is run by law.py.
 """

@@ -1,4 +1,5 @@
-"""Which form of the law runs: the compiled one where it was built from the present text, else the plain one.
+"""Which form of the law runs: the compiled one where its two modules were built from their present text, else the
+plain one.
 
 Rule: both give the same bits, so nothing but time depends on the choice. DRILLCTL_KERNEL=plain in the environment
 chooses the plain one.
@@ -14,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drillctl.files.compiled import compiled_form
-from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic import law, motors
 from drillctl.plant.dynamic.coefficients import SINE, SLOPE
 
 Floats = Sequence[float]
@@ -34,10 +35,10 @@ class Kernel:
     slope: Floats
 
     @classmethod
-    def of(cls, functions: ModuleType, compiled: bool) -> "Kernel":
-        """From law.py, or the module that was compiled from it."""
+    def of(cls, motors: ModuleType, law: ModuleType, compiled: bool) -> "Kernel":
+        """From motors.py and law.py, or the modules that were compiled from them."""
         kind = floats if compiled else tuple
-        return cls(compiled, functions.step, functions.load, functions.supply, functions.run, kind(SINE), kind(SLOPE))
+        return cls(compiled, motors.step, motors.load, motors.supply, law.run, kind(SINE), kind(SLOPE))
 
     def numbers(self, values: Sequence[float]) -> Any:
         """Returns these floats as this form reads and changes them quickest."""
@@ -53,12 +54,13 @@ def floats(values: Sequence[float]) -> "array[float]":
     return array("d", values)
 
 
-PLAIN = Kernel.of(law, compiled=False)
+PLAIN = Kernel.of(motors, law, compiled=False)
 
 
 def _chosen() -> Kernel:
-    found = compiled_form(law)
-    return PLAIN if found is None else Kernel.of(found, compiled=True)
+    """The compiled law calls the compiled motors by itself: both are used, or neither."""
+    found, caller = compiled_form(motors), compiled_form(law)
+    return PLAIN if found is None or caller is None else Kernel.of(found, caller, compiled=True)
 
 
 KERNEL = _chosen()

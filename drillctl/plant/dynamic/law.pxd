@@ -2,54 +2,23 @@
 # The C types of law.py. Nothing of the law stands here.
 cimport cython
 
-cdef Py_ssize_t CURRENTS, SPEED, CYCLES, SUPPLY, OFF, NORMAL, FORCED, DECAY, EMF, KEEP, PUSH, DETENT, STOP, GAIN, ADVANCE
-cdef Py_ssize_t SUBSTEPS, LIMIT, SPACING, WINDINGS, KIND, FORWARD, BACKWARD, RESTING, ZERO, COLUMNS, START, PITCH, PLAY, PLACE, LOW, HIGH, SCALE
-cdef Py_ssize_t MOVED, BEFORE, STIFF, DAMP, TRIP, ROW
-cdef Py_ssize_t MOST, WIRES
-cdef Py_ssize_t UNIPOLAR, RELUCTANCE, DRIVE
-cdef Py_ssize_t COUNT, SEEN, TRIPPED
-cdef Py_ssize_t MOUNTED, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN, WEAR, METRES, THRUST, GROWTH, LEVER, SAME, LEFT, STILL, HOLE
+from drillctl.plant.dynamic cimport _motors as motors  # the compiled form of motors.py, called without Python
+
+cdef Py_ssize_t ZERO, COLUMNS, START, PITCH, PLAY, PLACE, SCALE, MOVED, CARRIES, ROW
+cdef Py_ssize_t LEFT, STILL, FIRST
+cdef Py_ssize_t MOUNTED, HEAD, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN, WEAR, METRES, THRUST, GROWTH, LEVER, SAME, BEARS, SHORT, BROKEN, HOLE
 cdef double TURN
-cdef Py_ssize_t SINES, QUARTER
 
-@cython.locals(decay=cython.double, emf=cython.double, keep=cython.double, push=cython.double, detent=cython.double, forward=cython.double, backward=cython.double,
-               advance=cython.double, to_a=cython.double, to_b=cython.double, to_c=cython.double, to_d=cython.double, a=cython.double, b=cython.double, c=cython.double,
-               d=cython.double, speed=cython.double, places=cython.double, cycle=cython.double, pace=cython.double, quarter=cython.Py_ssize_t, base=cython.double, turned=cython.double,
-               _=cython.Py_ssize_t, place=cython.double,
-               entry=cython.Py_ssize_t, part=cython.double, sin=cython.double, cos=cython.double, back=cython.double, goal=cython.double, pull=cython.double, hold=cython.double)
-cpdef void unipolar(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
+@cython.locals(still=cython.bint, left=cython.bint, tick=cython.Py_ssize_t, axis=cython.Py_ssize_t, head=cython.Py_ssize_t, image=cython.ulonglong,
+               seen=cython.Py_ssize_t)
+cpdef Py_ssize_t run(double[::1] rows, Py_ssize_t axes, Py_ssize_t heads, unsigned long long[::1] wires, double[::1] bits,
+                     unsigned long long[::1] images, Py_ssize_t ticks, double[::1] sine, double[::1] slope) noexcept
 
-@cython.locals(decay=cython.double, emf=cython.double, keep=cython.double, push=cython.double, limit=cython.double, spacing=cython.double, forward=cython.double,
-               backward=cython.double, advance=cython.double, speed=cython.double, cycles=cython.double, windings=cython.Py_ssize_t,
-               _=cython.Py_ssize_t, winding=cython.Py_ssize_t, turned=cython.double, back=cython.double, pull=cython.double, place=cython.double,
-               entry=cython.Py_ssize_t, part=cython.double, sin=cython.double, current=cython.double, goal=cython.double)
-cpdef void reluctance(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
+@cython.locals(thrust=cython.double, torque=cython.double, head=cython.Py_ssize_t)
+cdef bint resist(double[::1] rows, Py_ssize_t axes, double[::1] bits, Py_ssize_t at) noexcept
 
-@cython.locals(level=cython.double, goal=cython.double, decay=cython.double, emf=cython.double, keep=cython.double, push=cython.double, limit=cython.double,
-               most=cython.double, stiff=cython.double, damp=cython.double, trip=cython.double, forward=cython.double, backward=cython.double,
-               advance=cython.double, tripped=cython.double, current=cython.double, speed=cython.double, cycles=cython.double, _=cython.Py_ssize_t,
-               behind=cython.double, wanted=cython.double)
-cpdef void drive(double[::1] rows, Py_ssize_t at) noexcept
-
-@cython.locals(winding=cython.Py_ssize_t, speed=cython.double, cycles=cython.double, moved=cython.bint)
-cpdef bint step(double[::1] rows, Py_ssize_t at, double[::1] sine, double[::1] slope) noexcept
-
-@cython.locals(winding=cython.Py_ssize_t, level=cython.double)
-cpdef void supply(double[::1] rows, Py_ssize_t at, unsigned long long[::1] wires, Py_ssize_t first,
-                  unsigned long long image) noexcept
-
-@cython.locals(forward=cython.double, backward=cython.double)
-cpdef void load(double[::1] rows, Py_ssize_t at, double forward_nm, double backward_nm) noexcept
+@cython.locals(off=cython.double, away=cython.double, depth=cython.double, axis=cython.Py_ssize_t, head=cython.Py_ssize_t)
+cdef double cut(double[::1] rows, Py_ssize_t axes, double[::1] bits, Py_ssize_t at) noexcept
 
 @cython.locals(columns=cython.double, rotor=cython.double, place=cython.double)
-cpdef bint carry(double[::1] rows, Py_ssize_t at) noexcept
-
-@cython.locals(off=cython.double, away=cython.double, depth=cython.double, axis=cython.Py_ssize_t)
-cdef double cut(double[::1] rows, Py_ssize_t axes, Py_ssize_t head, double[::1] bit) noexcept
-
-@cython.locals(torque=cython.double)
-cdef void resist(double[::1] rows, Py_ssize_t axes, Py_ssize_t head, double[::1] bit) noexcept
-
-@cython.locals(still=cython.bint, left=cython.bint, tick=cython.Py_ssize_t, axis=cython.Py_ssize_t, image=cython.ulonglong, seen=cython.Py_ssize_t)
-cpdef Py_ssize_t run(double[::1] rows, Py_ssize_t axes, Py_ssize_t head, unsigned long long[::1] wires, double[::1] bit,
-                     unsigned long long[::1] images, Py_ssize_t ticks, double[::1] sine, double[::1] slope) noexcept
+cdef bint carry(double[::1] rows, Py_ssize_t at) noexcept

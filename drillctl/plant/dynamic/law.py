@@ -1,370 +1,138 @@
-"""The law of motion of the dynamic plant: what a tick does to motors, carriages and the drill, on plain floats.
+"""The law of motion of the dynamic plant: what a tick does to motors, carriages and the bits of the heads.
 
-The equations stand in coefficients.py, with the numbers that a substep multiplies with. This module is run as it
-stands, or compiled from this same text (law.pxd has the C types, kernel.py chooses): the same results to the bit.
+Rule: that of motors.py, which has the motors' part of it. Both are run as they stand, or compiled from the same text.
 
-Rule: only + - * and comparisons of floats, a floor, and one division by a whole number; no call out of this module.
-So every statement means the same in C, without contraction.
+Each axis is a row of ``rows``; row n begins at ``n * ROW``. A row has the columns of motors.py, then those of the belt:
 
-Each axis is a row of ``rows``, a flat sequence of floats; row n begins at ``n * ROW``, and a function is told where, as
-``at``. The columns of a row:
-
-    CURRENTS       of up to MOST windings [A], in the order of their degrees (machine/dynamics.py)
-    SPEED          rad/s of the shaft
-    CYCLES         electrical cycles
-    SUPPLY         the currents [A] that the present image drives towards without back-EMF
-    OFF, NORMAL, FORCED   what SUPPLY is for a winding that is off, on the normal supply, on the forcing one
-    DECAY .. KIND  as in coefficients.Coefficients
-    FORWARD, BACKWARD     rad/s that friction and load take off in a substep, by direction
-    RESTING        1 where a tick more would change nothing
-    MOVED          1 where the last tick changed something
-    ZERO .. PLACE  the belt: degrees at power-up, columns of a cycle, steps at power-up, steps of a column, half the
-                   play in steps, and where the carriage is, in steps
-    LOW, HIGH      the places between which (neither included) no sensor changes and no bit meets or leaves the board
+    ZERO .. PLACE  degrees at power-up, columns of a cycle, steps at power-up, steps of a column, half the play in
+                   steps, and where the carriage is, in steps
     SCALE          steps of a millimetre
-    BEFORE         the currents before the present tick
-    STIFF, DAMP, TRIP   of a drive, as in coefficients.Coefficients
+    MOVED          1 where the last tick changed something
+    CARRIES        1 where the axis carries a bit: a hole's place doesn't depend on it
 
-A drive has one winding. From CURRENTS on it keeps, behind the current, the pulses that it has COUNTed, the level of its
-pulse wire as last SEEN, and 1 where it has TRIPPED. SUPPLY is NORMAL where its pulse wire is high, and the next column
-where its direction wire is; FORCED is what that is on the way forward.
+Between LOW and HIGH no sensor changes, and no bit meets or leaves the board. Behind the last wire of ``wires`` stands
+the last image. ``bits`` begins with what ``run`` says of its last tick, LEFT and STILL. From FIRST on it has a row for
+each head, HOLE + axes numbers long:
 
-``wires`` has WIRES whole numbers for each axis: for each of MOST windings the bit that switches it on (0 where the
-motor has fewer), then for each the bits of the forcing wires that feed it; behind them stands the last image. ``bit``
-is the drill: the columns MOUNTED .. SAME, what ``run`` says of its last tick in LEFT and STILL, and from HOLE on, in
-millimetres, a place for each axis, where the present hole is.
+    MOUNTED        1 where there is a bit and a board for it
+    HEAD           the axis that carries it, which goes down through a screw of LEVER metres a radian
+    IN_BOARD       1 where the bit is in the board
+    INVERTED       1 where the motor turns backward on the way down
+    SURFACE, BOTTOM     of the board, and of the present hole, in steps of the head
+    BEGUN          1 once there was a hole
+    WEAR, METRES   metres of board that it has cut, and those of a step
+    THRUST, GROWTH      N that it needs when sharp, and the part of that by which a metre of board adds to it
+    SAME           millimetres within which a place is that of the present hole
+    BEARS          N at which it breaks, 0 where nothing breaks it; SHORT: steps that have broken off
+    BROKEN         1 where it has broken in this stretch
+    HOLE ..        by axis, in millimetres, where the present hole is
 """
 
 from collections.abc import MutableSequence, Sequence
 
+from drillctl.plant.dynamic import motors
+
 Rows = MutableSequence[float]
 
-CURRENTS = 0
-SPEED, CYCLES = 5, 6
-SUPPLY = 7
-OFF, NORMAL, FORCED = 12, 13, 14
-DECAY, EMF, KEEP, PUSH, DETENT, STOP, GAIN, ADVANCE, SUBSTEPS = 15, 16, 17, 18, 19, 20, 21, 22, 23
-LIMIT, SPACING, WINDINGS, KIND = 24, 25, 26, 27
-FORWARD, BACKWARD, RESTING = 28, 29, 30
-ZERO, COLUMNS, START, PITCH, PLAY, PLACE = 31, 32, 33, 34, 35, 36
-LOW, HIGH, SCALE, MOVED = 37, 38, 39, 40
-BEFORE = 41
-STIFF, DAMP, TRIP = 46, 47, 48
-ROW = 49
+ZERO, COLUMNS, START, PITCH, PLAY, PLACE = 41, 42, 43, 44, 45, 46
+SCALE, MOVED, CARRIES = 47, 48, 49
+ROW = 50
 
-MOST = 5  # windings of a motor
-WIRES = 10
-
-UNIPOLAR, RELUCTANCE, DRIVE = 0, 1, 2  # the kinds of motors
-COUNT, SEEN, TRIPPED = 1, 2, 3  # of a drive, from CURRENTS on: its other state
-
-MOUNTED, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN = 0, 1, 2, 3, 4, 5
-WEAR, METRES, THRUST, GROWTH, LEVER, SAME = 6, 7, 8, 9, 10, 11
-LEFT, STILL = 12, 13
-HOLE = 14
+LEFT, STILL = 0, 1
+FIRST = 2
+MOUNTED, HEAD, IN_BOARD, INVERTED, SURFACE, BOTTOM, BEGUN = 0, 1, 2, 3, 4, 5, 6
+WEAR, METRES, THRUST, GROWTH, LEVER, SAME = 7, 8, 9, 10, 11, 12
+BEARS, SHORT, BROKEN = 13, 14, 15
+HOLE = 16
 
 TURN = 360.0
-SINES = 1024
-QUARTER = 256
-
-
-def unipolar(  # noqa: PLR0915  one loop over locals: most of a simulated second is spent in it
-    rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]
-) -> None:
-    """One tick of a unipolar motor of two phases: all its substeps. ``sine`` and ``slope`` as in coefficients.py.
-
-    A substep takes as long as the chain of operations from one place to the next. So the place is kept in entries of
-    ``sine`` (a power of two: the same bits), and which entry comes next is worked out beside the chain, from the
-    present speed; where that is wrong, it is worked out again.
-    """
-    decay = rows[at + DECAY]
-    emf = rows[at + EMF]
-    keep = rows[at + KEEP]
-    push = rows[at + PUSH]
-    detent = rows[at + DETENT]
-    forward = rows[at + FORWARD]
-    backward = rows[at + BACKWARD]
-    advance = rows[at + ADVANCE]
-    to_a = rows[at + SUPPLY]
-    to_b = rows[at + SUPPLY + 1]
-    to_c = rows[at + SUPPLY + 2]
-    to_d = rows[at + SUPPLY + 3]
-    a = rows[at + CURRENTS]
-    b = rows[at + CURRENTS + 1]
-    c = rows[at + CURRENTS + 2]
-    d = rows[at + CURRENTS + 3]
-    speed = rows[at + SPEED]
-    places = SINES
-    quarter = QUARTER
-    cycle = 1.0 * places
-    pace = advance * places
-    place = rows[at + CYCLES] * places
-    base = place // cycle * places
-    entry = 0
-    for _ in range(int(rows[at + SUBSTEPS])):
-        turned = place - base
-        if turned < 0.0 or turned >= cycle:
-            base = place // cycle * places
-            turned = place - base
-        part = turned - entry
-        if part < 0.0 or part >= 1.0:
-            entry = int(turned)
-            part = turned - entry
-        sin = sine[entry] + slope[entry] * part
-        cos = sine[entry + quarter] + slope[entry + quarter] * part
-        entry = int(turned + pace * speed)
-
-        back = emf * speed
-        goal = to_a + back * sin
-        a = goal + (a - goal) * decay
-        goal = to_b - back * sin
-        b = goal + (b - goal) * decay
-        goal = to_c + back * cos
-        c = goal + (c - goal) * decay
-        goal = to_d - back * cos
-        d = goal + (d - goal) * decay
-        a = a if a > 0.0 else 0.0
-        b = b if b > 0.0 else 0.0
-        c = c if c > 0.0 else 0.0
-        d = d if d > 0.0 else 0.0
-
-        pull = (a - b) * sin + (c - d) * cos
-        hold = sin * cos * (1.0 - 2.0 * sin * sin)
-        speed = speed * keep - push * pull - detent * hold
-        if speed > forward:
-            speed -= forward
-        elif speed < -backward:
-            speed += backward
-        else:
-            speed = 0.0
-        place += pace * speed
-    rows[at + CURRENTS] = a
-    rows[at + CURRENTS + 1] = b
-    rows[at + CURRENTS + 2] = c
-    rows[at + CURRENTS + 3] = d
-    rows[at + SPEED] = speed
-    rows[at + CYCLES] = place / cycle
-
-
-def reluctance(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> None:
-    """One tick of a motor of variable reluctance, its windings evenly apart. A chopper holds a current at LIMIT.
-
-    Friction is written out as in ``unipolar``: a function of its own would cost the plain form a call a substep.
-    """
-    decay = rows[at + DECAY]
-    emf = rows[at + EMF]
-    keep = rows[at + KEEP]
-    push = rows[at + PUSH]
-    limit = rows[at + LIMIT]
-    spacing = rows[at + SPACING]
-    forward = rows[at + FORWARD]
-    backward = rows[at + BACKWARD]
-    advance = rows[at + ADVANCE]
-    speed = rows[at + SPEED]
-    cycles = rows[at + CYCLES]
-    windings = int(rows[at + WINDINGS])
-    for _ in range(int(rows[at + SUBSTEPS])):
-        turned = cycles - cycles // 1.0
-        back = emf * speed
-        pull = 0.0
-        for winding in range(windings):
-            place = turned - winding * spacing
-            if place < 0.0:
-                place += 1.0
-            place *= SINES
-            entry = int(place)
-            part = place - entry
-            sin = sine[entry] + slope[entry] * part
-            current = rows[at + CURRENTS + winding]
-            goal = rows[at + SUPPLY + winding] + back * sin * current
-            current = goal + (current - goal) * decay
-            current = min(max(current, 0.0), limit)
-            rows[at + CURRENTS + winding] = current
-            pull += current * current * sin
-        speed = speed * keep - push * pull
-        if speed > forward:
-            speed -= forward
-        elif speed < -backward:
-            speed += backward
-        else:
-            speed = 0.0
-        cycles += advance * speed
-    rows[at + SPEED] = speed
-    rows[at + CYCLES] = cycles
-
-
-def drive(rows: Rows, at: int) -> None:
-    """One tick of a motor in its drive: a pulse moves its goal by a cycle, and current pulls it there. Farther than
-    TRIP from its goal the drive trips: no current from then on, and a place without LOW .. HIGH, so that ``run`` ends.
-    """
-    level = rows[at + SUPPLY]
-    if level > rows[at + CURRENTS + SEEN]:
-        rows[at + CURRENTS + COUNT] += 1.0 if rows[at + SUPPLY + 1] == rows[at + FORCED] else -1.0
-    rows[at + CURRENTS + SEEN] = level
-    goal = rows[at + CURRENTS + COUNT]
-    decay = rows[at + DECAY]
-    emf = rows[at + EMF]
-    keep = rows[at + KEEP]
-    push = rows[at + PUSH]
-    limit = rows[at + LIMIT]
-    most = rows[at + NORMAL]
-    stiff = rows[at + STIFF]
-    damp = rows[at + DAMP]
-    trip = rows[at + TRIP]
-    forward = rows[at + FORWARD]
-    backward = rows[at + BACKWARD]
-    advance = rows[at + ADVANCE]
-    tripped = rows[at + CURRENTS + TRIPPED]
-    current = rows[at + CURRENTS]
-    speed = rows[at + SPEED]
-    cycles = rows[at + CYCLES]
-    for _ in range(int(rows[at + SUBSTEPS])):
-        behind = goal - cycles
-        if behind > trip or behind < -trip:
-            tripped = 1.0
-        wanted = 0.0
-        if tripped == 0.0:
-            wanted = stiff * behind - damp * speed
-            wanted = min(wanted, limit, most - emf * speed)
-            wanted = max(wanted, -limit, -most - emf * speed)
-        current = wanted + (current - wanted) * decay
-        speed = speed * keep + push * current
-        if speed > forward:
-            speed -= forward
-        elif speed < -backward:
-            speed += backward
-        else:
-            speed = 0.0
-        cycles += advance * speed
-    if tripped != rows[at + CURRENTS + TRIPPED]:
-        rows[at + LOW] = rows[at + HIGH] = 0.0
-    rows[at + CURRENTS + TRIPPED] = tripped
-    rows[at + CURRENTS] = current
-    rows[at + SPEED] = speed
-    rows[at + CYCLES] = cycles
-
-
-def step(rows: Rows, at: int, sine: Sequence[float], slope: Sequence[float]) -> bool:
-    """One tick of a motor on its present supply; returns False where it rests and nothing was to be done."""
-    if rows[at + RESTING] != 0.0:
-        return False
-    for winding in range(MOST):
-        rows[at + BEFORE + winding] = rows[at + CURRENTS + winding]
-    speed = rows[at + SPEED]
-    cycles = rows[at + CYCLES]
-    if rows[at + KIND] == RELUCTANCE:
-        reluctance(rows, at, sine, slope)
-    elif rows[at + KIND] == DRIVE:
-        drive(rows, at)
-    else:
-        unipolar(rows, at, sine, slope)
-    moved = speed != rows[at + SPEED] or cycles != rows[at + CYCLES]
-    for winding in range(MOST):
-        moved = moved or rows[at + BEFORE + winding] != rows[at + CURRENTS + winding]
-    rows[at + RESTING] = 0.0 if moved else 1.0
-    return True
-
-
-def supply(rows: Rows, at: int, wires: MutableSequence[int], first: int, image: int) -> None:
-    """Sets what an output image drives the currents of an axis towards; its wires begin at ``first``."""
-    for winding in range(MOST):
-        if not image & wires[first + winding]:
-            level = rows[at + OFF]
-        elif image & wires[first + MOST + winding]:
-            level = rows[at + FORCED]
-        else:
-            level = rows[at + NORMAL]
-        if level != rows[at + SUPPLY + winding]:
-            rows[at + SUPPLY + winding] = level
-            rows[at + RESTING] = 0.0
-
-
-def load(rows: Rows, at: int, forward_nm: float, backward_nm: float) -> None:
-    """Sets the torque that resists an axis besides the table's friction, by direction."""
-    forward = rows[at + STOP] + forward_nm * rows[at + GAIN]
-    backward = rows[at + STOP] + backward_nm * rows[at + GAIN]
-    if forward != rows[at + FORWARD] or backward != rows[at + BACKWARD]:
-        rows[at + FORWARD] = forward
-        rows[at + BACKWARD] = backward
-        rows[at + RESTING] = 0.0
-
-
-def carry(rows: Rows, at: int) -> bool:
-    """Moves a carriage after its rotor, as far as the play of its belt; returns whether it has left LOW .. HIGH."""
-    columns = (rows[at + CYCLES] * TURN - rows[at + ZERO]) * rows[at + COLUMNS] / TURN
-    rotor = rows[at + START] + columns * rows[at + PITCH]
-    place = rows[at + PLACE]
-    place = max(place, rotor - rows[at + PLAY])
-    place = min(place, rotor + rows[at + PLAY])
-    rows[at + PLACE] = place
-    return not rows[at + LOW] < place < rows[at + HIGH]
-
-
-def cut(rows: Rows, axes: int, head: int, bit: Rows) -> float:
-    """Returns the torque [N m] that resists the head's motor on the way down, its bit being in the board; the hole
-    gets deeper and the bit wears.
-    """
-    off = 0.0
-    for axis in range(axes):
-        if axis != head:
-            away = rows[axis * ROW + PLACE] / rows[axis * ROW + SCALE] - bit[HOLE + axis]
-            off += away * away
-    if bit[BEGUN] == 0.0 or off > bit[SAME] * bit[SAME]:
-        for axis in range(axes):
-            bit[HOLE + axis] = rows[axis * ROW + PLACE] / rows[axis * ROW + SCALE]
-        bit[BEGUN] = 1.0
-        bit[BOTTOM] = bit[SURFACE]
-    depth = rows[head * ROW + PLACE]
-    if depth < bit[BOTTOM]:
-        return 0.0
-    bit[WEAR] += (depth - bit[BOTTOM]) * bit[METRES]
-    bit[BOTTOM] = depth
-    return bit[THRUST] * (1.0 + bit[GROWTH] * bit[WEAR]) * bit[LEVER]
-
-
-def resist(rows: Rows, axes: int, head: int, bit: Rows) -> None:
-    """Sets the board's resistance for the next tick, from where the head is now."""
-    torque = 0.0
-    if bit[IN_BOARD] != 0.0:
-        torque = cut(rows, axes, head, bit)
-    if bit[INVERTED] != 0.0:
-        load(rows, head * ROW, 0.0, torque)
-    else:
-        load(rows, head * ROW, torque, 0.0)
 
 
 def run(
-    rows: Rows, axes: int, head: int, wires: MutableSequence[int], bit: Rows, images: Sequence[int], ticks: int,
+    rows: Rows, axes: int, heads: int, wires: MutableSequence[int], bits: Rows, images: Sequence[int], ticks: int,
     sine: Sequence[float], slope: Sequence[float],
 ) -> int:  # fmt: skip
     """Runs the machine on output images, one a tick, at most ``ticks`` of them; returns how many. It stops early after
-    a tick in which a carriage left LOW .. HIGH; LEFT is 1 then. STILL is 1 where the last tick changed nothing.
+    a tick in which a carriage left LOW .. HIGH, or a bit broke; LEFT is 1 then. STILL is 1 where the last tick changed
+    nothing.
     """
     still = False
-    seen = axes * WIRES
+    seen = axes * motors.WIRES
     for tick in range(ticks):
         image = images[tick]
         if image != wires[seen]:
             wires[seen] = image
             for axis in range(axes):
-                supply(rows, axis * ROW, wires, axis * WIRES, image)
+                motors.supply(rows, axis * ROW, wires, axis * motors.WIRES, image)
         elif still:
             continue
         still = True
         left = False
-        if bit[MOUNTED] != 0.0:
-            resist(rows, axes, head, bit)
+        for head in range(heads):
+            if resist(rows, axes, bits, FIRST + head * (HOLE + axes)):
+                left = True
         for axis in range(axes):
             rows[axis * ROW + MOVED] = 0.0
-            if step(rows, axis * ROW, sine, slope):
+            if motors.step(rows, axis * ROW, sine, slope):
                 rows[axis * ROW + MOVED] = 1.0
                 still = False
                 if carry(rows, axis * ROW):
                     left = True
         if left:
-            bit[LEFT] = 1.0
-            bit[STILL] = 0.0
+            bits[LEFT] = 1.0
+            bits[STILL] = 0.0
             return tick + 1
-    bit[LEFT] = 0.0
-    bit[STILL] = 1.0 if still else 0.0
+    bits[LEFT] = 0.0
+    bits[STILL] = 1.0 if still else 0.0
     return ticks
+
+
+def resist(rows: Rows, axes: int, bits: Rows, at: int) -> bool:
+    """Sets the board's resistance to a head for the next tick, from where it is now; returns whether its bit broke."""
+    if bits[at + MOUNTED] == 0.0:
+        return False
+    thrust = 0.0
+    if bits[at + IN_BOARD] != 0.0:
+        thrust = cut(rows, axes, bits, at)
+    torque = thrust * bits[at + LEVER]
+    head = int(bits[at + HEAD])
+    if bits[at + INVERTED] != 0.0:
+        motors.load(rows, head * ROW, 0.0, torque)
+    else:
+        motors.load(rows, head * ROW, torque, 0.0)
+    if bits[at + BEARS] == 0.0 or bits[at + SHORT] != 0.0 or thrust <= bits[at + BEARS]:
+        return False
+    bits[at + BROKEN] = 1.0
+    return True
+
+
+def cut(rows: Rows, axes: int, bits: Rows, at: int) -> float:
+    """Returns the thrust [N] that a bit in the board needs on the way down; the hole gets deeper and the bit wears."""
+    off = 0.0
+    for axis in range(axes):
+        if rows[axis * ROW + CARRIES] == 0.0:
+            away = rows[axis * ROW + PLACE] / rows[axis * ROW + SCALE] - bits[at + HOLE + axis]
+            off += away * away
+    if bits[at + BEGUN] == 0.0 or off > bits[at + SAME] * bits[at + SAME]:
+        for axis in range(axes):
+            bits[at + HOLE + axis] = rows[axis * ROW + PLACE] / rows[axis * ROW + SCALE]
+        bits[at + BEGUN] = 1.0
+        bits[at + BOTTOM] = bits[at + SURFACE]
+    head = int(bits[at + HEAD])
+    depth = rows[head * ROW + PLACE] - bits[at + SHORT]
+    if depth < bits[at + BOTTOM]:
+        return 0.0
+    bits[at + WEAR] += (depth - bits[at + BOTTOM]) * bits[at + METRES]
+    bits[at + BOTTOM] = depth
+    return bits[at + THRUST] * (1.0 + bits[at + GROWTH] * bits[at + WEAR])
+
+
+def carry(rows: Rows, at: int) -> bool:
+    """Moves a carriage after its rotor, as far as the play of its belt; returns whether it has left LOW .. HIGH."""
+    columns = (rows[at + motors.CYCLES] * TURN - rows[at + ZERO]) * rows[at + COLUMNS] / TURN
+    rotor = rows[at + START] + columns * rows[at + PITCH]
+    place = rows[at + PLACE]
+    place = max(place, rotor - rows[at + PLAY])
+    place = min(place, rotor + rows[at + PLAY])
+    rows[at + PLACE] = place
+    return not rows[at + motors.LOW] < place < rows[at + motors.HIGH]

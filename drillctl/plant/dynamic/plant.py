@@ -17,11 +17,11 @@ from drillctl.machine.head_lines import alarm_input
 from drillctl.plant.base import CURRENT_LANES, PLACE_LANES, Plant
 from drillctl.plant.carriage import Line, Pulses
 from drillctl.plant.chucks import chucks_of
-from drillctl.plant.dynamic import law
-from drillctl.plant.dynamic.drilling import Bit, FaultySwitch, LooseCarriage
+from drillctl.plant.dynamic import law, motors
+from drillctl.plant.dynamic.drilling import Bit, Bits, FaultySwitch, LooseCarriage
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
 from drillctl.plant.dynamic.rotor import DynamicRotor
-from drillctl.plant.effects import effects_of
+from drillctl.plant.effects import Board, effects_of
 from drillctl.plant.faults import Faults, PlantRefused
 
 
@@ -51,17 +51,17 @@ class DynamicPlant(Plant):
             belt.lie_in(self._rows, index * law.ROW, machine.axes[index].steps_per_mm)
         self._wires = array("Q", [*chain.from_iterable(motor.wires() for motor in self.motors), 0])
         for index in axes:
-            kernel.supply(self._rows, index * law.ROW, self._wires, index * law.WIRES, 0)
+            kernel.supply(self._rows, index * law.ROW, self._wires, index * motors.WIRES, 0)
         chucks = chucks_of(machine, known_faults)
         effects = effects_of(machine, chucks)
+        boards = {each.axis: each for each in effects.values() if isinstance(each, Board)}
         if known_faults.of("broken"):
-            effects.pop("board", None)
+            effects = {name: each for name, each in effects.items() if not isinstance(each, Board)}
+            boards = {}
         super().__init__(machine, self.motors, self.belts, chucks, effects)
-        self._head = machine.drill_axes[0]
-        surface = machine.board_surface[self._head] if "board" in effects else None
-        head = machine.axes[self._head]
-        worn_m = known_faults.of("blunt") or 0.0
-        self._bit = Bit(head, len(axes), surface, machine.surroundings, worn_m, kernel)
+        self._bits = Bits(machine, boards, known_faults, kernel)
+        for head in machine.drill_axes:
+            self._rows[head * law.ROW + law.CARRIES] = 1.0
         self._bound()
         self._alarms = [Line.of(alarm_input(machine, table.name)) for table in machine.axes]
         self._resting = False
@@ -69,9 +69,9 @@ class DynamicPlant(Plant):
         self._one = np.zeros(1, np.uint64)
 
     @property
-    def bit(self) -> Bit | None:
-        """The drill, where there is one."""
-        return self._bit if self._bit.mounted else None
+    def bits(self) -> tuple[Bit, ...]:
+        """The bits of the heads, in the order of the machine's file; those that meet a board."""
+        return tuple(bit for bit in self._bits.of if bit.mounted)
 
     def drive(self, image: int) -> None:
         """Computes one tick with this image at the card. Nothing is computed while a whole tick changed nothing."""
@@ -101,22 +101,23 @@ class DynamicPlant(Plant):
 
     def _advance(self, images: NDArray[np.uint64], ticks: int) -> int:
         """Computes at most so many ticks, up to one in which a sensor may change; returns how many."""
-        kernel, bit = self._kernel, self._bit.columns
+        kernel, bits = self._kernel, self._bits.columns
         if self._spindle_turns(int(images[0])):
             ticks = 1
         done = kernel.run(
-            self._rows, len(self.motors), self._head, self._wires, bit, kernel.images(images), ticks, kernel.sine,
-            kernel.slope,
+            self._rows, len(self.motors), len(self._bits.of), self._wires, bits, kernel.images(images), ticks,
+            kernel.sine, kernel.slope,
         )  # fmt: skip
         before, self.image = self.image, int(images[done - 1])
         for motor in self.motors:
             motor.follow()
-        if self._fluttering or bit[law.LEFT]:
+        if self._fluttering or bits[law.LEFT]:
             self._pass_sensors()
-        self._switch_chucks(before, self.image)
+        if self._switch_chucks(before, self.image):
+            self._bound()
         if self.spindle is not None:
             self.inputs = self.spindle.turn(self.image, self.inputs, done / self._tick_hz)
-        self._resting = bit[law.STILL] != 0.0 and not self._fluttering and not self._spindle_turns(self.image)
+        self._resting = bits[law.STILL] != 0.0 and not self._fluttering and not self._spindle_turns(self.image)
         return done
 
     def _spindle_turns(self, image: int) -> bool:
@@ -125,6 +126,7 @@ class DynamicPlant(Plant):
 
     def _pass_sensors(self) -> None:
         """Lets the sensors of the axes that moved, or whose wires flutter, answer to where the carriages are."""
+        self._bits.break_off(self.chucks)
         for index, belt in enumerate(self.belts):
             if belt.flutters or self._rows[index * law.ROW + law.MOVED]:
                 self._carry(index)
@@ -136,10 +138,10 @@ class DynamicPlant(Plant):
     def _bound(self) -> None:
         """Notes between which places no sensor changes and the bit neither meets nor leaves the board."""
         self._fluttering = any(belt.flutters for belt in self.belts)
-        self._bit.columns[law.IN_BOARD] = "board" in self.effects and self.effects["board"].state
+        self._bits.follow(self.chucks)
         for index in range(len(self.motors)):
             begin = index * law.ROW
-            self._rows[begin + law.LOW], self._rows[begin + law.HIGH] = self.quiet_steps(index)
+            self._rows[begin + motors.LOW], self._rows[begin + motors.HIGH] = self.quiet_steps(index)
 
     def behind_steps(self, axis: int, travelled: int) -> float:
         """Returns lag, friction, play and lost steps together."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from drillctl.machine import AxisTable
-from drillctl.plant.dynamic import law
+from drillctl.plant.dynamic import law, motors
 from drillctl.plant.dynamic.axis import DynamicAxis
 from drillctl.plant.dynamic.coefficients import Supply, Wires, coefficients
 from drillctl.plant.dynamic.kernel import KERNEL, Kernel
@@ -29,8 +29,7 @@ class DynamicRotor(Rotor):
         if self._dynamics.kind == "drive":
             forced = normal if forward_level(table) else off
         rows = self.axis.rows
-        rows[law.OFF], rows[law.NORMAL], rows[law.FORCED] = off, normal, forced
-        rows[law.ZERO], rows[law.COLUMNS] = float(self.zero), float(self.columns_per_cycle)
+        rows[motors.OFF], rows[motors.NORMAL], rows[motors.FORCED] = off, normal, forced
 
     def set_rate(self, tick_hz: int) -> None:
         """Uses ticks of 1 / tick_hz seconds from now on."""
@@ -52,11 +51,12 @@ class DynamicRotor(Rotor):
     def lie_in(self, rows: Any, at: int) -> None:
         """Goes on in a row of law.py that lies beside those of other axes."""
         self.axis.move_to(rows, at)
+        rows[at + law.ZERO], rows[at + law.COLUMNS] = float(self.zero), float(self.columns_per_cycle)
 
     @property
     def tripped(self) -> bool:
         """Whether it is a drive that has tripped: it gives no current any more."""
-        return self._dynamics.kind == "drive" and self.axis.rows[self.axis.at + law.CURRENTS + law.TRIPPED] != 0.0
+        return self._dynamics.kind == "drive" and self.axis.rows[self.axis.at + motors.CURRENTS + motors.TRIPPED] != 0.0
 
     def pulling(self) -> tuple[float, ...]:
         """Returns the current of each phase, in A; of a unipolar one that of a half winding less its opponent's."""
@@ -67,8 +67,8 @@ class DynamicRotor(Rotor):
         return first - against_first, second - against_second
 
     def wires(self) -> tuple[int, ...]:
-        """Returns its wires as law.py has them."""
-        missing = (0,) * (law.MOST - len(self._wires.on))
+        """Returns its wires as motors.py has them."""
+        missing = (0,) * (motors.MOST - len(self._wires.on))
         return (*self._wires.on, *missing, *self._wires.forcing, *missing)
 
     def columns_lost(self, travelled: int) -> float:

@@ -71,6 +71,11 @@ EFFECTS: Mapping[str, Effect] = {
         N_("Z loses steps, its lower sensor never answers: DRILL_NOT_DOWN."),
         ((COUNTED, "0001122334455667788888888888"), (ROTOR, "0001122334434434434433333333")),
     ),
+    "worn": Effect(
+        N_("The bit of this head is worn as after N metres; blunt wears all bits."),
+        N_("It needs more thrust: its head lags, or the bit breaks in its hole."),
+        ((N_("head"), "0024688642000246886420002468"), (N_("in the board"), "1111888111111111111111111111")),
+    ),
     "broken": Effect(
         N_("The bit has broken off: the head goes down and touches no board."),
         N_("Holes count as drilled and none is made. Nothing is reported."),
