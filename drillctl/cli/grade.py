@@ -39,13 +39,13 @@ def call(arguments: argparse.Namespace) -> int:
     from tqdm import tqdm
 
     from drillctl.files.outputs import reserved
-    from drillctl.lab.grading import graded, sheet_of
+    from drillctl.lab.grading import graded, names, sheet_of
     from drillctl.lab.workers import cores
     from drillctl.ui.terminal.grades import csv_lines, grade_line, junit_text
 
     sheet = sheet_of(arguments.sheet)
     with reserved((arguments.csv, arguments.junit), ()) as (table, junit):
-        width = max(len(folder.resolve().name) for folder in arguments.submissions)
+        width = max(map(len, names(arguments.submissions)))
         every = graded(sheet, arguments.submissions, arguments.workers or cores(), arguments.seconds)
         grades = []
         with tqdm(total=len(arguments.submissions), disable=None, leave=False, file=streams.bar(sys.stderr)) as bar:

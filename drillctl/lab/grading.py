@@ -10,13 +10,17 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
+import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Annotated
+from typing import Annotated, NoReturn
 from xml.etree import ElementTree
 
 import msgspec
@@ -34,6 +38,7 @@ LARGEST_SUBMISSION_BYTES = 64 * 1024 * 1024
 MOST_FILES = 2000
 CODE = (".py", ".pyc", ".pyi", ".pyd", ".so", ".pth")
 SETTINGS = ("pytest.ini", ".pytest.ini", "tox.ini", "setup.cfg", "pyproject.toml", SHEET)
+LOOK_S = 0.02  # between two looks at whether the checks have ended
 PLUGIN = "drillctl.api.pytest_plugin"
 RAISED = re.compile(r"^(AssertionError|drillctl[\w.]*): ")  # before the words of an assertion, or of a refusal of ours
 Name = Annotated[str, msgspec.Meta(pattern=r"^[^/\\]+$", max_length=200)]
@@ -76,8 +81,20 @@ def graded(sheet: Sheet, submissions: Sequence[Path], workers: int, limit_s: flo
     for folder in submissions:
         if not folder.is_dir():
             raise LabError(Message("no folder: a submission is a copy of the sheet's folder").at(folder))
+    ended = threading.Event()  # by Ctrl-C, or by whoever wants no more grades
     with ThreadPoolExecutor(workers) as pool:
-        yield from pool.map(lambda folder: _grade(sheet, folder, limit_s), submissions)
+        judge = partial(_grade, sheet, limit_s, ended)
+        try:
+            yield from pool.map(judge, submissions, names(submissions))
+        finally:
+            ended.set()
+
+
+def names(submissions: Sequence[Path]) -> list[str]:
+    """Returns what the submissions are called: each by its folder's name, those of one name by their paths."""
+    last = [folder.resolve().name for folder in submissions]
+    count = Counter(last)
+    return [name if count[name] == 1 else str(folder) for name, folder in zip(last, submissions, strict=True)]
 
 
 def _shipped(name: str) -> Path:
@@ -89,27 +106,38 @@ def _shipped(name: str) -> Path:
     return found[0]
 
 
-def _grade(sheet: Sheet, submission: Path, limit_s: float) -> SubmissionGrade:
+def _grade(sheet: Sheet, limit_s: float, ended: threading.Event, submission: Path, name: str) -> SubmissionGrade:
     with TemporaryDirectory(prefix="drillctl-grade-") as place:
         copy = Path(place) / "copy"
-        problem = _copied(submission, copy)
+        problem = _laid_out(sheet, submission, copy)
         if problem is not None:
-            refused = tuple(Check(name, False, str(problem)) for name in sheet.checks)
-            return SubmissionGrade(submission.resolve().name, refused)
-        _lay_over(sheet, copy)
+            return SubmissionGrade(name, tuple(Check(check, False, str(problem)) for check in sheet.checks))
         report = Path(place) / "report.xml"
-        over = _run(_command(sheet, report), copy, limit_s)
-        found = _Report(report, copy) if report.is_file() else None
-        return SubmissionGrade(submission.resolve().name, tuple(_check(name, found, over) for name in sheet.checks))
+        over = _run(_command(sheet, report), copy, limit_s, ended)
+        found = _report(report, copy)
+        return SubmissionGrade(name, tuple(_check(check, found, over) for check in sheet.checks))
+
+
+def _laid_out(sheet: Sheet, submission: Path, copy: Path) -> Message | None:
+    """Makes the copy that is judged; returns why it can't be made, None where it was. The fault of one submission ends
+    no other's.
+    """
+    try:
+        problem = _copied(submission, copy)
+        if problem is None:
+            _lay_over(sheet, copy)
+        return problem
+    except OSError as error:
+        return Message("it can't be copied: {why}", why=message_of(error))
 
 
 def _copied(submission: Path, copy: Path) -> Message | None:
-    """Copies the data of a submission; returns why it can't be taken, None where it was."""
+    """Copies the data of a submission; returns why it can't be taken, None where it was. Raises OSError."""
     left, files = LARGEST_SUBMISSION_BYTES, 0
     copy.mkdir()
-    for place, folders, names in os.walk(submission):
-        folders.sort()
-        for name in sorted(names):
+    for place, folders, inside in os.walk(submission, onerror=_unread):
+        folders[:] = sorted(set(folders) - set(SETTINGS))
+        for name in sorted(inside):
             file = Path(place) / name
             if file.is_symlink() or not file.is_file() or file.suffix in CODE or name in SETTINGS:
                 continue
@@ -121,6 +149,10 @@ def _copied(submission: Path, copy: Path) -> Message | None:
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, target)
     return None
+
+
+def _unread(error: OSError) -> NoReturn:
+    raise error
 
 
 def _lay_over(sheet: Sheet, copy: Path) -> None:
@@ -138,8 +170,9 @@ def _command(sheet: Sheet, report: Path) -> list[str]:
     return [sys.executable, "-I", "-m", "pytest", *options, "-c", "pytest.ini", f"--junitxml={report}", *sheet.checks]
 
 
-def _run(command: list[str], copy: Path, limit_s: float) -> bool:
+def _run(command: list[str], copy: Path, limit_s: float, ended: threading.Event) -> bool:
     """Runs the checks in the copy; returns whether the time ended first. Whatever they have started ends with them."""
+    until = time.monotonic() + limit_s
     kept = {name: os.environ[name] for name in ("PATH", "LANG", "TMPDIR") if name in os.environ}
     surroundings = {**kept, "HOME": str(copy), "XDG_CONFIG_HOME": str(copy), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
     process = subprocess.Popen(
@@ -147,17 +180,24 @@ def _run(command: list[str], copy: Path, limit_s: float) -> bool:
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
     try:
-        process.wait(limit_s)
-    except subprocess.TimeoutExpired:
-        return True
+        while process.poll() is None and time.monotonic() < until and not ended.wait(LOOK_S):
+            pass
+        return process.poll() is None
     finally:
         _end(process)
-    return False
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:
     system.end_group(process.pid)
     process.wait()
+
+
+def _report(file: Path, copy: Path) -> "_Report | None":
+    """What pytest told; None where it told nothing, or was ended while it wrote."""
+    try:
+        return _Report(file, copy)
+    except (OSError, ElementTree.ParseError):
+        return None
 
 
 class _Report:

@@ -9,8 +9,8 @@ import pytest
 
 from drillctl.cli import main
 from drillctl.lab.errors import LabError
-from drillctl.lab.grading import graded, sheet_of
-from tests.support.lab_sheets import LAB, SHEETS, SOLUTIONS
+from drillctl.lab.grading import graded, names, sheet_of
+from tests.support.lab_sheets import LAB, ROOT, SHEETS, SOLUTIONS
 
 PASS_ALL = """
 import pytest
@@ -69,6 +69,56 @@ def test_links_are_not_followed(tmp_path: Path) -> None:
     assert not grade.passed
 
 
+def test_one_that_can_not_be_copied_ends_no_other_s_grading(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folders, lost, _ = (submission(tmp_path, name, solved=True) for name in ("folders", "lost", "right"))
+    for name in ("pytest.ini", "pyproject.toml"):
+        (folders / name).mkdir()
+        (folders / name / "x.txt").write_text("x")
+    copied = shutil.copyfile
+
+    def copyfile(source: Path, target: Path) -> Path:
+        if lost in source.parents:
+            raise PermissionError(13, "Permission denied")
+        return copied(source, target)
+
+    monkeypatch.setattr("drillctl.lab.grading.shutil.copyfile", copyfile)
+    assert main(["grade", "01", *sorted(map(str, tmp_path.iterdir()))]) == 1
+    first, second, third = capsys.readouterr().out.splitlines()[:3]
+    assert first.split()[1] == third.split()[1] == "passed"
+    assert second.split()[:3] == ["lost", "failed", "0/1"] and "it can't be copied: Permission denied" in second
+
+
+def test_two_of_one_name_are_told_apart_by_their_paths(tmp_path: Path) -> None:
+    handed_in = [tmp_path / group / "eve" for group in ("monday", "friday")] + [tmp_path / "adam"]
+    for folder in handed_in:
+        folder.mkdir(parents=True)
+    assert names(handed_in) == [str(handed_in[0]), str(handed_in[1]), "adam"]
+
+
+@pytest.mark.parametrize("option", ["--holes={place}", "--vcd {place}", "--port mapped:{place}", "--hol={place}"])
+def test_options_handed_in_write_nothing_elsewhere(option: str, tmp_path: Path) -> None:
+    sly, place = submission(tmp_path, "sly", solved=True, sheet="06-board"), tmp_path / "elsewhere"
+    with (sly / "options.txt").open("a") as file:
+        file.write(f" {option.format(place=place)}\n")
+    (grade,) = graded(sheet_of("06"), [sly], 1, 60)
+    assert not grade.passed and not place.exists()
+    assert "says nothing of the board or of how it is drilled" in grade.why
+
+
+def test_a_machine_handed_in_does_not_reach_for_a_port(tmp_path: Path) -> None:
+    sly, place = submission(tmp_path, "sly", solved=True, sheet="05-queues"), tmp_path / "card"
+    machine = (ROOT / "tables" / "machines" / "pcb-drill.toml").read_text("utf-8")
+    real = machine.replace('card = "ZAR1"', f'card = "mapped:{place}"').replace('"SIMULATED"', '"REAL"')
+    tables = sly / "drillctl" / "tables" / "machines"
+    tables.mkdir(parents=True)
+    (tables / "pcb-drill.toml").write_text(real)
+    assert "mapped:" in real and '"REAL"' in real
+    (grade,) = graded(sheet_of("05"), [sly], 1, 60)
+    assert grade.checks[0].passed and not place.exists()
+
+
 def test_a_sheet_of_ones_own_and_a_check_that_does_not_end(tmp_path: Path) -> None:
     sheet = tmp_path / "mine"
     sheet.mkdir()
@@ -88,6 +138,20 @@ def test_a_sheet_of_ones_own_and_a_check_that_does_not_end(tmp_path: Path) -> No
     (sheet / "test_wait.py").write_text("import time\ndef test_it():\n    time.sleep(1000)\n")
     (late,) = graded(sheet_of(str(sheet)), [tmp_path / "good"], 1, 1)
     assert not late.passed and "it took longer than it may" in late.why
+
+
+def test_whoever_wants_no_more_grades_does_not_wait_for_them(tmp_path: Path) -> None:
+    sheet, handed_in = tmp_path / "mine", [tmp_path / name for name in ("a", "b", "c")]
+    for folder in (sheet, *handed_in):
+        folder.mkdir()
+    (sheet / "sheet.toml").write_text('title = "Mine"\nchecks = ["test_wait.py"]\n')
+    waits = "import pathlib, time\ndef test_it():\n    if pathlib.Path('long').exists():\n        time.sleep(1000)\n"
+    (sheet / "test_wait.py").write_text(waits)
+    for folder in handed_in[1:]:
+        (folder / "long").touch()
+    grades = graded(sheet_of(str(sheet)), handed_in, 2, 1000)
+    assert next(grades).passed
+    grades.close()  # as an exception does; pytest's own limit ends a test that waits
 
 
 @pytest.mark.parametrize("sheet", SHEETS)

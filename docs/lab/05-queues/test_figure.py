@@ -16,6 +16,7 @@ NEAR_MM = 0.001
 def test_the_queue_draws_the_figure(tmp_path: Path) -> None:
     holes = tmp_path / "holes.csv"
     call = [sys.executable, "-m", "drillctl", "run", str(HERE / "figure.kmd"), "--json", "--holes", str(holes)]
+    call += ["--port", "simulated"]  # whatever the mode in a submitted machine's file says
     done = subprocess.run(call, capture_output=True, text=True, timeout=60, check=False)
     outcome = json.loads(done.stdout)
     assert done.returncode == 0, done.stderr.strip() or f"{outcome['fault']['name']}: {outcome['fault']['cause']}"

@@ -13,7 +13,7 @@ from drillctl.viewmodel.grades import SubmissionGrade
 
 HEAD = ("submission", "points", "of", "passed", "why")
 NOT_IN_XML = str.maketrans(dict.fromkeys((*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "?"))
-FORMULAS = ("=", "+", "-", "@")  # with which a spreadsheet begins to compute
+FORMULAS = ("=", "+", "-", "@", "＝", "＋", "－", "＠")  # with which a spreadsheet begins to compute, wide ones too
 
 
 def grade_line(grade: SubmissionGrade, width: int) -> str:
