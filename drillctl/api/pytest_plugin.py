@@ -4,8 +4,8 @@ tests of one's own can run a machine by the fixture ``drill``.
 A trace is replayed with the tables at hand; the test fails at the first tick that differs. Only files that begin
 with the magic line are collected. ``--drillctl-rewrite`` records goldens anew on the simulated machine.
 
-Rule: every pytest run on the computer loads this module, so the rooms it needs, and numpy with them, are imported
-only once a file was found that begins as a trace does, or a test asks for the fixture.
+Rule: every pytest run on the computer loads this module, so nothing of drillctl is imported before a file has a
+trace's name, and numpy only once one begins as a trace does, or a test asks for the fixture.
 """
 
 import sys
@@ -14,9 +14,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-
-from drillctl.files.inputs import read_start
-from drillctl.language import LINES, one_line, visible
 
 if TYPE_CHECKING:
     from drillctl.api.fixture import Drill
@@ -73,11 +70,15 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "TraceFile
 
 def _node_id(parent: pytest.Collector, file: Path) -> str:
     """The name under which pytest shows the file, from its root folder; hidden characters of it are made visible."""
+    from drillctl.language import one_line
+
     root = parent.config.rootpath
     return one_line((file.relative_to(root) if file.is_relative_to(root) else file).as_posix())
 
 
 def _is_trace(file: Path) -> bool:
+    from drillctl.files.inputs import read_start
+
     try:
         if read_start(file, len(START)) != START:
             return False
@@ -167,6 +168,7 @@ class TraceItem(pytest.Item):
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """A dozen plain lines, without a Python traceback, for what is the trace's or the tables' fault."""
+        from drillctl.language import LINES, visible
         from drillctl.machine import TableError
         from drillctl.trace import TraceError
 
@@ -176,4 +178,6 @@ class TraceItem(pytest.Item):
 
     def reportinfo(self) -> tuple[Path, int, str]:
         """The file of the test, its line and the name shown."""
+        from drillctl.language import one_line
+
         return self.path, 0, f"trace {one_line(self.path.name)}"

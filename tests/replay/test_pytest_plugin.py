@@ -118,6 +118,14 @@ def test_a_pytest_run_without_traces_imports_no_room_of_ours(tmp_path: Path) -> 
     assert done.returncode == 0 and "[] []" in done.stdout, done.stdout
 
 
+def test_a_pytest_run_without_a_traces_name_imports_the_plugin_alone(tmp_path: Path) -> None:
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    ours = "sorted(name for name in sys.modules if name.startswith('drillctl.'))"
+    (tmp_path / "test_other.py").write_text(f"import sys\n\ndef test_other():\n    print({ours})\n")
+    done = run_pytest(tmp_path, "-s", found=True)
+    assert "['drillctl.api', 'drillctl.api.pytest_plugin']" in done.stdout, done.stdout
+
+
 def test_tables_of_ones_own_and_same_tables(repository: Path) -> None:
     shipped = Path(__file__).resolve().parents[2] / "tables" / "machines" / "pcb-drill.toml"
     (repository / "mine" / "machines").mkdir(parents=True)
