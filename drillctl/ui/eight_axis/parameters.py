@@ -10,8 +10,9 @@ from typing import Any
 import urwid
 
 from drillctl.language.words import N_, _, translated
-from drillctl.ui.screens.shell import Shell, asked_to_leave, choose_another
-from drillctl.ui.widgets.keys import Key, called
+from drillctl.ui.screens.field_form import FORM_KEYS, FieldForm
+from drillctl.ui.screens.shell import Shell
+from drillctl.ui.widgets.keys import Key
 from drillctl.ui.widgets.texts import Edit, Line, Size, Text, WholeText
 from drillctl.viewmodel.console import Problems
 from drillctl.viewmodel.production import ParameterView, Production
@@ -22,48 +23,27 @@ NUMBERED = ("tool", "magazine")  # groups whose rows can be added and removed
 MOST_PROBLEMS = 3
 
 
-class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
+class ParameterForm(FieldForm[ParameterView]):
     """The parameters of one group. Not live: the machine has them once they are saved."""
 
     title = N_("Parameters")
     keys = (
-        Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
-        Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
-        Key(("f6",), "F6", "choose_value", N_("another value, from a list, where a field has choices"), N_("Choice")),
+        *FORM_KEYS,
         Key(("f2",), "F2", "save", N_("saves, and starts the machine anew with it"), N_("Save")),
         Key(("insert",), "Ins", "add", N_("one more tool, or place of the magazine"), N_("Add")),
         Key(("delete",), "Del", "remove", N_("takes a tool or place away; asks first"), N_("Remove")),
     )
 
     def __init__(self, production: Production, shell: Shell, group: str, heading: str):
-        self._production, self._shell, self._group, self._heading = production, shell, group, heading
-        self._head, self._below = Text(""), Text("")
+        super().__init__(shell)
+        self._production, self._group, self._heading = production, group, heading
         self._narrow = False  # as drawn last
-        self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
-        self._list = urwid.ListBox(self._rows)
-        super().__init__(urwid.Frame(self._list, header=urwid.AttrMap(self._head, "title"), footer=self._below))
         self._open()
 
     @property
     def changed(self) -> bool:
         """Whether something typed would be lost when the form is closed."""
         return bool(self._typed())
-
-    def keypress(self, size: Size, key: str) -> str | None:
-        """The form's keys, then the field's own; Esc asks first where something would be lost."""
-        if asked_to_leave(self, self._shell, key, self._give_up):
-            return None
-        if (key != "delete" or self._group in NUMBERED) and called(self, self.keys, key):
-            return None
-        left = super().keypress(size, key)
-        self._look()
-        return left
-
-    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """Goes to the field that is clicked."""
-        taken = bool(super().mouse_event(size, event, button, col, row, focus))
-        self._look()
-        return taken
 
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws the fields; where there are few columns what a field may be is said below alone."""
@@ -72,28 +52,6 @@ class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
             self._narrow = size[0] < LEAST_COLUMNS
             self._draw_rows()
         return super().render(size, focus)
-
-    def go(self, by: int) -> None:
-        """Moves the cursor by so many fields; it stops at the ends."""
-        if self._fields:
-            self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._fields) - 1)))
-            self._look()
-
-    def choose_value(self) -> None:
-        """Offers the values of a field that has choices."""
-        field = self._field
-        if field is None or not field.choices:
-            self._shell.say(_("this field has no list of values: type one"))
-            return
-        edit = self._edits[self._list.focus_position]
-        now = str(edit.edit_text)
-
-        def chosen(index: int) -> None:
-            edit.set_edit_text(field.choices[index])
-            self._look()
-
-        at = field.choices.index(now) if now in field.choices else None
-        choose_another(self._shell, field.name, field.choices, at, chosen)
 
     def save(self) -> None:
         """Saves all fields, or none if one of them can't be taken."""
@@ -141,37 +99,30 @@ class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
             self._open()
             self._shell.say(answer)
 
-    def _give_up(self) -> None:
-        self._open()
-        self._shell.back()
-
-    @property
-    def _field(self) -> ParameterView | None:
-        return self._fields[self._list.focus_position] if self._fields else None
-
     def _open(self) -> None:
-        at = self._list.focus_position if self._rows else 0
-        self._fields = list(self._production.parameters(self._group))
-        self._edits = [Edit(edit_text=field.value) for field in self._fields]
-        self._draw_rows(at)
+        self._show(self._production.parameters(self._group))
         self._look()
 
-    def _draw_rows(self, at: int | None = None) -> None:
-        at = (self._list.focus_position if self._rows else 0) if at is None else at
-        pairs = zip(self._fields, self._edits, strict=True)
-        self._rows[:] = [_row(field, edit, self._narrow) for field, edit in pairs]
-        if self._rows:
-            self._list.set_focus(min(at, len(self._rows) - 1))
+    def _row(self, field: ParameterView, edit: Edit) -> urwid.Widget:
+        box = urwid.AttrMap(edit, "field", "focus")
+        cells: list[Any] = [Text(field.name, wrap="clip"), (VALUE_COLUMNS, box)]
+        return urwid.Columns(
+            cells if self._narrow else [*cells, (RANGE_COLUMNS, WholeText([("dark", field.allowed)]))], 1
+        )
+
+    def _label(self, field: ParameterView) -> str:
+        return field.name
+
+    def _called(self, key: str) -> bool:
+        return (key != "delete" or self._group in NUMBERED) and super()._called(key)
+
+    def _look(self) -> None:
+        self._tell(self._heading, self._lines())
 
     def _typed(self) -> dict[str, str]:
         """What differs from the machine's file, by the parameters' names."""
         pairs = zip(self._fields, self._edits, strict=True)
         return {field.name: str(edit.edit_text) for field, edit in pairs if edit.edit_text != field.value}
-
-    def _look(self) -> None:
-        changed = _(", changed") if self.changed else ""
-        self._head.set_text(f"{self._heading}{changed}")
-        self._below.set_text([part for line in self._lines() for part in [*line, "\n"]][:-1])
 
     def _lines(self) -> list[Line]:
         field = self._field
@@ -189,9 +140,3 @@ class ParameterForm(urwid.WidgetWrap[urwid.Widget]):
             [("dark", _(field.effect))],
             *(problems or [[("good", _("sound"))]]),
         ]
-
-
-def _row(field: ParameterView, edit: Edit, narrow: bool) -> urwid.Widget:
-    box = urwid.AttrMap(edit, "field", "focus")
-    cells: list[Any] = [Text(field.name, wrap="clip"), (VALUE_COLUMNS, box)]
-    return urwid.Columns(cells if narrow else [*cells, (RANGE_COLUMNS, WholeText([("dark", field.allowed)]))], 1)

@@ -10,6 +10,7 @@
     table_actions.py save, reset, compare, copy, delete       phase_editor.py  ramp_editor.py  queue_editor.py
     configuration.py the machine's file as fields             scale_guide.py    the scale of an axis measured
     field_panel.py   what a field of it means, and what changes will do
+    field_form.py    a list of fields to type into
     tick_log.py      single ticks of a queue as a picture     queue_lines.py   what stands around the queue
     scope.py         a run as a logic analyser shows it: its keys are in scope_keys.py, its lines in scope_view.py,
                      its waves in scope_wave.py, its curves in scope_curve.py, what is measured in scope_measure.py

@@ -4,13 +4,12 @@ Rule: every field says its unit, its bounds and what it means; what can't be tak
 nothing is saved while there is such a field.
 """
 
-from typing import Any
-
 import urwid
 
 from drillctl.language.words import N_, _, translated
 from drillctl.ui.models.editing import History, Undoable
 from drillctl.ui.models.machine_fields import ConfigurationDraft, words_of
+from drillctl.ui.screens.field_form import FORM_KEYS, FieldForm
 from drillctl.ui.screens.field_panel import (
     HINT_COLUMNS,
     LABEL_COLUMNS,
@@ -24,12 +23,12 @@ from drillctl.ui.screens.field_panel import (
 )  # fmt: skip
 from drillctl.ui.screens.own_steps import CONFIGURATION_STEPS
 from drillctl.ui.screens.scale_guide import ScaleGuide
-from drillctl.ui.screens.shell import Shell, asked_to_leave, choose_another
+from drillctl.ui.screens.shell import Shell
 from drillctl.ui.screens.table_actions import TableActions, label_of
 from drillctl.ui.screens.table_editor import Size
-from drillctl.ui.widgets.keys import UNDO_KEYS, Key, called
+from drillctl.ui.widgets.keys import UNDO_KEYS, Key
 from drillctl.ui.widgets.panel import BORDER_COLUMNS, panel_columns, with_panel
-from drillctl.ui.widgets.texts import Edit, Line, Text
+from drillctl.ui.widgets.texts import Edit, Line
 from drillctl.viewmodel.bench import Bench
 from drillctl.viewmodel.console import Console, Problems, Watch
 from drillctl.viewmodel.tables import FieldView, TableEditing
@@ -37,16 +36,14 @@ from drillctl.viewmodel.tables import FieldView, TableEditing
 MOST_EFFECTS = 3  # below the fields, where there is no panel
 
 
-class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widget]):
+class ConfigurationScreen(Undoable[tuple[str, ...]], FieldForm[FieldView]):
     """The fields of one machine. Not live: the machine takes them when it is chosen."""
 
     title = N_("Configuration")
     own_steps = CONFIGURATION_STEPS
     _has_panel = _narrow = False  # as drawn last
     keys = (
-        Key(("up",), N_("Up"), "go", N_("the field above"), argument=-1),
-        Key(("down", "enter", "tab"), N_("Down"), "go", N_("the field below"), argument=1),
-        Key(("f6",), "F6", "choose_value", N_("another value, from a list, where a field has choices"), N_("Choice")),
+        *FORM_KEYS,
         Key(("f2",), "F2", "save", N_("saves to your own copy; a wrong value is never saved"), N_("Save")),
         Key(("f3",), "F3", "diff", N_("what differs from the shipped file"), N_("Diff")),
         Key(("f5",), "F5", "choose", N_("drives this machine, as it was saved"), N_("Drive it")),
@@ -63,15 +60,11 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         self, console: Console, shell: Shell, tables: TableEditing, name: str, plain: bool = False,
         bench: Bench | None = None,
     ):  # fmt: skip
+        super().__init__(shell)
         self._bench = bench
         self._hz: int | None = None  # what this computer carries, once it was measured
-        self._console, self._shell, self._tables, self._name = console, shell, tables, name
+        self._console, self._tables, self._name = console, tables, name
         self._actions = TableActions(console, shell, tables, "machines")
-        self._heading, self._below = Text(""), Text("")
-        self._rows: urwid.SimpleFocusListWalker[Any] = urwid.SimpleFocusListWalker([])
-        self._list = urwid.ListBox(self._rows)
-        header = urwid.AttrMap(self._heading, "title")
-        super().__init__(urwid.Frame(self._list, header=header, footer=self._below))
         self._open()
 
     @property
@@ -84,17 +77,9 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         """Whether something typed would be lost when the screen is closed."""
         return self._draft.changed
 
-    def keypress(self, size: Size, key: str) -> str | None:
-        """The table's keys, then the field's own; Esc asks first where something would be lost."""
-        if asked_to_leave(self, self._shell, key, self._give_up) or called(self, self.keys, key):
-            return None
-        left = super().keypress(self._left(size), key)
-        self._take()
-        return left
-
     def render(self, size: Size, focus: bool = False) -> urwid.Canvas:
         """Draws the fields, and beside them what the field under the cursor means and what a change will do."""
-        left, rows = self._left(size)
+        left, rows = self._room(size)
         assert len(size) == 2
         beside = size[0] - left
         narrow = left - LABEL_COLUMNS - VALUE_COLUMNS < HINT_COLUMNS
@@ -103,34 +88,6 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
             self._look()
         lines = about_field(self._draft, self._field, self._hz, beside - BORDER_COLUMNS) if beside else []
         return with_panel(super().render((left, rows), focus), _("This field"), lines, beside, rows)
-
-    def mouse_event(self, size: Size, event: str, button: int, col: int, row: int, focus: bool) -> bool:
-        """Goes to the field that is clicked, and through the fields with the wheel; the panel beside takes nothing."""
-        left = self._left(size)
-        taken = col < left[0] and bool(super().mouse_event(left, event, button, col, row, focus))
-        self._look()
-        return taken
-
-    def go(self, by: int) -> None:
-        """Moves the cursor by so many fields; it stops at the ends."""
-        if self._edits:
-            self._list.set_focus(max(0, min(self._list.focus_position + by, len(self._edits) - 1)))
-            self._look()
-
-    def choose_value(self) -> None:
-        """Offers the values of a field that has choices."""
-        field = self._field
-        if field is None or not field.choices:
-            self._shell.say(_("this field has no list of values: type one"))
-            return
-        now, edit = self._draft.shown(field), self._edits[self._list.focus_position]
-        at = field.choices.index(now) if now in field.choices else None
-
-        def chosen(index: int) -> None:
-            edit.set_edit_text(field.choices[index])
-            self._take()
-
-        choose_another(self._shell, label_of(field), field.choices, at, chosen)
 
     def save(self) -> None:
         """Saves all fields, or none if one of them can't be taken."""
@@ -189,34 +146,24 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
                 self._shell.message(_("Not measured"), [translated(problem) for problem in problems])
             elif found and found[0] is not None:
                 self._hz = found[0]
-                self._rows[:] = map(self._row, self._draft.fields, self._edits)
+                self._draw_rows()
                 self._look()
 
         self._shell.work(work, measured)
 
-    def _left(self, size: Size) -> tuple[int, int]:
+    def _room(self, size: Size) -> tuple[int, int]:
         """The size of the list of fields beside its panel."""
         assert len(size) == 2
         return size[0] - panel_columns(size[0]), size[1]
 
-    @property
-    def _field(self) -> FieldView | None:
-        return self._draft.fields[self._list.focus_position] if self._draft.fields else None
-
     def _open(self) -> None:
-        at = self._list.focus_position if self._rows else 0
         self._draft = ConfigurationDraft(self._tables, self._tables.read("machines", self._name))
-        self._edits = [Edit(edit_text=field.value) for field in self._draft.fields]
+        self._show(self._draft.fields)
         self._history = History(self._typed())
-        self._rows[:] = [*map(self._row, self._draft.fields, self._edits)]
-        if self._edits:
-            self._list.set_focus(min(at, len(self._edits) - 1))
         self._look()
 
-    def _give_up(self) -> None:
-        """Discards what is typed and closes the screen."""
-        self._open()
-        self._shell.back()
+    def _label(self, field: FieldView) -> str:
+        return label_of(field)
 
     def _take(self) -> None:
         """Takes the text of the field under the cursor; a locked field gets its value back."""
@@ -253,9 +200,7 @@ class ConfigurationScreen(Undoable[tuple[str, ...]], urwid.WidgetWrap[urwid.Widg
         self._open()
 
     def _look(self) -> None:
-        changed = _(", changed") if self._draft.changed else ""
-        self._heading.set_text(f"{_(self.title)}: {self._name}{changed}")
-        self._below.set_text([part for line in self._lines() for part in [*line, "\n"]][:-1])
+        self._tell(f"{_(self.title)}: {self._name}", self._lines())
 
     def _lines(self) -> list[Line]:
         field = self._field
