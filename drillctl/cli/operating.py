@@ -25,6 +25,7 @@ def operated(session: "Session", arguments: argparse.Namespace) -> "JobResult":
 
     with waiting() as wait:
         session = session.with_forecast(wait)
+    session = replace(session, most_held_s=float(arguments.hold_limit))
     asks, paced = _asks(arguments, session.running.port), pace_of(session.running) == REAL
     with ProgressView(streams.bar(sys.stderr), by_clock=paced) as view:
         if not asks and not (paced and _has_watcher(arguments)):

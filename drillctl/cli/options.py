@@ -108,6 +108,8 @@ def up_to(most: int) -> Callable[[str], int]:
     return read
 
 
+MOST_HELD_S = 7 * 24 * 3600
+
 # Defaults of the options of a run, as --help shows them.
 DEFAULTS = {
     "port": "simulated, or with mode REAL in the machine's file the port of its card",
@@ -130,6 +132,8 @@ def add_running(verb: argparse.ArgumentParser, defaults: Mapping[str, str] = DEF
     verb.add_argument("--fault", action=_FaultAction, default=[], metavar="NAME=N", help=wrong)
     turned = "frequency converter of the spindle (--pace real): its table and serial device, delta-gs20:/dev/ttyUSB0"
     verb.add_argument("--converter", metavar="TABLE:DEVICE", help=turned)
+    held = "without keys at a terminal: stop a job that an input (converter_fault) has held for so long; default: 60"
+    verb.add_argument("--hold-limit", type=up_to(MOST_HELD_S), default=60, metavar="SECONDS", help=held)
     scatter = f"seed of the random numbers of the dynamic plant; default: {defaults['seed']}"
     verb.add_argument("--seed", type=_seed, metavar="N", help=scatter)
 

@@ -56,7 +56,8 @@ def _session(file: Path, account: "Account", arguments: argparse.Namespace) -> t
 
     chosen = JobSetup.of_journal(account.head.options, file)
     tables = chosen.tables and Path(chosen.tables)
-    converter = options.converter(argparse.Namespace(converter=arguments.converter, tables=tables))
+    wanted = arguments.converter or account.site.converter or None
+    converter = options.converter(argparse.Namespace(converter=wanted, tables=tables))
     machine = options.machine(argparse.Namespace(machine=chosen.machine, tables=tables, tick_hz=chosen.tick_hz))
     with operating.waiting() as wait:
         rest = rest_of(file, account, machine, wait)

@@ -4,12 +4,15 @@ Rule: whether a job is to be held is known in one place, its JobHold. Keys and s
 pressed something; the runner asks the machine until it is as the operator wants it.
 """
 
+import time
 from collections.abc import Callable, Iterable
 from typing import Protocol
 
 import numpy as np
 
 from drillctl.kmd import Condition, Request
+from drillctl.language import Message
+from drillctl.machine import Machine
 
 ToolChange = Callable[[int, float | None], bool]  # tool and diameter; asked again and again until it is True
 
@@ -57,3 +60,27 @@ class JobHold:
         if self.wanted and condition == "ready":
             return "holding"
         return "ready" if self.wanted is False and condition in ("holding", "held") else condition
+
+
+class HoldLimit:
+    """How long the inputs of a machine that hold a job (``action = "pause"``) may do so where nobody is there who could
+    put it right. ``clock`` returns seconds.
+    """
+
+    def __init__(self, machine: Machine, most_s: float, clock: Callable[[], float] = time.monotonic):
+        self._inputs = {line.name: 1 << line.bit for line in machine.inputs if line.action == "pause"}
+        self._most_s, self._clock = most_s, clock
+        self._since_s: float | None = None
+
+    def exceeded(self, status: np.void) -> Message | None:
+        """Why the job is to be stopped, None while it is not. To be asked at every turn."""
+        on = [name for name, bit in self._inputs.items() if int(status["sensors"]) & bit]
+        if not on or not status["job"]:
+            self._since_s = None
+            return None
+        now_s = self._clock()
+        self._since_s = now_s if self._since_s is None else self._since_s
+        if now_s - self._since_s < self._most_s:
+            return None
+        fields = {"inputs": ", ".join(on), "seconds": self._most_s}
+        return Message("{inputs} held the job for {seconds:g} s; it was stopped, and can be resumed", **fields)

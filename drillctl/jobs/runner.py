@@ -19,10 +19,10 @@ from drillctl.jobs.estimate import TimeLeft
 from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
 from drillctl.jobs.magazine import MagazineError
-from drillctl.jobs.operator import JobHold, Operator, ToolChange
+from drillctl.jobs.operator import HoldLimit, JobHold, Operator, ToolChange
 from drillctl.jobs.tool_keeping import ToolKeeping, last_of_bit
 from drillctl.kmd import Fault, Request, is_complete, is_over
-from drillctl.language import Message, Refusal
+from drillctl.language import Message
 from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link
 from drillctl.trace import Segments, Trace
@@ -64,6 +64,7 @@ class JobRunner:
     tool_change    None: each tool change counts as made
     resumes_itself see JobHold
     tools          keeps the magazine record, on a machine that has one
+    hold_limit     ends a job that inputs hold for too long; None: it waits for its operator
     """
 
     job: Job
@@ -78,6 +79,7 @@ class JobRunner:
     operator: Operator | None = None
     resumes_itself: bool = True
     tools: ToolKeeping | None = None
+    hold_limit: HoldLimit | None = None
 
     def __post_init__(self) -> None:
         self.first = self.status = self.link.status()
@@ -163,7 +165,7 @@ class JobRunner:
                 self.journal.begun(self.job.hole_number(wanted))
                 self.feeder.release(wanted)
             except JournalError as error:
-                self._stop_for(error)
+                self._stop_for(error.message)
         self.feeder.feed()
         self._begin_transfer()
 
@@ -182,7 +184,7 @@ class JobRunner:
         try:
             note()
         except MagazineError as error:
-            self._stop_for(error)
+            self._stop_for(error.message)
 
     def _hear_operator(self) -> None:
         """Passes on what the operator asked since the last turn, and what the hold still needs."""
@@ -192,6 +194,8 @@ class JobRunner:
             else:
                 self.link.post(request)
                 self._stop_asked |= request == Request.STOP
+        if self.hold_limit and (reason := self.hold_limit.exceeded(self.status)):
+            self._stop_for(reason)
         if (due := self.hold.due(self.status)) is not None:
             self.link.post(due)
 
@@ -216,13 +220,13 @@ class JobRunner:
             try:
                 self.journal.done([self.job.hole_number(hole) for hole in range(self.confirmed + 1, done + 1)])
             except JournalError as error:
-                self._stop_for(error)
+                self._stop_for(error.message)
         self.confirmed = done
 
-    def _stop_for(self, error: Refusal) -> None:
-        """Stops the job because its journal, or the magazine record, can't be written."""
+    def _stop_for(self, reason: Message) -> None:
+        """Stops the job because its journal or the magazine record can't be written, or it is held for too long."""
         if self.trouble is None:
-            self.trouble = error.message
+            self.trouble = reason
             self.link.post(Request.STOP)
 
     def _end_journal(self, outcome: Outcome) -> None:

@@ -21,7 +21,7 @@ from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
-from drillctl.jobs.operator import Operator, ToolChange
+from drillctl.jobs.operator import HoldLimit, Operator, ToolChange
 from drillctl.jobs.runner import JobResult, JobRunner, Watcher
 from drillctl.jobs.site import site_of
 from drillctl.jobs.tool_keeping import ToolKeeping, with_tools
@@ -31,10 +31,14 @@ from drillctl.ticker.forecast import forecast
 from drillctl.ticker.launch import FREE, RunSettings, files_of, in_batches, is_soon_over, pace_of, start
 from drillctl.trace.segments import MOST_STRIP_TICKS, MOST_TICKS
 
+MOST_HELD_S = 60.0
+
 
 @dataclass(frozen=True)
 class Session:
-    """A job and how it is run. With ``journal``, a file: begun there with a Head, or gone on with from an Account."""
+    """A job and how it is run. With ``journal``, a file: begun there with a Head, or gone on with from an Account.
+    Without an operator, inputs may hold it for ``most_held_s`` seconds.
+    """
 
     job: Job
     running: RunSettings
@@ -43,6 +47,7 @@ class Session:
     tool_change: ToolChange | None = None
     operator: Operator | None = None
     tools: ToolKeeping | None = None
+    most_held_s: float = MOST_HELD_S
     has_forecast: bool = False
     ticks: NDArray[np.int64] | None = None  # of each command, where the time left is shown
 
@@ -79,9 +84,10 @@ class Session:
                 journal = opened.enter_context(closing(Journal(self.journal, self.start_from, site_of(self.running))))
             status_file = opened.enter_context(_status_file(self.journal))
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))
+            limit = None if self.operator else HoldLimit(self.job.machine, self.most_held_s)
             runner = JobRunner(
                 self.job, link, watcher, journal, done_before, ticks,
-                tool_change=self.tool_change, operator=self.operator, tools=self.tools,
+                tool_change=self.tool_change, operator=self.operator, tools=self.tools, hold_limit=limit,
             )  # fmt: skip
             return runner.run()
 

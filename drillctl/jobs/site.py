@@ -6,6 +6,8 @@ Rule: a job goes on where it ran; on another port, at another pace or with anoth
 import os
 from dataclasses import dataclass
 
+from msgspec.structs import replace
+
 from drillctl.language import Message
 from drillctl.plant import IDEAL_PLANT, PlantChoice, PlantRefused
 from drillctl.plant.choice import DYNAMIC, NONE
@@ -27,11 +29,12 @@ class SiteOptions:
 def site_of(running: RunSettings) -> Site:
     """The site of a run. Raises PortRefused for a port or a pace that can't be had."""
     port, pace = _whole(running.port), pace_of(running)
+    converter = "" if running.converter is None else running.converter.text
     if select(port)[0].real:
-        return Site(port, pace, NONE)
+        return Site(port, pace, NONE, converter=converter)
     choice = running.plant
     seed = choice.seed if choice.kind == DYNAMIC else 0
-    return Site(port, pace, " ".join((choice.kind, *sorted(choice.faults))), seed)
+    return Site(port, pace, " ".join((choice.kind, *sorted(choice.faults))), seed, converter)
 
 
 def running_at(site: Site, options: SiteOptions) -> RunSettings:
@@ -46,8 +49,10 @@ def running_at(site: Site, options: SiteOptions) -> RunSettings:
 
 
 def moved(ran: Site, here: Site) -> Message | None:
-    """A sentence that says in what the two sites differ; None where they are the same."""
-    if ran == here:
+    """A sentence that says in what the two sites differ; None where they are the same. The converter may be another:
+    its device has another name whenever it is plugged in.
+    """
+    if replace(ran, converter=here.converter) == here:
         return None
     if ran.real and not here.real:
         return Message(

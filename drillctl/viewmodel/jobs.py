@@ -5,6 +5,7 @@ Rule: made by the console, drawn by the screens; what a person asks of a board i
 
 import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
 from drillctl.language import Message
@@ -45,12 +46,14 @@ class Site(msgspec.Struct, frozen=True):
     port   NAME[:ADDRESS], an address that is a file absolute
     pace   'free' or 'real'
     plant  as a trace's header has it: 'ideal', 'dynamic' with its faults, 'none' on a real port; ``seed`` is its own
+    converter  of the spindle, TABLE:DEVICE; empty for none
     """
 
     port: str
     pace: str
     plant: str
     seed: int = 0
+    converter: str = ""
 
     @property
     def real(self) -> bool:
@@ -62,7 +65,9 @@ class Site(msgspec.Struct, frozen=True):
 
     @property
     def message(self) -> Message:
-        """The site as a message: port, pace and plant."""
+        """The site as a message: port, pace, plant and converter."""
+        if self.converter:
+            return Message("{site}, converter {name}", site=replace(self, converter="").message, name=self.converter)
         known = {"port": self.port, "pace": self.pace, "plant": self.plant, "seed": self.seed}
         if self.real:
             return Message("port {port}, pace {pace}", **known)

@@ -69,7 +69,7 @@ def test_the_speed_reaches_the_converter_and_a_replay_needs_none(tmp_path: Path)
         assert rig.converter.writes[0] == STOP and rig.converter.writes[-1] == STOP and not rig.converter.hz
         assert [write for write in rig.converter.writes if write != STOP] == [(0x2001, 40000), RUN]
     assert json.loads(out)["fault"] is None
-    assert "in.1 0x00005dc0" in (tmp_path / "t.trace").read_text(), "24000 rev/min, as the converter says"
+    assert "in.1 0x40005dc0" in (tmp_path / "t.trace").read_text(), "24000 rev/min, as the converter says, foot up"
     assert not replay(tmp_path / "t.trace", LIBRARY).failed(same_tables_wanted=True)
 
 

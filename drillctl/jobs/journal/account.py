@@ -48,6 +48,7 @@ class SiteLine(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pace: Literal["free", "real"]
     plant: str
     seed: Annotated[int, msgspec.Meta(ge=0, le=GREATEST_SEED)]
+    converter: str = ""
 
 
 @dataclass(frozen=True)

@@ -26,10 +26,16 @@ WANTED, ACTUAL, WRONG, LEAVE, STOPPED, BEAT = range(6)  # places in the shared m
 
 @dataclass(frozen=True, slots=True)
 class ConverterChoice:
-    """A kind of converter, and the serial device that it hangs on."""
+    """A kind of converter, the serial device that it hangs on, and the name by which its table was found."""
 
     kind: Converter
     device: str
+    table: str = ""
+
+    @property
+    def text(self) -> str:
+        """As ``choice_of`` takes it, ``TABLE:DEVICE``."""
+        return f"{self.table}:{self.device}"
 
 
 class _Wiring(NamedTuple):
@@ -102,7 +108,7 @@ def choice_of(text: str, library: Library) -> ConverterChoice:
         words = known_words(name, library.names("converter"))
         reason = Message("a converter is TABLE:DEVICE, such as delta-gs20:/dev/ttyUSB0; {words}", words=words)
         raise PortRefused(f"converter:{text}", reason)
-    return ConverterChoice(parse_converter(Source.read(file)), device)
+    return ConverterChoice(parse_converter(Source.read(file)), device, name)
 
 
 def carried(port: Driver) -> Driver:

@@ -89,7 +89,8 @@ def site_words(site: Site) -> str:
         form = _("port {port}, pace {pace}")
     elif site.seed:
         form = _("port {port}, pace {pace}, plant {plant}, seed {seed}")
-    return form.format(port=site.port, pace=site.pace, plant=site.plant, seed=site.seed)
+    words = form.format(port=site.port, pace=site.pace, plant=site.plant, seed=site.seed)
+    return _("{site}, converter {name}").format(site=words, name=site.converter) if site.converter else words
 
 
 def _counted(job: UnfinishedJob) -> str:
