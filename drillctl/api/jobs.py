@@ -32,7 +32,7 @@ def job(source: Source, machine: MachineGiven = DEFAULT, *, tick_hz: Whole | Non
              or a text that begins with ``KMD_`` or has several lines, a command each; or a job that was made before
     options  of a drill file, by the names of the command line: ``order="optimised"``, ``rotate=90``, ``offset=(5, 5)``,
              ``mirror="x"``, ``origin="file"``, ``peck=0.5``, ``skip_tools=(3,)``, ``pins=(3, "corners", 5)``,
-             ``format="mm,3:3,leading"``
+             ``mill=True``, ``format="mm,3:3,leading"``
 
     ``job.program`` has the commands as a numpy record array, ``job.work`` the holes of a drill file: ``steps`` (n, 2)
     from the working base, ``hits.xy_mm`` (n, 2) in the file. Raises Refused with file, line and reason; OSError for a

@@ -193,9 +193,14 @@ def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
 
 def _gcode(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     """Returns the board as G-code, placed and ordered as the options say."""
-    from drillctl.generation.gcode import gcode
+    from dataclasses import replace
 
-    job = jobs.load(arguments.file, jobs.job_setup(arguments), options.machine(arguments))
+    from drillctl.generation.gcode import DEFAULT_MILL_MM_MIN, gcode
+
+    machine = options.machine(arguments)
+    if machine.mill_mm_min is None:  # it is another machine that mills
+        machine = replace(machine, mill_mm_min=DEFAULT_MILL_MM_MIN)
+    job = jobs.load(arguments.file, jobs.job_setup(arguments), machine)
     lines = gcode(job, arguments.style or "grbl", arguments.rev_min, arguments.peck, arguments.spot)
     return "".join(f"{line}\n" for line in lines), job.warnings
 

@@ -47,6 +47,8 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     drilling.add_argument("--drills", type=Path, metavar="FILE", help="file of the drills at hand")
     drilling.add_argument("--peck", type=float, metavar="MM", help="drill in pecks of MM, retracting between them")
     drilling.add_argument("--spot", type=float, metavar="MM", help="first spot every hole of a tool, MM deep")
+    mill = "mill slots from end to end with the bit down, on a machine whose file says that it can, and in G-code"
+    drilling.add_argument("--mill", action="store_true", help=mill)
     of_several = "spindles that drill, on a machine with several; default: all"
     drilling.add_argument("--spindles", type=_spindles, metavar="N,N", default=(), help=of_several)
     add_reading(drilling)
@@ -109,6 +111,7 @@ def _job_options(arguments: argparse.Namespace) -> "JobOptions":
         align=_absolute(arguments.align),
         panel=arguments.panel and PanelOf(*arguments.panel),
         pins=arguments.pins,
+        mill=arguments.mill,
         order=arguments.order,
         order_seconds=arguments.order_seconds,
         skip_tools=tuple(sorted(arguments.skip_tools)),

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from drillctl.generation.job import Job
 from drillctl.generation.pcb_drill.strokes import CHIP_CLEARANCE_MM, depth_mm
-from drillctl.generation.worklist import Group, WorkList
+from drillctl.generation.worklist import Group, WorkList, placed_mm
 from drillctl.language import Message, Refusal, one_line
 from drillctl.machine import Machine
 
@@ -21,6 +21,8 @@ SAFE_MM = 5.0  # above the board: between tools
 TRAVEL_MM = 2.0  # above the board: between holes
 SECONDS_PER_MINUTE = 60
 DEFAULT_REV_MIN = 10_000
+DEFAULT_MILL_MM_MIN = 120.0  # of slots, where the machine's file names none: a small cutter in 1.6 mm FR-4
+Floats = NDArray[np.float64]
 
 
 class Style(NamedTuple):
@@ -59,6 +61,7 @@ def gcode(job: Job, style: str, rev_min: int, peck_mm: float | None, spot_mm: fl
         styles = ", ".join(STYLES)
         raise GcodeRefused(Message("no style {style!r} of G-code; there are {styles}", style=style, styles=styles))
     form, feed = STYLES[style], _feed_mm_min(job.machine)
+    mill = job.machine.mill_mm_min or DEFAULT_MILL_MM_MIN
     depths = _depths(job.machine, peck_mm)
     yield f"({_comment(job.name)}: {len(job.work.steps)} holes, mm from the working base)"
     yield from form.head
@@ -66,33 +69,40 @@ def gcode(job: Job, style: str, rev_min: int, peck_mm: float | None, spot_mm: fl
     for group in job.work.groups:
         yield from (line.format(number=group.number, told=_told(group)) for line in form.tool)
         yield f"M3 S{rev_min}"
-        places = places_mm(job.work, group)
+        begun, ends = (places_mm(job.work, group, of) for of in (job.work.hits.xy_mm, job.work.hits.end_mm))
         if spot_mm is not None:
-            yield from _holes(places, (spot_mm,), feed)
-        yield from _holes(places, depths, feed)
+            yield from _holes(begun, begun, (spot_mm,), feed, mill)
+        yield from _holes(begun, ends, depths, feed, mill)
         yield f"G0 Z{SAFE_MM:g}"
     yield "G0 X0 Y0"
     yield from form.end
 
 
-def places_mm(work: WorkList, group: Group) -> NDArray[np.float64]:
-    """Returns where the holes of a tool are, (n, 2), in millimetres from the working base, in drilling order."""
-    rows = slice(group.start, group.stop)
-    places = np.empty_like(work.hits.xy_mm[rows])
-    for board, placed in enumerate(work.boards):
-        chosen = work.hits.board[rows] == board
-        places[chosen] = placed.apply(work.hits.xy_mm[rows][chosen])
-    return places
+def places_mm(work: WorkList, group: Group, of_mm: Floats) -> Floats:
+    """Returns places of a tool's holes, of all holes (n, 2) in the file's millimetres, in millimetres from the working
+    base, in drilling order.
+    """
+    return placed_mm(work.boards, work.hits, of_mm)[group.start : group.stop]
 
 
-def _holes(places: NDArray[np.float64], depths_mm: tuple[float, ...], feed_mm_min: float) -> Iterator[str]:
-    """Each hole in so many pecks; between two of them the bit comes out to throw its chips."""
-    for x_mm, y_mm in places.tolist():
-        yield f"G0 X{_number(x_mm)} Y{_number(y_mm)}"
+def _holes(
+    begun: Floats, ends: Floats, depths_mm: tuple[float, ...], feed_mm_min: float, mill_mm_min: float
+) -> Iterator[str]:
+    """Each hole in so many pecks; between two of them the bit comes out to throw its chips. A slot in as many passes,
+    each but the last there and back.
+    """
+    for (x_mm, y_mm), end_mm in zip(begun.tolist(), ends.tolist(), strict=True):
+        there, back = f"X{_number(end_mm[0])} Y{_number(end_mm[1])}", f"X{_number(x_mm)} Y{_number(y_mm)}"
+        yield f"G0 {back}"
         yield f"G0 Z{TRAVEL_MM:g}"
         for number, depth in enumerate(depths_mm, 1):
+            last = number == len(depths_mm)
             yield f"G1 Z{_number(-depth)} F{_number(feed_mm_min)}"
-            yield f"G0 Z{CHIP_CLEARANCE_MM if number < len(depths_mm) else TRAVEL_MM:g}"
+            if there != back:
+                yield f"G1 {there} F{_number(mill_mm_min)}"
+                yield f"G0 Z{TRAVEL_MM:g}" if last else f"G1 {back} F{_number(mill_mm_min)}"
+            else:
+                yield f"G0 Z{TRAVEL_MM if last else CHIP_CLEARANCE_MM:g}"
 
 
 def _depths(machine: Machine, peck_mm: float | None) -> tuple[float, ...]:

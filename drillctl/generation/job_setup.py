@@ -105,6 +105,7 @@ class JobSetup(msgspec.Struct, frozen=True):
             peck_mm=options.peck_mm,
             spot_mm=options.spot_mm,
             base_steps=self.base,
+            mill=options.mill,
             pins=options.pins,
             face_down=options.mirror is not None,
             store=Path(options.store) if options.store else None,

@@ -21,6 +21,7 @@ class WorkSettings:
     """Order is 'file', 'nearest' or 'optimised'; peck and spot are depths below the board's surface, None = none.
 
     base_steps  the working base that the job is drilled from: X and Y from machine zero
+    mill        slots are milled from end to end; else they are chains of holes
     pins        the holes for pins that are added to the file; None: none
     face_down   the board lies turned over: its pins are drilled already
     store       the file of the RAM in which workpieces are looked up; None: the machine's own
@@ -38,6 +39,7 @@ class WorkSettings:
     peck_mm: float | None = None
     spot_mm: float | None = None
     base_steps: tuple[int, int] = (0, 0)
+    mill: bool = False
     pins: PinsOf | None = None
     face_down: bool = False
     store: Path | None = None

@@ -42,21 +42,25 @@ class Group:
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Every place where a bit goes down (n holes): file millimetres (n, 2), tool index, line of the file, board."""
+    """Every place where a bit goes down (n holes): file millimetres (n, 2), tool index, line of the file, board; and
+    where it comes up, ``end_mm`` (n, 2): the same place, but of a slot that is milled.
+    """
 
     xy_mm: Floats
+    end_mm: Floats
     tool: Integers
     line: Integers
     board: Integers
 
     def take(self, chosen: NDArray[np.intp] | NDArray[np.bool_]) -> "Hits":
         """These holes, in this order."""
-        return Hits(self.xy_mm[chosen], self.tool[chosen], self.line[chosen], self.board[chosen])
+        return Hits(self.xy_mm[chosen], self.end_mm[chosen], self.tool[chosen], self.line[chosen], self.board[chosen])
 
 
 @dataclass(frozen=True, eq=False)
 class WorkList:
-    """Holes in drilling order, grouped by tool; ``steps`` (n, 2) are X and Y from the working base.
+    """Holes in drilling order, grouped by tool; ``steps`` (n, 2) are X and Y from the working base, ``ends`` (n, 2)
+    where the bit comes up: elsewhere for a slot that is milled.
 
     number (n,)  the holes' numbers in the whole job, from 1; what is left of a job keeps them
     order_steps  after how many steps the search for a shorter order was cut short; None where it came to its end
@@ -65,6 +69,7 @@ class WorkList:
     groups: tuple[Group, ...]
     hits: Hits
     steps: Integers
+    ends: Integers
     boards: tuple[Affine, ...]
     number: Integers
     order_steps: int | None = None
@@ -74,9 +79,8 @@ class WorkList:
         left = np.flatnonzero(~np.isin(self.number, list(done)))
         bounds = [(int(np.searchsorted(left, g.start)), int(np.searchsorted(left, g.stop)), g) for g in self.groups]
         groups = tuple(replace(group, start=start, stop=stop) for start, stop, group in bounds if stop > start)
-        return WorkList(
-            groups, self.hits.take(left), self.steps[left], self.boards, self.number[left], self.order_steps
-        )
+        steps, ends = self.steps[left], self.ends[left]
+        return WorkList(groups, self.hits.take(left), steps, ends, self.boards, self.number[left], self.order_steps)
 
 
 def build(drill_file: "DrillFile", settings: WorkSettings, machine: Machine, advance: Advance = ignored) -> WorkList:
@@ -87,19 +91,28 @@ def build(drill_file: "DrillFile", settings: WorkSettings, machine: Machine, adv
     axes = positioning_axes(machine)
     extent_mm = np.concatenate([drill_file.hole_xy_mm, drill_file.slot_mm.reshape(-1, 2)])
     maps = boards(settings.placing, extent_mm)
-    hits = _on_every_board(_chosen(drill_file, _hits(drill_file), settings), len(maps))
+    hits = _on_every_board(_chosen(drill_file, _hits(drill_file, settings.mill), settings), len(maps))
     hits = hits.take(np.argsort(hits.tool, kind="stable"))
     scale = np.array([machine.axes[axis].steps_per_mm for axis in axes])
-    placed_mm = np.empty_like(hits.xy_mm)
-    for board, placed in enumerate(maps):
-        placed_mm[hits.board == board] = placed.apply(hits.xy_mm[hits.board == board])
-    steps = np.rint(placed_mm * scale).astype(np.int64)
-    _check_reach(drill_file, hits, steps, settings.base_steps, machine)
+    steps, ends = (np.rint(placed_mm(maps, hits, of) * scale).astype(np.int64) for of in (hits.xy_mm, hits.end_mm))
+    for places in (steps, ends):
+        _check_reach(drill_file, hits, places, settings.base_steps, machine)
     groups = _groups(drill_file, hits, settings)
     budget = Budget(settings.order_seconds, settings.order_steps)
-    order = _order(groups, steps, settings, machine, budget, advance)
+    order = _order(groups, steps, ends, settings, machine, budget, advance)
     order_steps = budget.steps if budget.cut else None
-    return WorkList(groups, hits.take(order), steps[order], maps, np.arange(1, len(order) + 1), order_steps)
+    numbers = np.arange(1, len(order) + 1)
+    return WorkList(groups, hits.take(order), steps[order], ends[order], maps, numbers, order_steps)
+
+
+def placed_mm(maps: tuple[Affine, ...], hits: Hits, of_mm: Floats) -> Floats:
+    """Places of the holes (n, 2), in the file's millimetres, as millimetres from the working base; each by its
+    board.
+    """
+    placed = np.empty_like(of_mm)
+    for board, place in enumerate(maps):
+        placed[hits.board == board] = place.apply(of_mm[hits.board == board])
+    return placed
 
 
 def positioning_axes(machine: Machine) -> tuple[int, int]:
@@ -113,15 +126,17 @@ def positioning_axes(machine: Machine) -> tuple[int, int]:
     return x, y
 
 
-def _hits(drill_file: "DrillFile") -> Hits:
-    """Holes and slot chains, merged in the order of the file."""
-    chains = [_chain(drill_file, index) for index in range(len(drill_file.slot_mm))]
+def _hits(drill_file: "DrillFile", mill: bool) -> Hits:
+    """Holes and slots, merged in the order of the file: a slot is milled from its beginning to its end, or a chain."""
+    slots = drill_file.slot_mm.reshape(-1, 2, 2)
+    chains = [each[:1] if mill else _chain(drill_file, index) for index, each in enumerate(slots)]
     counts = [len(chain) for chain in chains]
     at = np.concatenate([np.arange(len(drill_file.hole_xy_mm)) + 0.5, np.repeat(drill_file.slot_at, counts)])
     xy_mm = np.concatenate([drill_file.hole_xy_mm, *chains])
     tool = np.concatenate([drill_file.hole_tool, np.repeat(drill_file.slot_tool, counts)]).astype(np.int64)
     line = np.concatenate([drill_file.hole_line, np.repeat(drill_file.slot_line, counts)]).astype(np.int64)
-    return Hits(xy_mm, tool, line, np.zeros(len(tool), np.int64)).take(np.argsort(at, kind="stable"))
+    end_mm = np.concatenate([drill_file.hole_xy_mm, *(slots[:, 1:] if mill else chains)])
+    return Hits(xy_mm, end_mm, tool, line, np.zeros(len(tool), np.int64)).take(np.argsort(at, kind="stable"))
 
 
 def _chain(drill_file: "DrillFile", index: int) -> Floats:
@@ -156,7 +171,7 @@ def _chosen(drill_file: "DrillFile", hits: Hits, settings: WorkSettings) -> Hits
 
 def _on_every_board(hits: Hits, count: int) -> Hits:
     repeated = hits.take(np.tile(np.arange(len(hits.tool)), count))
-    return Hits(repeated.xy_mm, repeated.tool, repeated.line, np.repeat(np.arange(count), len(hits.tool)))
+    return replace(repeated, board=np.repeat(np.arange(count), len(hits.tool)))
 
 
 def _groups(drill_file: "DrillFile", hits: Hits, settings: WorkSettings) -> tuple[Group, ...]:
@@ -175,9 +190,11 @@ def _groups(drill_file: "DrillFile", hits: Hits, settings: WorkSettings) -> tupl
     )
 
 
-def approaches(steps: Integers, here: Integers, backlash_steps: Integers) -> Integers:
-    """Where to go first, so that the last motion of each axis is forward: (n, 2), the hole itself where it is so."""
-    came_from = np.concatenate([here[None], steps[:-1]])
+def approaches(steps: Integers, ends: Integers, here: Integers, backlash_steps: Integers) -> Integers:
+    """Where to go first, so that the last motion of each axis is forward: (n, 2), the hole itself where it is so;
+    ``ends`` (n, 2): where each is left.
+    """
+    came_from = np.concatenate([here[None], ends[:-1]])
     return steps - np.where(steps < came_from, backlash_steps, 0)
 
 
@@ -189,6 +206,7 @@ def backlash_of(machine: Machine) -> Integers:
 def _order(
     groups: tuple[Group, ...],
     steps: Integers,
+    ends: Integers,
     settings: WorkSettings,
     machine: Machine,
     budget: Budget,
@@ -196,27 +214,31 @@ def _order(
 ) -> NDArray[np.intp]:
     """Rows of ``steps`` in drilling order; the head starts at the working base and goes back there."""
     backlash, base = backlash_of(machine), np.zeros(2, np.int64)
-    reach = np.ptp([base, *steps], axis=0) + backlash
+    reach = np.ptp([base, *steps, *ends], axis=0) + backlash
     axes = positioning_axes(machine)
     travel = TravelCost(*(_travel(machine, axis, int(longest)) for axis, longest in zip(axes, reach, strict=True)))
     parts = [steps[group.start : group.stop] for group in groups]
-    passes = 1 if settings.spot_mm is None else 2
+    passes = [ends] if settings.spot_mm is None else [steps, ends]  # a spot is left where it is made
 
     def cost(orders: list[Integers]) -> int:
-        tools = [part[order] for part, order in zip(parts, orders, strict=True) for _ in range(passes)]
-        return _driven_ticks(np.concatenate(tools), backlash, travel)
+        rows = [(group.start + order, left) for group, order in zip(groups, orders, strict=True) for left in passes]
+        begun, left = (np.concatenate(each) for each in
+                       ([steps[row] for row, _ in rows], [left[row] for row, left in rows]))  # fmt: skip
+        return _driven_ticks(begun, left, backlash, travel)
 
     orders = plan_groups(parts, travel, settings.order, base, base, cost=cost, budget=budget, advance=advance)
     return np.concatenate([group.start + order for group, order in zip(groups, orders, strict=True)])
 
 
-def _driven_ticks(holes: Integers, backlash_steps: Integers, travel: TravelCost) -> int:
-    """Ticks of the moves from the base through these holes and back, those that take up backlash among them."""
+def _driven_ticks(holes: Integers, ends: Integers, backlash_steps: Integers, travel: TravelCost) -> int:
+    """Ticks of the moves from the base to these holes and back, each left at its end; those that take up backlash
+    among them, and the milling not.
+    """
     base = np.zeros((1, 2), np.int64)
-    before = approaches(holes, base[0], backlash_steps)
-    there = travel.between(np.concatenate([base, holes[:-1]]), before)
+    before = approaches(holes, ends, base[0], backlash_steps)
+    there = travel.between(np.concatenate([base, ends[:-1]]), before)
     taken_up = np.where((before != holes).any(axis=1), travel.between(before, holes), 0)
-    return int((there + taken_up).sum() + travel.between(holes[-1:], base).sum())
+    return int((there + taken_up).sum() + travel.between(ends[-1:], base).sum())
 
 
 def _travel(machine: Machine, axis: int, longest_steps: int) -> Integers:

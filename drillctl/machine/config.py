@@ -72,6 +72,7 @@ def parse_machine(source: Source, shipped: bool, parts: Parts) -> Machine:
         output_words=outputs.words,
         input_words=input_words,
         drill_clear_steps=drill.clear,
+        mill_mm_min=drill.mill_mm_min,
         spindle=spindle_of(source, raw, outputs.words, input_words),
         tool_changer=tool_changer(source, raw),
     )

@@ -175,6 +175,8 @@ class Machine:
     output_words: tuple[Word, ...] = field(default=(), repr=False)
     input_words: tuple[Word, ...] = field(default=(), repr=False)
     drill_clear_steps: int | None = field(default=None, repr=False)  # down to here a head is clear of the board
+    # How fast a bit may be moved sideways in the board; None: not at all. Of programs alone, so not in the digest.
+    mill_mm_min: float | None = field(default=None, repr=False)
     spindle: Spindle | None = field(default=None, repr=False)  # None: its speed is not measured
     tool_changer: ToolChanger | None = field(default=None, repr=False)
 

@@ -149,11 +149,14 @@ class ConfigurationPart(Strict, frozen=True):
 
 
 class DrillPart(Strict, frozen=True):
-    """``[drill]``: which axes drill, how deep where no sensor says, and down to where they are clear of the board."""
+    """``[drill]``: which axes drill, how deep where no sensor says, down to where they are clear of the board, and how
+    fast a bit may be moved sideways in it.
+    """
 
     axes: Annotated[list[str], msgspec.Meta(min_length=1)]
     down: Steps | None = None
     clear: Steps | None = None
+    mill_mm_min: Annotated[float, msgspec.Meta(ge=1, le=10_000)] | None = None
 
 
 class SpindlePart(Strict, frozen=True):

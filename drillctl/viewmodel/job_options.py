@@ -73,6 +73,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     origin             None: the lowest X and Y of the board come to lie at the working base
     align              an alignment file, or the measured holes themselves; these alone say where the board lies
     peck_mm, spot_mm   depths below the board's surface
+    mill               slots are milled from end to end, where the machine can; else they are chains of holes
     pins               holes for the pins that a board of two sides is turned over on; None: none
     order_seconds      for how long an optimised order may be looked for; None: until it is found
     order_steps        for how many steps, in place of seconds: of a job whose search the seconds have cut short
@@ -90,6 +91,7 @@ class JobOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename
     align: PathOrRows | tuple[MeasuredHole, ...] | None = None
     panel: PanelOf | None = None
     pins: PinsOf | None = None
+    mill: bool = False
     order: Order = "file"
     order_seconds: OrderSeconds | None = None
     order_steps: OrderSteps | None = None

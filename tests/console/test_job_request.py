@@ -15,8 +15,8 @@ from drillctl.viewmodel.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf, PinsOf
 
 # A file that a verb is given (a screen has the store of its machine); a bound for scripts that can't wait, and what a
-# journal keeps of it.
-VERBS_ONLY = {"store", "order_seconds", "order_steps", "spindles"}
+# journal keeps of it; slots are milled by one machine alone.
+VERBS_ONLY = {"store", "order_seconds", "order_steps", "spindles", "mill"}
 HOLES = (MeasuredHole(0.0, 1.0, 2.0, 3.0), MeasuredHole(4.0, 5.0, 6.0, 7.0))
 EVERYTHING = JobOptions(
     format="mm,decimal", origin="file", mirror="x", rotate_deg=90.0, offset_mm=(1.0, -2.0), order="nearest",

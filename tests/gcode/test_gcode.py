@@ -91,6 +91,35 @@ def test_boards_are_read_back_to_the_same_holes(board: str, style: str, tmp_path
         assert sum(asked in line for line in lines) == len(job.work.groups)
 
 
+SLOTS = ((10, 5, 14, 8), (20, 10, 20, 14), (25, 12, 23, 12))
+
+
+@pytest.mark.parametrize("style", ["grbl", "linuxcnc"])
+@pytest.mark.parametrize("peck", [[], ["--peck", "1.5"]])
+def test_milled_slots_are_read_back_from_end_to_end(peck: list[str], style: str, tmp_path: Path) -> None:
+    """In the board the bit moves by feeds alone, along each slot: in pecks there and back, deeper at its beginning."""
+    board, program = tmp_path / "b.drl", tmp_path / "b.ngc"
+    lines = "".join(f"X{a}.0Y{b}.0G85X{c}.0Y{d}.0\n" for a, b, c, d in SLOTS)
+    board.write_text(f"M48\nMETRIC\nT1C1.0\n%\nT1\nX5.0Y5.0\n{lines}M30\n")
+    options = ["--mill", "--origin", "file", "--style", style, *peck]
+    assert main(["convert", str(board), "--to", str(program), "-q", *options]) == 0
+    x = y = z = 0.0
+    cuts: list[tuple[float, ...]] = []
+    for line in interpreted(program, 1):
+        if not (found := MOVE.search(line)):
+            continue
+        to_x, to_y, to_z = map(float, found.groups()[1:])
+        if (to_x, to_y) != (x, y) and z <= 0:
+            assert found[1] == "STRAIGHT_FEED" and to_z == z, f"through the board: {line}"
+            cuts.append((x, y, to_x, to_y))
+        x, y, z = to_x, to_y, to_z
+    there = [tuple(map(float, slot)) for slot in SLOTS]
+    back = [(*slot[2:], *slot[:2]) for slot in there]
+    before = 2 if peck else 0  # the PCB drill goes 4.2 mm deep
+    assert cuts == [way for slot, home in zip(there, back, strict=True) for way in (*[slot, home] * before, slot)]
+    assert "F120" in program.read_text()
+
+
 def test_pecks_are_written_out_and_chips_come_out_between_them(tmp_path: Path) -> None:
     program = tmp_path / "b.nc"
     file = ROOT / "examples" / "blinker.drl"

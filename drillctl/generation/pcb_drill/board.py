@@ -12,6 +12,7 @@ from drillctl.generation.entered import check_entered
 from drillctl.generation.errors import JobError
 from drillctl.generation.job import Job
 from drillctl.generation.job_setup import JobSetup
+from drillctl.generation.pcb_drill.milling import check_mills
 from drillctl.generation.pcb_drill.program import board_program
 from drillctl.generation.pins import with_pins
 from drillctl.generation.sequences import Records
@@ -46,6 +47,7 @@ def load_board(
     from drillctl.generation.drillfile import DrillFileError, read
 
     check_entered(machine)
+    check_mills(machine, settings)
     try:
         advance = waits(reading(path.name))
         found = read(path, fmt=setup.options.format, after_end=setup.options.after_end, advance=advance)

@@ -4,9 +4,12 @@ Rule: built with numpy, a record's ``tag`` is its hole's number from 1; where th
 come to from below.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.generation.pcb_drill.milling import is_slot, slots_of, stretches
 from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
 from drillctl.generation.sequences import Records, numbered, record
 from drillctl.generation.spindles import heads_of
@@ -30,9 +33,9 @@ def board_program(work: WorkList, machine: Machine, settings: WorkSettings) -> R
     for group in work.groups:
         parts += [*switch(spindle, 0), record(Op.NARZEDZIE, [group.number])]  # hands are at the chuck meanwhile
         parts += [*switch(spindle, 1), *spin_up(machine, spindle)]
-        for stroke in passes:
-            parts.append(holes_of(work, group, stroke, here, machine))
-            here = work.steps[group.stop - 1]
+        for number, stroke in enumerate(passes, 1):
+            parts += strokes_of(work, group, stroke, here, machine, settings if number == len(passes) else None)
+            here = (work.ends if number == len(passes) else work.steps)[group.stop - 1]
     parts += [*switch(spindle, 0), gotos(np.zeros((1, 2), np.int64), machine), record(Op.KONIEC)]
     return numbered(parts)
 
@@ -44,13 +47,40 @@ def go_to_base(settings: WorkSettings, machine: Machine) -> list[Records]:
     return [gotos(np.array([settings.base_steps], np.int64), machine), record(Op.BAZA)]
 
 
-def holes_of(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
-    """The holes of a tool: to each a go (two where backlash is taken up), then the stroke. Where the machine's file
-    says from where on the heads are clear, the way to the next hole begins during the stroke up.
+def strokes_of(
+    work: WorkList,
+    group: Group,
+    stroke: Records,
+    here: NDArray[np.int64],
+    machine: Machine,
+    milled: WorkSettings | None,
+) -> Iterator[Records]:
+    """All holes of a tool by the same stroke, and slots milled by these settings; None: slots have the stroke too."""
+    if milled is None or not is_slot(work)[group.start : group.stop].any():
+        yield holes_of(work, group, stroke, here, machine, left_there=milled is None)
+        return
+    for part, are_slots in stretches(work, group):
+        each = slots_of(work, part, machine, milled) if are_slots else stroke
+        yield holes_of(work, part, each, here, machine)
+        here = work.ends[part.stop - 1]
+
+
+def holes_of(
+    work: WorkList,
+    group: Group,
+    stroke: Records,
+    here: NDArray[np.int64],
+    machine: Machine,
+    left_there: bool = False,
+) -> Records:
+    """The holes of a tool: to each a go (two where backlash is taken up), then the stroke, (commands,) the same for all
+    or (holes, commands). Where the machine's file says from where on the heads are clear, the way to the next hole
+    begins during the stroke up. ``left_there``: slots are left where they begin, too.
     """
     steps = work.steps[group.start : group.stop]
-    before = approaches(steps, here, backlash_of(machine))
-    blocks = np.zeros((len(steps), len(stroke) + 2), dtype=RECORD)
+    ends = steps if left_there else work.ends[group.start : group.stop]
+    before = approaches(steps, ends, here, backlash_of(machine))
+    blocks = np.zeros((len(steps), stroke.shape[-1] + 2), dtype=RECORD)
     blocks[:, 0] = gotos(before, machine)
     blocks[:, 1] = gotos(steps, machine)
     blocks[:, 2:] = stroke

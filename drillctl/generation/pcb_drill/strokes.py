@@ -23,8 +23,20 @@ def drill_stroke(machine: Machine, peck_mm: float | None, heads: tuple[int, ...]
     """These heads down to the lower sensor and up; in pecks, with the bit drawn out of the board between them."""
     axes = mask_of(machine, heads)
     down, up = record(Op.WIERTLO_DOL, axes=axes), record(Op.WIERTLO_GORA, axes=axes)
+    pecked = [
+        part
+        for depth in pecks_of(machine, peck_mm, heads)
+        for part in (head_move(machine, depth, heads), head_move(machine, -CHIP_CLEARANCE_MM, heads))
+    ]
+    return np.concatenate([*pecked, down, up])
+
+
+def pecks_of(machine: Machine, peck_mm: float | None, heads: tuple[int, ...]) -> tuple[float, ...]:
+    """The depths of all pecks but the last, which goes down to where the heads turn back, in mm below the board's
+    surface; none without pecks. Raises JobError for more than MOST_PECKS.
+    """
     if peck_mm is None:
-        return np.concatenate([down, up])
+        return ()
     deepest_mm = min(depth_mm(machine, axis) for axis in heads)
     pecks = math.ceil(deepest_mm / peck_mm) - 1
     if pecks > MOST_PECKS:
@@ -36,9 +48,7 @@ def drill_stroke(machine: Machine, peck_mm: float | None, heads: tuple[int, ...]
                 most=MOST_PECKS,
             )
         )
-    drawn = head_move(machine, -CHIP_CLEARANCE_MM, heads)
-    pecked = [part for n in range(1, pecks + 1) for part in (head_move(machine, n * peck_mm, heads), drawn)]
-    return np.concatenate([*pecked, down, up])
+    return tuple(number * peck_mm for number in range(1, pecks + 1))
 
 
 def spot_stroke(machine: Machine, spot_mm: float, heads: tuple[int, ...]) -> Records:
