@@ -166,20 +166,12 @@ def _part(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
 
 def _excellon(arguments: argparse.Namespace) -> tuple[str, Sequence[str]]:
     """Returns the drill file as text in its own coordinates, with its warnings; placing options don't apply."""
-    from drillctl.generation.drillfile import DrillFileError, read
     from drillctl.generation.drillfile.errors import Complaint
     from drillctl.generation.drillfile.write import write
     from drillctl.generation.errors import JobError
-    from drillctl.generation.pcb_drill.board import file_warnings, refusal
-    from drillctl.generation.waits import reading
+    from drillctl.generation.pcb_drill.board import file_warnings
 
-    try:
-        with waiting() as wait:
-            advance = wait(reading(arguments.file.name))
-            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
-    except DrillFileError as error:
-        raise refusal(arguments.file, error) from error
-    drill_file = jobs.with_pins(drill_file, arguments.pins)
+    drill_file = jobs.read_drill_file(arguments)
     try:
         data = write(drill_file, arguments.style or "mm,decimal")
     except Complaint as error:

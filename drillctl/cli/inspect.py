@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drillctl.cli import jobs, options, part_programs
-from drillctl.cli.operating import waiting
 from drillctl.language import json_text
 
 if TYPE_CHECKING:
@@ -57,19 +56,10 @@ def _part_program(arguments: argparse.Namespace) -> int:
 
 
 def _drill_file(arguments: argparse.Namespace) -> int:
-    from drillctl.generation.drillfile import DrillFileError, read, summary
-    from drillctl.generation.waits import reading
+    from drillctl.generation.drillfile import summary
     from drillctl.ui.terminal.drill_file_report import inspect_lines
 
-    try:
-        with waiting() as wait:
-            advance = wait(reading(arguments.file.name))
-            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
-    except DrillFileError as error:
-        from drillctl.generation.pcb_drill.board import refusal
-
-        raise refusal(arguments.file, error) from error
-    drill_file = jobs.with_pins(drill_file, arguments.pins)
+    drill_file = jobs.read_drill_file(arguments)
     contents = summary(drill_file)
     if arguments.json:
         print(json_text(contents, 2))

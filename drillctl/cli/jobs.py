@@ -73,11 +73,27 @@ def add_pins(verb: "argparse._ActionsContainer") -> None:
     verb.add_argument("--pins", type=_pins, metavar="MM[:WHERE[:MM]]", help=where)
 
 
-def with_pins(drill_file: "DrillFile", pins: "PinsOf | None") -> "DrillFile":
-    """Returns a file with the holes of ``--pins``; as it is without. Raises PlacingError."""
-    from drillctl.generation.pins import with_pins as pinned
+def read_drill_file(arguments: argparse.Namespace) -> "DrillFile":
+    """Returns the drill file of a verb that reads it as it is, with the holes of ``--pins``; shows how far it is.
 
-    return drill_file if pins is None else pinned(drill_file, pins).drill_file
+    Raises JobError for a file that can't be read, PlacingError for pins.
+    """
+    from drillctl.generation.drillfile import DrillFileError, read
+    from drillctl.generation.waits import reading
+
+    try:
+        with waiting() as wait:
+            advance = wait(reading(arguments.file.name))
+            drill_file = read(arguments.file, fmt=arguments.format, after_end=arguments.after_end, advance=advance)
+    except DrillFileError as error:
+        from drillctl.generation.pcb_drill.board import refusal
+
+        raise refusal(arguments.file, error) from error
+    if arguments.pins is None:
+        return drill_file
+    from drillctl.generation.pins import with_pins
+
+    return with_pins(drill_file, arguments.pins).drill_file
 
 
 def add_store(verb: argparse.ArgumentParser) -> None:
