@@ -147,19 +147,31 @@ class TraceItem(pytest.Item):
             return
         verdict = replay(self.path, library)
         if verdict.failed(bool(option("--drillctl-same-tables"))):
-            self._report(verdict)
             first = f"{self.path.name}: {verdict.headline()}"
-            raise TraceMismatch(f"{first}\n{verdict.message()}\n  run       {verdict.remark()}")
+            told = f"{first}\n{verdict.message()}\n  run       {verdict.remark()}"
+            raise TraceMismatch(told + self._reported(verdict))
 
-    def _report(self, verdict: "Verdict") -> None:
-        """Writes the page of the run by the tables at hand, where --drillctl-report asks for it."""
+    def _reported(self, verdict: "Verdict") -> str:
+        """Writes the page of the run by the tables at hand, where --drillctl-report asks for it; returns a line where
+        it can't be had. A trace that differs has failed by that alone.
+        """
+        from drillctl.language import Refusal
+
         folder = self.config.getoption("--drillctl-report")
         if folder is None or verdict.difference is None:
-            return
+            return ""
+        try:
+            self._write_page(verdict, folder)
+        except (Refusal, OSError) as error:
+            return f"\n  no page   {error}"
+        return ""
+
+    def _write_page(self, verdict: "Verdict", folder: Path) -> None:
         from drillctl.files.outputs import Output
         from drillctl.lab.run_report import comparison, report_of
         from drillctl.ui.report.page import report_page
 
+        assert verdict.difference is not None
         found = comparison("recorded", "by these tables", verdict.difference, verdict.machine)
         page = report_page([report_of(verdict.actual, verdict.machine, self.path)], "en", found)
         folder.mkdir(parents=True, exist_ok=True)

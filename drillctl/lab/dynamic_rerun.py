@@ -92,14 +92,19 @@ def axis_of_run(recorded: Trace, machine: Machine, file: Path, axis_name: str | 
                 file
             )
         )
-    if recorded.has("pace"):
-        raise LabError(Message("the tick rate was changed on the way (PACE); a picture has one scale of time").at(file))
+    check_one_rate(recorded, file)
     again = with_columns(recorded, machine, file)
     columns = columns_of(again, machine)
     index = axis_index(machine, axis_name) if axis_name else _farthest(columns)
     plant, as_run = _plant(recorded, machine)
     rotor, holes = _driven(plant, recorded, machine, index, columns)
     return AxisRun(machine, machine.axes[index], columns[index], rotor, holes, as_run)
+
+
+def check_one_rate(recorded: Trace, file: Path) -> None:
+    """Raises LabError for a run in which the tick rate was changed."""
+    if recorded.has("pace"):
+        raise LabError(Message("the tick rate was changed on the way (PACE); a picture has one scale of time").at(file))
 
 
 def columns_of(again: Trace, machine: Machine) -> list[Counts]:

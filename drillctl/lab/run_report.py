@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.lab.dynamic_rerun import columns_of, holes_of, images_of, plane_of, recorded_run
+from drillctl.lab.dynamic_rerun import check_one_rate, columns_of, holes_of, images_of, plane_of, recorded_run
 from drillctl.lab.errors import LabError
 from drillctl.language import Message
 from drillctl.language.words import N_
@@ -45,7 +45,7 @@ Ints = NDArray[np.int64]
 
 def run_report(file: Path, library: Library) -> RunReport:
     """Returns the report of a trace. Raises TraceError for a file that is no trace or can't be run, TableError for its
-    machine, LabError for a run that is too long, or was recorded with other tables.
+    machine, LabError for a run that is too long, has a change of the tick rate, or was recorded with other tables.
     """
     return report_of(*recorded_run(file, library), file)
 
@@ -57,6 +57,7 @@ def report_of(recorded: Trace, machine: Machine, file: Path) -> RunReport:
     if recorded.end > MOST_TICKS:
         reason = Message("{ticks} ticks; a report takes {most} at most", ticks=recorded.end, most=MOST_TICKS)
         raise LabError(reason.at(file))
+    check_one_rate(recorded, file)
     again = with_columns(recorded, machine, file)
     columns = columns_of(again, machine)
     choice = choice_of(recorded)

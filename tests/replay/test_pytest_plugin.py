@@ -151,3 +151,12 @@ def test_a_page_is_left_of_each_trace_that_failed(repository: Path) -> None:
     assert pages == ["bad.trace.html"]
     text = (repository / "out" / "pages" / pages[0]).read_text("utf-8")
     assert "The two runs part at tick 6" in text and "by these tables" in text
+
+
+def test_where_no_page_can_be_left_the_difference_is_told_all_the_same(repository: Path) -> None:
+    spoil(repository)
+    (repository / "pages").write_text("a file is there")
+    done = run_pytest(repository, "--drillctl-report=pages")
+    assert done.returncode == 1
+    assert "bad.trace: differs at tick 6" in done.stdout and "no page   " in done.stdout
+    assert "File exists" in done.stdout and "Traceback" not in done.stdout

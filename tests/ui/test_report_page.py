@@ -96,6 +96,16 @@ def test_a_bench_that_positions_no_board_has_a_page(sheet: str, axis: str, tmp_p
     assert f"KMD_RUCHd {axis}=9" in report_page([report], "en")
 
 
+def test_a_run_of_several_tick_rates_has_no_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Every time on it would be wrong; plot refuses it too."""
+    load("run")(QUEUE).save(tmp_path / "plain.trace")
+    plain = (tmp_path / "plain.trace").read_text("utf-8")
+    declared = plain.replace("signal fault >\n", "signal fault >\nsignal pace <\n")
+    (tmp_path / "paced.trace").write_text(declared.replace("0 fault -", "0 fault -\n0 pace 580"))
+    assert main(["report", str(tmp_path / "paced.trace"), "-o", str(tmp_path / "x.html")]) == 2
+    assert "the tick rate was changed on the way (PACE)" in capsys.readouterr().err
+
+
 def test_waves_are_unfolded_to_the_changes_of_the_run(dynamic: RunReport) -> None:
     data = json.loads(re.findall(r'<script type="application/json">(.*?)</script>', report_page([dynamic]))[0])
     assert [wave["name"] for wave in data["waves"]] == [wave.name for wave in dynamic.waves]
