@@ -13,6 +13,7 @@ html_theme = "furo"  # its fonts are the reader's own
 html_title = "drillctl"
 html_copy_source = False
 html_show_sphinx = False
+html_show_copyright = False
 myst_heading_anchors = 4  # anchors as forges make them, so that a link holds in both places
 exclude_patterns = ["lab/*/*", "_site"]
 README_OF_THE_CLONE = "../../README.md"  # is no page of the site; its front page says how to set up too
