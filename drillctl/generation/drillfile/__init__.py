@@ -10,6 +10,7 @@ The map, in the order a file travels:
     commands      what each line does: names (keywords), G and M words (codes), T (toolwords), coordinates
     machine       modal state: where is it, which tool, drilling or routing
     rows          holes and slots; repeats and patterns
+    cuts          the router's cuts; those that can be milled as slots
     tools         definitions and selection
     comments      what CAD programs say beside the commands
     sidefiles     what they say in reports beside the file
@@ -22,9 +23,10 @@ The map, in the order a file travels:
     write       a clean file from a DrillFile
 """
 
+from .cuts import milled
 from .errors import DrillFileError, Remark
 from .model import DrillFile, FormatChoice, Tool
 from .reader import decode, read
 from .summary import summary
 
-__all__ = ["DrillFile", "DrillFileError", "FormatChoice", "Remark", "Tool", "decode", "read", "summary"]
+__all__ = ["DrillFile", "DrillFileError", "FormatChoice", "Remark", "Tool", "decode", "milled", "read", "summary"]

@@ -53,10 +53,25 @@ def _mode(incremental: bool, name: str) -> Action:
     return action
 
 
-def _rout(machine: Machine, axes: Axes) -> None:
-    machine.routing, machine.tool_in_rout = True, False
-    if axes:
-        machine.move(axes)
+def _rout(*, arc: bool) -> Action:
+    """G00 to G03: rout mode, in which the router goes straight or in arcs."""
+
+    def action(machine: Machine, axes: Axes) -> None:
+        machine.routing, machine.tool_in_rout, machine.router.arc = True, False, arc
+        if axes:
+            machine.move(axes)
+
+    return action
+
+
+def _compensation(*, on: bool) -> Action:
+    """G40 to G42: beside its way the router is off it by the radius of its bit."""
+
+    def action(machine: Machine, axes: Axes) -> None:
+        machine.router.compensated = on
+        _router_only(machine, axes)
+
+    return action
 
 
 def _retract(machine: Machine, axes: Axes) -> None:
@@ -115,10 +130,10 @@ def _written(axes: Axes) -> str:
 STOP_PLACE = "its X and Y are where the table stops, no hole"
 OWN_HOLE = NEXT_WORDS + "XYR"
 CODES: dict[str, Code] = {
-    "G00": Code("rout mode: coordinates are the router's way until G05", _rout, ROUTER_AXES),
-    "G01": Code("the router's straight way", _rout, ROUTER_AXES),
-    "G02": Code("the router's arc, clockwise", _rout, ROUTER_AXES),
-    "G03": Code("the router's arc, counter-clockwise", _rout, ROUTER_AXES),
+    "G00": Code("rout mode: coordinates are the router's way until G05", _rout(arc=False), ROUTER_AXES),
+    "G01": Code("the router's straight way", _rout(arc=False), ROUTER_AXES),
+    "G02": Code("the router's arc, clockwise", _rout(arc=True), ROUTER_AXES),
+    "G03": Code("the router's arc, counter-clockwise", _rout(arc=True), ROUTER_AXES),
     "G04": Code("dwell; its X is a time", _nothing, "X"),
     "G05": Code(
         "drill mode; coordinates in its line are a hole",
@@ -126,9 +141,11 @@ CODES: dict[str, Code] = {
         then=OWN_HOLE,
     ),
     "G07": Code("speeds may change; passed over", _nothing),
-    "G40": Code("compensation off; in rout mode coordinates are the router's way", _router_only, ROUTER_AXES),
-    "G41": Code("compensation left; as G40", _router_only, ROUTER_AXES),
-    "G42": Code("compensation right; as G40", _router_only, ROUTER_AXES),
+    "G40": Code(
+        "compensation off; in rout mode coordinates are the router's way", _compensation(on=False), ROUTER_AXES
+    ),
+    "G41": Code("compensation left; as G40", _compensation(on=True), ROUTER_AXES),
+    "G42": Code("compensation right; as G40", _compensation(on=True), ROUTER_AXES),
     "G54": Code("passed over before a tool", _nothing, then="T"),
     "G85": Code("slot from the place before it to its own", lambda machine, axes: machine.slot({}, axes), "XY"),
     "G90": Code("absolute; coordinates in its line are a hole", _mode(False, "G90"), then=OWN_HOLE),

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from .cuts import Router
 from .errors import Complaint, Remark
 from .facts import Fact, Facts, Voice
 from .model import MM_PER_UNIT, Floats
@@ -40,7 +41,7 @@ class Machine:
         self.displaced = False  # a stop or a copied pattern left the table elsewhere than the last coordinates say
         self.ici: bool | None = None  # what the header says of incremental input
         self.zero: dict[str, float] = {}  # the last G92 or G93
-        self.routs = 0
+        self.router = Router()
 
     @property
     def drilling(self) -> bool:
@@ -64,6 +65,7 @@ class Machine:
         """After M30, where a person asks for what follows too: a machine as if switched on, its holes kept."""
         self.ended = self.stopped = self.routing = self.cutting = self.incremental = self.displaced = False
         self.format_one = self.delete_blocks = self.tool_in_rout = False
+        self.router.arc = self.router.compensated = False
         self.ici, self.zero = None, {}
         self.at = np.zeros((2, 3))
         self.tools.current = NO_TOOL
@@ -106,8 +108,11 @@ class Machine:
         if not self.routing:
             self.drill(_columns(axes))
             return
+        start = self.at.copy()
         for index, column in enumerate(_columns(axes)):
             self.at[index] = self._positions(column, self.at[index])[-1]
+        if self.cutting:
+            self.router.go(start, self.at.copy(), self.mm, self.tools.current, self.line, len(self.rows))
 
     def slot(self, start: Mapping[str, str], end: Mapping[str, str]) -> None:
         """G85: a slot from the line's first point (or where the machine stands) to its second."""
@@ -148,6 +153,7 @@ class Machine:
         if self.incremental:
             raise Complaint("unsupported-command", "M02 in incremental mode")
         self.displaced = True
+        self.router.copied()
         self.rows.repeat_pattern(count, self._offset(axes), self.line)
 
     def cut(self, *, down: bool) -> None:
@@ -155,9 +161,9 @@ class Machine:
         if down:
             self.routing, self.tool_in_rout = True, False
         if down and not self.cutting:
-            self.routs += 1
-            if self.routs == 1:
+            if not self.router.cuts:
                 self.remark("routs-not-drilled")
+            self.router.begin()
         self.cutting = down
 
     def _prepare(self, columns: Sequence[Sequence[str]]) -> None:

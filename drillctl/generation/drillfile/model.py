@@ -93,12 +93,26 @@ class Tool:
 
 
 @dataclass(frozen=True, eq=False)
+class Cuts:
+    """The straight lines (k) of the router's cuts that can be milled, fields as of a file's slots; ``made``: of how
+    many cuts they are.
+    """
+
+    mm: Floats
+    tool: Integers
+    line: Integers
+    at: Integers
+    made: int
+
+
+@dataclass(frozen=True, eq=False)
 class DrillFile:
     """Holes and slots of one file, arrays in file order (n holes, k slots).
 
     hole_xy_mm (n, 2), hole_tool (n,) index into tools, hole_line (n,) 1-based source line;
     slot_mm (k, 4) from x, y to x, y, slot_tool, slot_line (k,), slot_at (k,) number of holes before it;
-    routs: milled cuts, read but not drilled; bbox_mm (x0, y0, x1, y1) of hole centres and slot ends.
+    routs: milled cuts, read but not drilled; cuts: those of them that can be milled as slots;
+    bbox_mm (x0, y0, x1, y1) of hole centres and slot ends.
     """
 
     name: str
@@ -116,6 +130,7 @@ class DrillFile:
     runner_up: FormatChoice | None
     reason: Message
     warnings: tuple[Remark, ...]
+    cuts: Cuts | None = None
 
     @property
     def bbox_mm(self) -> tuple[float, float, float, float] | None:

@@ -107,12 +107,13 @@ def _assembled(name: str, machine: Machine, found: Recognition, ends_mm: Floats,
         slot_tool=tool[slot],
         slot_line=rows["line"][slot],
         slot_at=np.cumsum(~slot)[slot],
-        routs=machine.routs,
+        routs=len(machine.router.cuts),
         format=found.choice,
         confidence=found.confidence,
         runner_up=found.runner_up,
         reason=found.reason,
         warnings=(),
+        cuts=machine.router.measured(found.choice, slot),
     )
 
 

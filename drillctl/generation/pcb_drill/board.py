@@ -44,7 +44,7 @@ def load_board(
     """A drill file as a job, read, placed and ordered by its options; ``program_of`` makes its program. Raises
     JobError or PlacingError, and JobError for a machine whose parameters are not all entered.
     """
-    from drillctl.generation.drillfile import DrillFileError, read
+    from drillctl.generation.drillfile import DrillFileError, milled, read
 
     check_entered(machine)
     check_mills(machine, settings)
@@ -53,7 +53,8 @@ def load_board(
         found = read(path, fmt=setup.options.format, after_end=setup.options.after_end, advance=advance)
     except DrillFileError as error:
         raise refusal(path, error) from error
-    drill_file, settings = pinned(replace(found, name=str(path)), settings)
+    found = replace(milled(found) if settings.mill else found, name=str(path))
+    drill_file, settings = pinned(found, settings)
     programmed = partial(program_of, machine=machine, settings=settings)
     work = build(drill_file, settings, machine, waits(ORDERING))
     warnings = (*file_warnings(path, drill_file), *_life_warnings(path, work), *_order_warnings(path, settings, work))
