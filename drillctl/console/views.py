@@ -65,6 +65,7 @@ def machine_view(
         following=tuple(commands),
         queued=int(status["queued"]),
         tool=int(status["tool"]),
+        change_step=int(status["step"]),
         axes=tuple(
             _axis_view(axis, i, status, image, base_steps[i], link.measured) for i, axis in enumerate(machine.axes)
         ),

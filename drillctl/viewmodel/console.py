@@ -80,6 +80,7 @@ class MachineView(msgspec.Struct, frozen=True):
     stores: bool = False  # its jobs are workpieces in stores (viewmodel/workpieces.py)
     words: tuple[tuple[str, int], ...] = ()  # numbers on several bits of a card: those put out, then those read
     production: bool = False  # it has parameters and records (viewmodel/production.py)
+    change_step: int = 0  # the step of a tool change that is carried out, or that failed; 0: none
     paused: bool = False  # ticks come only as they are granted (viewmodel/signals.py)
 
 

@@ -163,6 +163,11 @@ def test_the_tool_in_use_is_that_which_serves_the_code_of_the_file() -> None:
     in_use = tool_in_use(VIEW, RECORDS, BOARD)
     assert in_use is not None and in_use.number == 5
     assert next(line for line in plain(tool_lines(VIEW, RECORDS, BOARD)) if line.startswith(">")).split()[1] == "T5"
+    stepping = replace(VIEW, change_step=13, command="KMD_RUCH x=5")
+    for shown in (stepping, replace(stepping, command="")):
+        assert f"Command   change, step 13{': ' * bool(shown.command)}{shown.command}" in plain(
+            work_lines(shown, RECORDS, BOARD, None)
+        )
     assert "Diameter  0.800 mm" in plain(work_lines(VIEW, RECORDS, BOARD, None))
     assert tool_in_use(VIEW, RECORDS, None) is RECORDS.tools[0]
 

@@ -50,8 +50,15 @@ def work_lines(
         _labelled(_("Offset +-"), _mm(tool.offset_mm if tool else None)),
         _labelled(_("Holes"), hole_text(view, progress)),
         _labelled(_("Time"), time_text(progress)),
-        _labelled(_("Command"), view.command or NOTHING),
+        _labelled(_("Command"), _command(view)),
     ]
+
+
+def _command(view: MachineView) -> str:
+    """The command in execution, behind the step of the tool change that it belongs to; one that failed stands alone."""
+    if not view.change_step:
+        return view.command or NOTHING
+    return _("change, step {number}").format(number=view.change_step) + (f": {view.command}" if view.command else "")
 
 
 def _labelled(label: str, text: str) -> Line:
