@@ -19,8 +19,8 @@ on standard error, ``drillctl: FILE:LINE: reason``, and exit code 2.
 and what they share: options.py (machine, port, results), jobs.py (options of a job), operating.py (keys, progress and
 tool changes while a job runs), part_programs.py (sentences in words), number_lists.py (440:640:20), board_trials.py
 (--board of sweep and tune), drawing.py (a picture to a file or the terminal),
-parsing.py (argparse with hints), verbosity.py (-q and -v), refusals.py (errors as lines and JSON), streams.py (stdout
-and stderr), examples.py (for --help).
+holes_csv.py (the table of holes), parsing.py (argparse with hints), verbosity.py (-q and -v), refusals.py (errors as
+lines and JSON), streams.py (stdout and stderr), examples.py (for --help).
 """
 
 import os

@@ -67,8 +67,8 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "drillctl scope board.trace --from-tick 500",
     ),
     "plot": (
-        "drillctl plot board.trace",
-        "drillctl plot board.trace --what speed --axis x --to-tick 2000",
+        "drillctl plot holes.csv",
+        "drillctl plot board.trace --what motion --axis x --seconds 1:3",
     ),
     "report": (
         "drillctl report board.trace -o board.html",

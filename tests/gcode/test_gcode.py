@@ -91,6 +91,22 @@ def test_boards_are_read_back_to_the_same_holes(board: str, style: str, tmp_path
         assert sum(asked in line for line in lines) == len(job.work.groups)
 
 
+@pytest.mark.parametrize("mirror", ["x", "y"])
+def test_both_sides_of_a_board_meet_on_their_pins(mirror: str, tmp_path: Path) -> None:
+    """The back's program has the front's holes turned over about the middle of the front's pins, and no pins."""
+    board = str(ROOT / "examples" / "blinker.drl")
+    read: dict[str, np.ndarray] = {}
+    for side, options in (("front", []), ("back", ["--mirror", mirror])):
+        program = tmp_path / f"{side}.ngc"
+        words = ["convert", board, "--to", str(program), "--pins", "3:corners:6", "-q"]
+        assert main([*words, *options]) == 0
+        read[side] = np.array(drilled(interpreted(program, 4))[0])
+    holes, pins = read["front"][:-4], read["front"][-4:]
+    axis = "xy".index(mirror)
+    holes[:, axis] = pins[:, axis].min() + pins[:, axis].max() - holes[:, axis]
+    assert read["back"] == pytest.approx(holes, abs=2e-4)
+
+
 SLOTS = ((10, 5, 14, 8), (20, 10, 20, 14), (25, 12, 23, 12))
 
 
