@@ -13,6 +13,7 @@ from types import FrameType
 import numpy as np
 from numpy.typing import NDArray
 
+from drillctl.generation.errors import JobError
 from drillctl.generation.feeder import Feeder
 from drillctl.generation.job import Job, MadeHole
 from drillctl.jobs.estimate import TimeLeft
@@ -64,6 +65,7 @@ class JobRunner:
     tool_change    None: each tool change counts as made
     resumes_itself see JobHold
     tools          keeps the magazine record, on a machine that has one
+    room_ticks     the most that its record has room for; None: that was looked at before
     hold_limit     ends a job that inputs hold for too long; None: it waits for its operator
     """
 
@@ -80,6 +82,7 @@ class JobRunner:
     resumes_itself: bool = True
     tools: ToolKeeping | None = None
     hold_limit: HoldLimit | None = None
+    room_ticks: int | None = None
 
     def __post_init__(self) -> None:
         self.first = self.status = self.link.status()
@@ -114,10 +117,14 @@ class JobRunner:
         self._feed()
 
     def advance(self) -> bool:
-        """Feeds the queue, lets the machine run for a moment and reads its status; returns whether the job is over."""
+        """Feeds the queue, lets the machine run for a moment and reads its status; returns whether the job is over.
+        Raises JobError where its record has no room for more ticks.
+        """
         self._feed()
         self.link.turn()
         self.status = status = self.link.status()
+        if self.room_ticks is not None:
+            check_room(self.job, int(status["tick"] - self.first["tick"]), self.room_ticks)
         self._confirm()
         self._change_tool()
         self.holes += [self.job.made_hole(*touch) for touch in self.link.touches()]
@@ -275,6 +282,18 @@ class JobRunner:
     def _commands(self) -> int:
         """How many commands of the program are done."""
         return int(self.status["done"]) - int(self.first["done"])
+
+
+def check_room(job: Job, ticks: int, room_ticks: int) -> None:
+    """Raises JobError for a run of more ticks than its record has room for."""
+    if ticks > room_ticks:
+        reason = Message(
+            "{ticks} ticks; a trace has room for {room}; record a part of the job, or run it without --trace and "
+            "--vcd",
+            ticks=ticks,
+            room=room_ticks,
+        )
+        raise JobError(reason.at(job.name))
 
 
 @contextmanager

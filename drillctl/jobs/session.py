@@ -22,7 +22,7 @@ from drillctl.generation.readers import load_job
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
 from drillctl.jobs.operator import HoldLimit, Operator, ToolChange
-from drillctl.jobs.runner import JobResult, JobRunner, Watcher
+from drillctl.jobs.runner import JobResult, JobRunner, Watcher, check_room
 from drillctl.jobs.site import site_of
 from drillctl.jobs.tool_keeping import ToolKeeping, with_tools
 from drillctl.language import Message
@@ -74,7 +74,8 @@ class Session:
 
     def run(self, watcher: Watcher) -> JobResult:
         """Runs the job to its end; ``watcher`` is given its progress. Raises JobError, JournalError or PortError before
-        anything moves.
+        anything moves; for a run without a forecast whose record has no room for it, JobError after so many ticks of
+        the simulation.
         """
         ticks = self.ticks if self.has_forecast else self.with_forecast().ticks
         done_before = self.start_from.holes_done if isinstance(self.start_from, Account) else 0
@@ -88,31 +89,39 @@ class Session:
             runner = JobRunner(
                 self.job, link, watcher, journal, done_before, ticks,
                 tool_change=self.tool_change, operator=self.operator, tools=self.tools, hold_limit=limit,
+                room_ticks=self._room_ticks if self._keeps and self._is_soon_over else None,
             )  # fmt: skip
             return runner.run()
 
     def with_forecast(self, waits: Waits = unwatched) -> "Session":
         """The same with the ticks of each command, where the time left is shown; ``run`` makes the forecast
         itself where it was not made before. Raises JobError for a run that is to be kept in a trace and has more ticks
-        than one has room for.
+        than one has room for. A run that takes no longer than its forecast, and leaves no journal, is not forecast.
         """
         return replace(self, has_forecast=True, ticks=self._forecast(waits))
 
     def _forecast(self, waits: Waits) -> NDArray[np.int64] | None:
-        kept = self.running.traced and pace_of(self.running) == FREE
-        if not kept and (not self.job.work or is_soon_over(self.running)):
+        shown = self.job.work is not None and not is_soon_over(self.running)
+        if self._is_soon_over or not (self._keeps or shown):
             return None
         found = forecast(self.job.program, self.job.machine, advance=waits(FORECASTING))
-        room = MOST_STRIP_TICKS if self.running.taped and not in_batches(self.running) else MOST_TICKS
-        if kept and found.total_ticks > room:
-            reason = Message(
-                "{ticks} ticks; a trace has room for {room}; record a part of the job, or run it without --trace and "
-                "--vcd",
-                ticks=found.total_ticks,
-                room=room,
-            ).at(self.job.name)
-            raise JobError(reason)
-        return None if is_soon_over(self.running) or not self.job.work else found.ticks
+        if self._keeps:
+            check_room(self.job, found.total_ticks, self._room_ticks)
+        return found.ticks if shown else None
+
+    @property
+    def _keeps(self) -> bool:
+        """Whether the run is kept in a record, all of it."""
+        return self.running.traced and pace_of(self.running) == FREE
+
+    @property
+    def _room_ticks(self) -> int:
+        return MOST_STRIP_TICKS if self.running.taped and not in_batches(self.running) else MOST_TICKS
+
+    @property
+    def _is_soon_over(self) -> bool:
+        """Whether the run is as good as its forecast: as quick, and nothing stays of it where it is refused."""
+        return is_soon_over(self.running) and self.journal is None
 
 
 @dataclass(frozen=True, eq=False)
