@@ -6,12 +6,14 @@ Rule: two tables at the end are the whole of it; a word that is wrong is a LineE
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from drillctl.kmd.commands import MOST_ARGUMENT, ArgumentForm, Names, Spec
 from drillctl.language import Counted, Message, Refusal, joined, known_words
 
+Written = np.void | Mapping[str, Any]  # a record, or as much of one by name as its text says
 WORD = re.compile(r"\S+")
 _INTEGER = re.compile(r"[+-]?[0-9]{1,10}$")
 
@@ -37,7 +39,7 @@ def read_arguments(spec: Spec, name: Word, rest: list[Word], names: Names) -> tu
     return _IN[spec.form](spec, name, rest, names)
 
 
-def written_arguments(spec: Spec, record: np.void, names: Names) -> list[str]:
+def written_arguments(spec: Spec, record: Written, names: Names) -> list[str]:
     """Returns the words that ``read_arguments`` reads the same record from."""
     return _OUT[spec.form](record, names)
 
@@ -171,30 +173,30 @@ def _input_in(spec: Spec, name: Word, rest: list[Word], names: Names) -> tuple[i
     return 0, [_known(rest[0], names.inputs, Message("input")), _level(rest[1]), _integer(rest[2], 1)]
 
 
-def _masked(record: np.void, names: Names) -> list[int]:
+def _masked(record: Written, names: Names) -> list[int]:
     return [index for index in range(len(names.axes)) if int(record["axes"]) >> index & 1]
 
 
-def _moves_out(record: np.void, names: Names) -> list[str]:
+def _moves_out(record: Written, names: Names) -> list[str]:
     return [f"{names.axes[index]}={record['args'][index]}" for index in _masked(record, names)]
 
 
-def _xy_out(record: np.void, names: Names) -> list[str]:
+def _xy_out(record: Written, names: Names) -> list[str]:
     return [str(record["args"][names.axes.index(axis)]) for axis in ("x", "y")]
 
 
-def _heads_out(record: np.void, names: Names) -> list[str]:
+def _heads_out(record: Written, names: Names) -> list[str]:
     floors = {index: int(record["args"][index]) for index in _masked(record, names)}
     return [f"{names.axes[index]}={ticks}" if ticks else names.axes[index] for index, ticks in floors.items()]
 
 
-def _xy_heads_out(record: np.void, names: Names) -> list[str]:
-    heads = record.copy()
-    heads["axes"] &= ~np.uint16(sum(1 << names.axes.index(axis) for axis in ("x", "y")))
+def _xy_heads_out(record: Written, names: Names) -> list[str]:
+    plane = sum(1 << names.axes.index(axis) for axis in ("x", "y"))
+    heads = {"axes": int(record["axes"]) & ~plane, "args": record["args"]}
     return [*_xy_out(record, names), *_heads_out(heads, names)]
 
 
-def _switch_out(table: Mapping[str, int], record: np.void, count: int) -> list[str]:
+def _switch_out(table: Mapping[str, int], record: Written, count: int) -> list[str]:
     by_bit = {bit: name for name, bit in table.items()}
     return [by_bit[int(record["args"][0])], *(str(value) for value in record["args"][1:count])]
 
@@ -211,7 +213,7 @@ _IN: Mapping[ArgumentForm, _Reader] = {
     ArgumentForm.HEADS: _heads_in,
     ArgumentForm.XY_HEADS: _xy_heads_in,
 }
-_OUT: Mapping[ArgumentForm, Callable[[np.void, Names], list[str]]] = {
+_OUT: Mapping[ArgumentForm, Callable[[Written, Names], list[str]]] = {
     ArgumentForm.NOTHING: lambda record, names: [],
     ArgumentForm.XY: _xy_out,
     ArgumentForm.MOVES: _moves_out,

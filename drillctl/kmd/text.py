@@ -5,11 +5,12 @@ Rule: a text gives a whole program, or an error and nothing.
 
 from collections.abc import Iterator
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.kmd.arguments import WORD, LineError, Word, read_arguments, words_of, written_arguments
+from drillctl.kmd.arguments import WORD, LineError, Word, Written, read_arguments, words_of, written_arguments
 from drillctl.kmd.commands import BY_OP, COMMANDS, MOST_AXES, MOVING, RECORD, Names, Op, Spec
 from drillctl.language import Message, Refusal, nearest
 
@@ -17,6 +18,7 @@ MOST_COMMANDS = 5_000_000
 LONGEST_LINE = 1000
 LINES_REMEMBERED = 4096
 TEXTS_REMEMBERED = 1024
+WRITTEN = ("opcode", "flags", "axes", "floor_ticks", "args")  # the fields that a command's text says, args last
 _PREFIX = "KMD_"
 
 
@@ -57,7 +59,7 @@ def parse_program(text: str, names: Names, file: str = "<queue>") -> NDArray[np.
     return program[: count + (not ended)]
 
 
-def to_text(record: np.void, names: Names) -> str:
+def to_text(record: Written, names: Names) -> str:
     """Returns one record as a line of text, without a line end; ``parse_program`` reads the same record from it."""
     spec = BY_OP[Op(int(record["opcode"]))]
     return " ".join([spec.name, *written_arguments(spec, record, names)])
@@ -68,15 +70,17 @@ def program_texts(program: NDArray[np.void], names: Names) -> Iterator[str]:
     do, are made into text once.
     """
 
-    @lru_cache(TEXTS_REMEMBERED)
-    def text(command: bytes) -> str:
-        return to_text(np.frombuffer(command, RECORD)[0], names)
-
-    plain = program.copy()
-    for counted in ("sequence", "epoch", "tag"):  # not part of the text
-        plain[counted] = 0
-    data, size = plain.tobytes(), plain.itemsize
-    yield from (text(data[begin : begin + size]) for begin in range(0, len(data), size))
+    known: dict[tuple[Any, ...], str] = {}
+    for begin in range(0, len(program), TEXTS_REMEMBERED):
+        part = program[begin : begin + TEXTS_REMEMBERED]
+        columns = [part[name].tolist() for name in WRITTEN]  # plain numbers: quicker to look at than a record's
+        for *numbers, args in zip(*columns, strict=True):
+            command = (*numbers, *args)
+            if command not in known:
+                known[command] = to_text(dict(zip(WRITTEN, (*numbers, args), strict=True)), names)
+            yield known[command]
+        if len(known) > TEXTS_REMEMBERED:
+            known.clear()
 
 
 def _lines(text: str, file: str) -> Iterator[tuple[int, str]]:

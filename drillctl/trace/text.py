@@ -70,10 +70,21 @@ def _head_lines(trace: Trace, signals: Sequence[Signal]) -> list[str]:
             raise ValueError(f"header: {quoted(key)} is no key: a-z 0-9 _ -, and not `signal` or `end`")
     return [
         _line(MAGIC, str(VERSION)),
-        *(_line(key, value) for key, value in trace.header),
+        *_lines(trace.header),
         *(_line("signal", _declaration(signal)) for signal in signals),
         "\n",
     ]
+
+
+def _lines(pairs: Sequence[tuple[str, str]]) -> list[str]:
+    """Returns the lines that ``_line`` makes; looked at all together, since a board has tens of thousands."""
+    lines = [f"{key} {value}".rstrip(" ") + "\n" for key, value in pairs]
+    values = "\n".join(["", *(value for _, value in pairs), ""])
+    printable = values.count("\n") == len(pairs) + 1 and values.replace("\n", "").isprintable()
+    short = max(map(len, lines), default=0) <= LINE_LIMIT
+    if printable and short and "\n " not in values and " \n" not in values:
+        return lines
+    return [_line(key, value) for key, value in pairs]
 
 
 def _line(key: str, value: str) -> str:
