@@ -65,7 +65,7 @@ class Job:
         """What a touch of the board is in the file's coordinates: ``places`` are steps from machine zero by axis,
         ``head`` is the axis of the bit.
         """
-        group, placed = self._hole(tag)
+        group, placed = self._holes.get(tag, (None, UNMOVED))
         x_mm, y_mm = placed.inverse().apply_one(self._place_mm("x", places), self._place_mm("y", places))
         drill, diameter_mm = (group.number, group.diameter_mm) if group else (tool, None)
         return MadeHole(drill, diameter_mm, x_mm, y_mm, 1 + self.machine.drill_axes.index(head), tag)
@@ -98,13 +98,14 @@ class Job:
         x_mm, y_mm = self.work.hits.xy_mm.T.tolist()
         return dict(zip(self.work.number.tolist(), zip(x_mm, y_mm, strict=True), strict=True))
 
-    def _hole(self, tag: int) -> tuple[Group | None, Affine]:
-        """The tool group and the board of a hole by its number, as far as a work list knows it."""
-        row = int(np.searchsorted(self.work.number, tag)) if self.work is not None else 0
-        if self.work is None or row >= self.holes_total or self.work.number[row] != tag:
-            return None, UNMOVED
-        group = next(group for group in self.work.groups if group.start <= row < group.stop)
-        return group, self.work.boards[self.work.hits.board[row]]
+    @cached_property
+    def _holes(self) -> dict[int, tuple[Group | None, Affine]]:
+        """The tool group and the board of each hole by its number: asked for at every hole."""
+        if self.work is None:
+            return {}
+        groups = [group for group in self.work.groups for _ in range(group.start, group.stop)]
+        boards = [self.work.boards[board] for board in self.work.hits.board.tolist()]
+        return dict(zip(self.work.number.tolist(), zip(groups, boards, strict=True), strict=True))
 
 
 def names_of(machine: Machine) -> Names:
