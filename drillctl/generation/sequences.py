@@ -85,4 +85,4 @@ def _in_steps(program: Records) -> NDArray[np.bool_]:
 def holes_passed(program: Records, done: int) -> int:
     """How many numbered holes the head has been over once so many commands are done, drilled or not."""
     tags = program["tag"][:done]
-    return len(np.unique(tags[tags > 0]))
+    return len(set(tags[tags > 0].tolist()))

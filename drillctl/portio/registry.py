@@ -6,11 +6,10 @@ distribution adds one by an entry point, which is looked for only where a name i
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from drillctl.language import Counted, Message, known_words
-from drillctl.portio import firmata, gpiod_lines, mapped, pcl720
 from drillctl.portio.firmata_pins import MEGA, UNO, Board
 from drillctl.ports import Driver, PortLayout, PortRefused
 
@@ -31,8 +30,13 @@ def _any_rate(address: str, layout: PortLayout, moving_axes: Iterable[int]) -> i
     return None
 
 
+def _of(driver: str, function: str, *first: Any) -> Callable[..., Any]:
+    """Returns a function of a driver's module, which is imported when it is called: most runs need none of them."""
+    return lambda *others: getattr(import_module(f"drillctl.portio.{driver}"), function)(*first, *others)
+
+
 def _no_serial_line() -> Message | None:
-    return None if firmata.usb_devices() else Message("no serial line at USB: plug the board in")
+    return None if _of("firmata", "usb_devices")() else Message("no serial line at USB: plug the board in")
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,7 @@ def _simulated(address: str, layout: PortLayout, card: Driver | None) -> Driver:
 
 def _mapped(address: str, layout: PortLayout, card: Driver | None) -> Driver:
     assert card is not None
-    return mapped.open_mapped(address, layout, card)
+    return _of("mapped", "open_mapped")(address, layout, card)
 
 
 def _real(opened: Callable[[str, PortLayout], Driver]) -> Open:
@@ -84,8 +88,8 @@ def _firmata_row(name: str, board: Board, summary: Message) -> Port:
         address="[DEVICE][@BAUD]",
         real=True,
         missing=_no_serial_line,
-        open=_real(partial(firmata.open_firmata, board)),
-        max_tick_hz=partial(firmata.max_tick_hz, board),
+        open=_real(_of("firmata", "open_firmata", board)),
+        max_tick_hz=_of("firmata", "max_tick_hz", board),
     )
 
 
@@ -118,8 +122,8 @@ PORTS = {
             needs=Message("an ISA bus, /dev/port, root"),
             address="[BASE[,BASE..]], hexadecimal; default: the machine's card_address",
             real=True,
-            missing=pcl720.missing,
-            open=_real(pcl720.open_pcl720),
+            missing=_of("pcl720", "missing"),
+            open=_real(_of("pcl720", "open_pcl720")),
         ),
         Port(
             "gpio",
@@ -127,8 +131,8 @@ PORTS = {
             needs=Message("the extra gpio (libgpiod 2), a line map, the right to use /dev/gpiochip"),
             address="FILE, the line map",
             real=True,
-            missing=gpiod_lines.missing,
-            open=_real(gpiod_lines.open_gpio),
+            missing=_of("gpiod_lines", "missing"),
+            open=_real(_of("gpiod_lines", "open_gpio")),
         ),
     )
 }

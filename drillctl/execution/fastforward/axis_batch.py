@@ -106,7 +106,7 @@ class AxisBatch:
         begins = starts[: len(self.delay)] + self.delay
         for profile, rows in self._moves():
             distance = self.steps[rows]
-            for steps in np.unique(distance).tolist():
+            for steps in sorted(set(distance.tolist())):  # np.unique would import numpy.ma
                 parts.append(self._moved(profile.motion(abs(steps)), rows[distance == steps], begins))
         parts.sort(key=lambda part: int(part[0, 0]))  # mostly that is the order of all ticks already
         motion = np.concatenate(parts, axis=1)
@@ -142,7 +142,7 @@ class AxisBatch:
         found = []
         for direction in (1, -1):
             rows = np.flatnonzero(self.steps * direction > 0)
-            for min_interval in np.unique(self.min_interval[rows]).tolist():
+            for min_interval in sorted(set(self.min_interval[rows].tolist())):
                 found.append((self.profiles(direction, min_interval), rows[self.min_interval[rows] == min_interval]))
         return found
 

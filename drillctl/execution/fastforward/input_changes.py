@@ -54,8 +54,8 @@ def together(end: int, still: int, sources: Sequence[Changes]) -> Changes:
     """Returns the ticks before ``end`` in which the image of all sources may change, and the images; ``still`` are the
     bits that no source has.
     """
-    ticks = np.unique(np.concatenate([np.zeros(1, np.int64), *(seen_at for seen_at, _ in sources)]))
-    ticks = ticks[ticks < end]
+    ticks = np.sort(np.concatenate([np.zeros(1, np.int64), *(seen_at for seen_at, _ in sources)]))
+    ticks = ticks[np.append(True, ticks[1:] != ticks[:-1]) & (ticks < end)]
     images = np.full(len(ticks), still, np.int64)
     for seen_at, seen in sources:
         images |= seen[np.searchsorted(seen_at, ticks, side="right") - 1]

@@ -57,7 +57,7 @@ class Layout:
         return cls(
             count=len(xy_mm),
             extent_mm=float(np.ptp(xy_mm, axis=0).max()),
-            pitch_mm=float(np.median(distance.min(axis=1))),
+            pitch_mm=median(distance.min(axis=1)),
             drill_mm=drill_mm,
             overlap=float(touching.any(axis=1).mean()),
             crowding=_crowding(steps, distance, reach, touching) if touching.any() else 0.0,
@@ -94,6 +94,12 @@ class Layout:
     def __str__(self) -> str:
         drills = f", drills to {self.drill_mm:.2f} mm" if self.drill_mm else ""
         return f"longer side {self.extent_mm:.1f} mm{drills}"
+
+
+def median(values: Floats) -> float:
+    """The middle of values (n,), n > 0, as np.median has it; that would import numpy.ma, a tenth of a short verb."""
+    ordered = np.sort(values)
+    return float((ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2)
 
 
 def _crowding(steps: Floats, distance: Floats, reach: Floats, touching: np.ndarray) -> float:

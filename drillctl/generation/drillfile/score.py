@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .layout import Layout
+from .layout import Layout, median
 from .model import DEFAULT_DIGITS, Floats, FormatChoice, Integers
 
 SAMPLE_HOLES = 600
@@ -147,7 +147,7 @@ def drills(diameter_mm: Floats) -> float:
     if not len(known):
         return 0.0
     absurd = known.min() > WIDEST_OF_ALL_MM or known.max() < FINEST_OF_ALL_MM
-    return _typical(float(np.median(known)), DRILL_MM, DRILL_SPREAD) - ABSURD_DRILLS_WEIGHT * absurd
+    return _typical(median(known), DRILL_MM, DRILL_SPREAD) - ABSURD_DRILLS_WEIGHT * absurd
 
 
 def board(layout: Layout) -> float:

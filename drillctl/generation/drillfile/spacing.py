@@ -41,7 +41,7 @@ def meetings(xy_mm: Floats, diameter_mm: Floats) -> tuple[Integers, Integers]:
     _mark(duplicate, xy_mm, everything, SAME_MM, np.ones(len(xy_mm), bool), same)
     size = np.maximum(diameter_mm, TOUCH_MM)
     octave = np.ceil(np.log2(size)).astype(np.int64)
-    for power in np.unique(octave):
+    for power in sorted(set(octave.tolist())):  # np.unique would import numpy.ma, a tenth of a short verb's time
         # A class reaches up to twice its smallest diameter, so that one 6 mm hole does not make the grid of a
         # thousand 0.3 mm holes coarse.
         pool = np.flatnonzero(octave <= power)
