@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 import venv
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -30,7 +30,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
             shutil.copy(ROOT / name, source)
     command = [*PIP, "wheel", "--no-deps", "--wheel-dir", "wheels", "."]
     without_compiler = {**os.environ, "CC": "false", "CXX": "false"}
-    subprocess.run(command, cwd=source, check=True, timeout=200, capture_output=True, env=without_compiler)
+    run_pip(command, source, without_compiler)
     return next((source / "wheels").glob("drillctl-*.whl"))
 
 
@@ -44,11 +44,18 @@ def bin_folder(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         pytest.skip(f"no virtual environment can be made here: {error}")
     programs = place / ("Scripts" if os.name == "nt" else "bin")
     install = [*PIP, "--python", str(place), "install", f"{wheel}[plot]", "pytest"]
-    done = subprocess.run(install, capture_output=True, text=True, timeout=250, check=False)
-    if "connection" in done.stderr.lower():
-        pytest.skip("the libraries that the wheel needs can't be fetched here")
-    assert done.returncode == 0, done.stderr
+    run_pip(install, place, dict(os.environ))
     return programs
+
+
+def run_pip(command: Sequence[str], folder: Path, surroundings: dict[str, str]) -> None:
+    """Skips the tests where the libraries that are needed can't be fetched."""
+    done = subprocess.run(
+        command, cwd=folder, env=surroundings, capture_output=True, text=True, timeout=250, check=False
+    )
+    if done.returncode and "connection" in done.stderr.lower():
+        pytest.skip("the libraries that are needed can't be fetched here")
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.fixture(scope="session")
