@@ -10,7 +10,7 @@
     painter.py  the terminal: of each row only the part that has changed is written
     canvas_rows.py  the rows of a frame; parts that have not changed give those of the frame before
     layers.py  dialogs and menus over the frame          alerts.py  faults, tool changes, mode REAL
-    made_screens.py  the screens by name, each made when it is first wanted
+    open_screens.py  the screens: each made when it is first wanted, those that are open one above the other
     machines.py  which screens and menus a machine has: a row for each family of machines
 
     pcb_drill/ the screens and menus of the PCB drill: Drilling, Files, placing by measured holes

@@ -21,13 +21,13 @@ from drillctl.ui.first_keys import RESIZE, FirstKeys, Pressed
 from drillctl.ui.frame import MainFrame, screen_keys
 from drillctl.ui.layers import Boxes, Layers
 from drillctl.ui.machines import screens_of
-from drillctl.ui.made_screens import MadeScreens
 from drillctl.ui.next_step import step_line
+from drillctl.ui.open_screens import OpenScreens
 from drillctl.ui.painter import Painter
 from drillctl.ui.palette import Action, actions
 from drillctl.ui.screen_copy import keep_copy
 from drillctl.ui.screens.own_steps import shown_step
-from drillctl.ui.screens.shell import Live, MachineScreens, Shell, unsaved
+from drillctl.ui.screens.shell import Live, MachineScreens, Shell
 from drillctl.ui.widgets import borders
 from drillctl.ui.widgets.finder import Finder
 from drillctl.ui.widgets.keys import FRAME_KEYS, Key, called, wheel_key
@@ -46,11 +46,7 @@ Maker = Callable[[Console, Shell], urwid.Widget]
 class App(Boxes):
     """The shell of the screens. ``makers`` gives the screens that every machine has, by the names that the menus use;
     ``keep_theme`` is called with a theme that was chosen.
-
-    screens  those that are open; the last is on top
     """
-
-    screens: list[urwid.Widget]
 
     def __init__(
         self, console: Console, theme: str = DEFAULT_THEME, plain: bool = False,
@@ -60,8 +56,7 @@ class App(Boxes):
         borders.use(plain)
         self._theme, self._keep_theme = theme, keep_theme
         self._console, self._plain = console, plain
-        self._made = MadeScreens({name: partial(maker, console, self) for name, maker in (makers or {}).items()})
-        self.screens = []
+        self._open = OpenScreens({name: partial(maker, console, self) for name, maker in (makers or {}).items()})
         self._at_work = False
         self._next_beat: object = None
         self.frame = MainFrame(self.press)
@@ -76,6 +71,11 @@ class App(Boxes):
             self.layers, palette(theme), terminal, input_filter=self.filtered, unhandled_input=self.unhandled
         )
         self._refresh_top()
+
+    @property
+    def screens(self) -> Sequence[urwid.Widget]:
+        """The screens that are open; the last is on top."""
+        return self._open.stack
 
     def run(self, interrupts: Sequence[int] = ()) -> None:
         """Until the operator leaves. ``interrupts``: signals that came; one whose exception was lost ends it too."""
@@ -93,13 +93,13 @@ class App(Boxes):
         view = self._console.view()
         if (family := screens_of(view)) is not self._family:  # by the menu, or by a table that was put in force
             self._use(family)
-            self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)
+            self.frame.show_screen(self._open.top, lowest=self._open.top_is_lowest)
         self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
-        step = shown_step(self._family.next_step(self._console, view), self.screens[-1], view)
-        self.frame.show_step(step_line(step, self.screens[-1], self._family.menus, self.layers.typing))
-        if isinstance(self.screens[-1], Live):
-            self.screens[-1].refresh(view)
+        step = shown_step(self._family.next_step(self._console, view), self._open.top, view)
+        self.frame.show_step(step_line(step, self._open.top, self._family.menus, self.layers.typing))
+        if isinstance(self._open.top, Live):
+            self._open.top.refresh(view)
         self._alerts.show(view)
         self._background.turn()
 
@@ -128,7 +128,7 @@ class App(Boxes):
 
     def _wheel(self, event: str, button: int) -> bool:
         """Moves the cursor of the screen on top by a turn of the wheel that no widget took; False for other events."""
-        key = wheel_key(screen_keys(self.screens[-1]), button) if event == "mouse press" else None
+        key = wheel_key(screen_keys(self._open.top), button) if event == "mouse press" else None
         if key is None or self.layers.top is not None:
             return False
         self.press(key)
@@ -136,27 +136,25 @@ class App(Boxes):
 
     def open(self, screen: urwid.Widget) -> None:
         """Puts a screen on top; one that is open already comes to the top."""
-        self.screens = [other for other in self.screens if other is not screen] + [screen]
+        self._open.put_on_top(screen)
         self._refresh_top()
 
     def back(self) -> None:
         """Closes the screen on top. The first screen is not closed: it goes to the bottom again."""
-        if len(self.screens) > 1:
-            top = self.screens.pop()
-            if top is self._first:
-                self.screens.insert(0, top)
+        if not self._open.top_is_lowest:
+            self._open.close_top()
             self._refresh_top()
 
     def leave_top(self) -> None:
         """Does what Esc does on the screen on top; on the first screen, leaves the program."""
-        if len(self.screens) > 1:
+        if not self._open.top_is_lowest:
             self.loop.process_input(["esc"])
         else:
             self.leave()
 
     def show(self, name: str) -> urwid.Widget | None:
         """Opens a screen by its name in the menus; None, and a message, where it is not to be had."""
-        screen = self._made.named(name)
+        screen = self._open.named(name)
         if screen is None:
             self.message(_("Not here"), [_("This screen is not part of this program.")])
         else:
@@ -184,11 +182,11 @@ class App(Boxes):
 
     def help(self) -> None:
         """Explains the screen on top, with its keys."""
-        self.explain(*explanation_of(self.screens[-1], self.press))
+        self.explain(*explanation_of(self._open.top, self.press))
 
     def find_action(self) -> None:
         """Opens a box that finds any action by its words."""
-        found = actions(self.frame.bar.menus, self.screens[-1], [*self.screens, *self._made])
+        found = actions(self.frame.bar.menus, self._open.top, self._open.every)
         lines = [action.found for action in found]
         title = _("Find an action")
         self.layers.push_finder(Finder(title, lines, lambda index: self._act(found[index]), self.layers.pop))
@@ -212,7 +210,7 @@ class App(Boxes):
         """Ends the program; asks first if the machine is at work or something is not saved."""
         view = self._console.view()
         reasons = [_("The machine is at work. Stop it and leave?")] if view.moving or view.at_work else []
-        lost = {_(getattr(screen, "title", "")) for screen in [*self.screens, *self._made] if unsaved(screen)}
+        lost = {_(getattr(screen, "title", "")) for screen in self._open.unsaved}
         if lost:
             reasons.append(_("Not saved: {screens}. Leave without saving?").format(screens=", ".join(sorted(lost))))
         if reasons:
@@ -242,11 +240,8 @@ class App(Boxes):
     def _use(self, family: MachineScreens) -> None:
         """Takes the menus and the first screen of a family of machines; closes the screens of the family before."""
         self._family = family
-        self._made.use({name: partial(make, self._console, self, self._plain) for name, make in family.makers.items()})
-        kept = [screen for screen in self.screens if screen in self._made]
-        first = self._made.named(family.first)
-        assert first is not None, "a family has its first screen"
-        self._first, self.screens = first, [first, *kept]
+        makers = {name: partial(make, self._console, self, self._plain) for name, make in family.makers.items()}
+        self._open.use(makers, family.first)
         self.frame.bar.show(family.menus)
 
     def _beat(self, loop: urwid.MainLoop, _data: object = None) -> None:
@@ -265,7 +260,7 @@ class App(Boxes):
             self._next_beat = self.loop.set_alarm_in(BEAT_S, self._beat)
 
     def _refresh_top(self) -> None:
-        self.frame.show_screen(self.screens[-1], lowest=len(self.screens) == 1)
+        self.frame.show_screen(self._open.top, lowest=self._open.top_is_lowest)
         self.turn()
 
     def _choose(self, item: Item) -> None:
