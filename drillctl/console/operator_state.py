@@ -44,10 +44,12 @@ def asks_for_tools(machine: Machine, simulated: bool, tools: str | None) -> bool
     """Whether tool changes wait for the operator: by ``tools`` (the option: ask, assume), else by the machine's file.
 
     AUTOMATIC counts on a simulated machine only: this program drives no tool changer, and on a real machine a wrong
-    drill spoils the board.
+    drill spoils the board. A machine with parameters asks by its program only where an operator is needed.
     """
     if tools is not None:
         return tools == "ask"
+    if machine.parameters is not None:
+        return True
     return machine.configuration.tool_change == "MANUAL" or not simulated
 
 

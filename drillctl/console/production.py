@@ -82,6 +82,11 @@ class MachineProduction:
         """The parameters of a group with what the table says of them."""
         return [_view(one) for one in entries(self._parameters) if one.parameter.group == group]
 
+    @property
+    def position_known(self) -> bool:
+        """Whether the machine knows where it stands, which is lost when it is started anew."""
+        return self._desk.view().position_known
+
     def problem(self, name: str, typed: str) -> Problems:
         """What the row of the parameter says of a value."""
         try:

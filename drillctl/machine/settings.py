@@ -27,9 +27,10 @@ CARD_PLACES: tuple[Place, ...] = (
 )
 SCALE_PLACES: tuple[Place, ...] = (("columns_per_inch",),)
 RANGE_PLACES: tuple[Place, ...] = (("range", 0), ("range", 1))
+TOOL_CHANGE: Place = ("configuration", "tool_change")
 OTHER_PLACES: tuple[Place, ...] = (
     ("configuration", "longest_drilling_s"),
-    ("configuration", "tool_change"),
+    TOOL_CHANGE,
     ("tick_hz",),
     ("description",),
 )
@@ -100,10 +101,11 @@ def settings(source: Source) -> tuple[Setting, ...]:
 
 
 def settings_of(raw: MachineFile) -> tuple[Setting, ...]:
-    """Like ``settings``, for a file whose shape was checked."""
+    """Like ``settings``, for a file whose shape was checked. Who changes tools is a parameter where there are any."""
+    others = [place for place in OTHER_PLACES if raw.parameters is None or place != TOOL_CHANGE]
     places = [
         *((place, "") for place in CARD_PLACES), *_of_axes(raw, SCALE_PLACES), *_of_axes(raw, RANGE_PLACES),
-        *((place, "") for place in OTHER_PLACES), *_of_axes(raw, MOTOR_PLACES), *((place, "") for place in LAST_PLACES),
+        *((place, "") for place in others), *_of_axes(raw, MOTOR_PLACES), *((place, "") for place in LAST_PLACES),
     ]  # fmt: skip
     return _with_locks(raw, (_setting(raw, place, axis) for place, axis in places))
 

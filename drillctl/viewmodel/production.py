@@ -74,6 +74,10 @@ class Records(msgspec.Struct, frozen=True):
 class Production(Protocol):
     """The parameters of the machine in use, the records of its tools, and its parking place."""
 
+    @property
+    def position_known(self) -> bool:
+        """Whether a change of the parameters costs the position: the machine is started anew with them."""
+
     def records(self) -> Records:
         """What is known now."""
 

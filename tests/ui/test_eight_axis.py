@@ -134,6 +134,23 @@ def test_what_is_saved_is_the_machine_s_and_an_unset_parameter_refuses_the_start
     ]
 
 
+def test_where_the_position_is_known_a_change_that_costs_it_is_asked_for(program: Whole) -> None:
+    program.press("2", "y")
+    for _ in range(2000):
+        program.go_on(1)
+        if not program.console.at_work:
+            break
+    assert program.console.view().position_known
+    found = form(program, "machining")
+    go_to(program, found, "machining.feed_mm_min")
+    program.press(*"800", "f2")
+    assert "Save? The machine is started anew" in program.text()
+    program.press("n")
+    assert program.console.view().position_known and not user_tables().exists() and found.changed
+    program.press("f2", "y")
+    assert not program.console.view().position_known and user_tables().exists()
+
+
 def test_tools_are_added_and_removed(program: Whole) -> None:
     found = form(program, "tool")
     program.press("insert", *"17", "enter")

@@ -5,6 +5,7 @@ Rule: what can't be is said as it is typed, and nothing is saved while there is 
 the machine, which is started anew.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import urwid
@@ -21,6 +22,7 @@ VALUE_COLUMNS, RANGE_COLUMNS = 12, 26
 LEAST_COLUMNS = 76  # in fewer there is no room for the range beside the longest name
 NUMBERED = ("tool", "magazine")  # groups whose rows can be added and removed
 MOST_PROBLEMS = 3
+COSTS = N_("The machine is started anew with it, and must be initialised again.")
 
 
 class ParameterForm(FieldForm[ParameterView]):
@@ -58,7 +60,8 @@ class ParameterForm(FieldForm[ParameterView]):
         if not self.changed:
             self._shell.say(_("nothing has changed"))
             return
-        self._done(self._production.enter(self._typed()), _("saved; the machine was started anew"))
+        typed = self._typed()
+        self._once_sure(lambda: self._done(self._production.enter(typed), _("saved; the machine was started anew")))
 
     def add(self) -> None:
         """Asks for the number of one more tool or place, and saves it with everything else unset."""
@@ -75,16 +78,26 @@ class ParameterForm(FieldForm[ParameterView]):
         if field is not None and self._group in NUMBERED and self._is_settled():
             row = field.name.rpartition(".")[0]
             number = int(row.partition(".")[2])
+            costs = f" {_(COSTS)}" if self._production.position_known else ""
             self._shell.ask(
-                _("Remove {row}?").format(row=row),
+                _("Remove {row}?").format(row=row) + costs,
                 lambda: self._done(self._production.remove(self._group, number), _("removed")),
             )
 
     def _add(self, text: str) -> None:
         if text.strip().isdecimal():
-            self._done(self._production.add(self._group, int(text)), _("added; its parameters are unset"))
+            number = int(text)
+            answer = _("added; its parameters are unset")
+            self._once_sure(lambda: self._done(self._production.add(self._group, number), answer))
         else:
             self._shell.message(_("Refused"), [_("a number is wanted, not {text!r}").format(text=text)])
+
+    def _once_sure(self, save: Callable[[], None]) -> None:
+        """Saves; asks first where that costs a position."""
+        if self._production.position_known:
+            self._shell.ask(f"{_('Save?')} {_(COSTS)}", save)
+        else:
+            save()
 
     def _is_settled(self) -> bool:
         """Whether nothing is typed that a change of the rows would lose; where something is, it is said."""
