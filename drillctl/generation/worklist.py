@@ -214,7 +214,7 @@ def _order(
 ) -> NDArray[np.intp]:
     """Rows of ``steps`` in drilling order; the head starts at the working base and goes back there."""
     backlash, base = backlash_of(machine), np.zeros(2, np.int64)
-    reach = np.ptp([base, *steps, *ends], axis=0) + backlash
+    reach = np.ptp(np.concatenate([base[None], steps, ends]), axis=0) + backlash
     axes = positioning_axes(machine)
     travel = TravelCost(*(_travel(machine, axis, int(longest)) for axis, longest in zip(axes, reach, strict=True)))
     parts = [steps[group.start : group.stop] for group in groups]
