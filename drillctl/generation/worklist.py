@@ -224,13 +224,13 @@ def _order(
         rows = [(group.start + order, left) for group, order in zip(groups, orders, strict=True) for left in passes]
         begun, left = (np.concatenate(each) for each in
                        ([steps[row] for row, _ in rows], [left[row] for row, left in rows]))  # fmt: skip
-        return _driven_ticks(begun, left, backlash, travel)
+        return driven_ticks(begun, left, backlash, travel)
 
     orders = plan_groups(parts, travel, settings.order, base, base, cost=cost, budget=budget, advance=advance)
     return np.concatenate([group.start + order for group, order in zip(groups, orders, strict=True)])
 
 
-def _driven_ticks(holes: Integers, ends: Integers, backlash_steps: Integers, travel: TravelCost) -> int:
+def driven_ticks(holes: Integers, ends: Integers, backlash_steps: Integers, travel: TravelCost) -> int:
     """Ticks of the moves from the base to these holes and back, each left at its end; those that take up backlash
     among them, and the milling not.
     """

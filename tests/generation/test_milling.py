@@ -8,7 +8,10 @@ import pytest
 
 import drillctl
 from drillctl.cli import main
+from drillctl.generation.order import TravelCost
 from drillctl.generation.pcb_drill.milling import is_slot
+from drillctl.generation.worklist import driven_ticks
+from drillctl.machine import travel_table
 
 CNC = "cnc-shield"
 MM_MIN = 120.0  # of its file
@@ -106,6 +109,16 @@ def test_the_best_order_counts_where_slots_end(tmp_path: Path, spot: float | Non
     took = {order: drillctl.estimate(file, CNC, mill=True, order=order, spot=spot, offset=(8.0, 8.0)).ticks
             for order in ("file", "nearest", "optimised")}  # fmt: skip
     assert took["optimised"] <= min(took.values()) and took["nearest"] < took["file"]
+
+
+def test_the_way_to_a_hole_begins_where_the_slot_before_ends() -> None:
+    """There and back along two slots side by side: hardly any way in the air, and a long one if they were holes."""
+    machine = drillctl.load_machine(CNC)
+    x, y = (travel_table(machine.axes[axis].ramp, 2000, columns_per_step=2) for axis in (0, 1))
+    begun, ends = np.array([[0, 0], [1000, 50]]), np.array([[1000, 0], [0, 50]])
+    still = np.zeros(2, np.int64)
+    along, as_holes = (driven_ticks(begun, left, still, TravelCost(x, y)) for left in (ends, begun))
+    assert along == 1 + 2 * int(y[50]) and as_holes == 1 + 2 * int(x[1000])
 
 
 def test_what_is_left_of_a_board_is_milled_too(board: Path, tmp_path: Path) -> None:

@@ -2,4 +2,5 @@
 
 board.py    a drill file as a job          program.py  a work list as a program of KMD records
 strokes.py  how one hole is drilled: straight, in pecks, with a spot first
+milling.py  how one slot is milled
 """
