@@ -15,13 +15,13 @@ from drillctl.viewmodel.choices import AFTER_END, MIRRORED, ORDERS, ORIGINS
 from drillctl.viewmodel.job_options import JobOptions, MeasuredHole, PanelOf, PinsOf
 
 # A file that a verb is given (a screen has the store of its machine); a bound for scripts that can't wait, and what a
-# journal keeps of it; slots are milled by one machine alone.
-VERBS_ONLY = {"store", "order_seconds", "order_steps", "spindles", "mill"}
+# journal keeps of it.
+VERBS_ONLY = {"store", "order_seconds", "order_steps", "spindles"}
 HOLES = (MeasuredHole(0.0, 1.0, 2.0, 3.0), MeasuredHole(4.0, 5.0, 6.0, 7.0))
 EVERYTHING = JobOptions(
     format="mm,decimal", origin="file", mirror="x", rotate_deg=90.0, offset_mm=(1.0, -2.0), order="nearest",
     panel=PanelOf(2, 3, 40.0, 30.5), align=HOLES, peck_mm=0.5, spot_mm=0.2, skip_tools=(2, 3),
-    drills="/drills.toml", after_end="drill", pins=PinsOf(3.0, "corners", 6.0),
+    drills="/drills.toml", after_end="drill", pins=PinsOf(3.0, "corners", 6.0), mill=True,
 )  # fmt: skip
 BASE = (120, 240)
 ON_THE_SCREEN = [name for name in JobOptions.__struct_fields__ if name not in VERBS_ONLY]

@@ -66,16 +66,17 @@ def test_a_panel_is_asked_checked_and_shown(folder: Path) -> None:
 def test_how_to_drill_is_asked_and_shown(folder: Path) -> None:
     program = opened(size=(100, 40))
     program.press("h")
-    typed(program, "0.5", "0,2", "T3 2", "drills.toml", "3:left-right:6")
+    typed(program, "0.5", "0,2", "T3 2", "drills.toml", "3:left-right:6", "yes")
     program.press("enter")
     pins = PinsOf(3.0, "left-right", 6.0)
-    wanted = JobOptions(peck_mm=0.5, spot_mm=0.2, skip_tools=(2, 3), drills=str(folder / "drills.toml"), pins=pins)
+    wanted = JobOptions(peck_mm=0.5, spot_mm=0.2, skip_tools=(2, 3), drills=str(folder / "drills.toml"), pins=pins,
+                        mill=True)  # fmt: skip
     assert asked(program) == wanted
     for told in ("In pecks of 0.5 mm", "A spot of 0.2 mm first", "Without tools T2 T3", "Drills at hand: ",
-                 "Pins of 3 mm, 6 mm outside"):  # fmt: skip
+                 "Pins of 3 mm, 6 mm outside", "Slots are milled"):  # fmt: skip
         assert told in program.text()
     program.press("h")
-    typed(program, "", "", "", "", "", wiped=120)
+    typed(program, "", "", "", "", "", "", wiped=120)
     program.press("enter")
     assert asked(program) == JobOptions()
 

@@ -81,7 +81,7 @@ OTHER_OPTIONS: Mapping[str, tuple[str, Callable[[JobOptions], str]]] = {  # by t
     "how_to_drill": (
         N_("How to drill"),
         lambda options: _set_or_none(options.peck_mm or options.spot_mm or options.skip_tools or options.drills
-                                     or options.pins),
+                                     or options.pins or options.mill),
     ),
 }
 
@@ -134,6 +134,8 @@ def _further(options: JobOptions) -> list[str]:
         lines.append(_("In pecks of {depth:g} mm").format(depth=options.peck_mm))
     if options.spot_mm is not None:
         lines.append(_("A spot of {depth:g} mm first").format(depth=options.spot_mm))
+    if options.mill:
+        lines.append(_("Slots are milled"))
     if options.skip_tools:
         numbers = " ".join(f"T{number}" for number in options.skip_tools)
         lines.append(_("Without tools {numbers}").format(numbers=numbers))

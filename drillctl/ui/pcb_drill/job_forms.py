@@ -11,7 +11,7 @@ from drillctl.files.inputs import real_path
 from drillctl.language.number_text import pair_mm
 from drillctl.language.words import _
 from drillctl.ui.pcb_drill.board_facts import format_name
-from drillctl.ui.pcb_drill.typed import FORMATS, accepted, length_mm, panel_of, pins_of, tool_numbers
+from drillctl.ui.pcb_drill.typed import FORMATS, accepted, is_yes, length_mm, panel_of, pins_of, tool_numbers
 from drillctl.ui.screens.shell import Shell
 from drillctl.ui.widgets.dialogs import Answered, Field
 from drillctl.viewmodel.job_options import JobOptions, PanelOf
@@ -66,13 +66,16 @@ def ask_panel(shell: Shell, options: JobOptions, changes: Changes) -> None:
 
 
 def ask_how_to_drill(shell: Shell, options: JobOptions, changes: Changes) -> None:
-    """Asks for peck depth, spot depth, tools to leave out, the file of the drills at hand, and pins."""
+    """Asks for peck depth, spot depth, tools to leave out, the file of the drills at hand, pins, and if slots are
+    milled.
+    """
     fields = (
         Field(_("Pecks of so many mm (empty: at once):"), _typed_mm(options.peck_mm)),
         Field(_("Spot first, mm deep (empty: none):"), _typed_mm(options.spot_mm)),
         Field(_("Tools to leave out, by number:"), " ".join(map(str, options.skip_tools))),
         Field(_("File of the drills at hand:"), options.drills or ""),
         Field(_("Pins to turn it over on, MM:WHERE:MM (empty: none):"), str(options.pins or "")),
+        Field(_("Mill slots: yes (empty: holes that overlap):"), _("yes") if options.mill else ""),
     )
     shell.ask_fields(_("How to drill"), fields, accepted(_how_to_drill, changes))
 
@@ -80,7 +83,8 @@ def ask_how_to_drill(shell: Shell, options: JobOptions, changes: Changes) -> Non
 def _how_to_drill(texts: Sequence[str]) -> dict[str, Any]:
     drills = str(real_path(os.path.expanduser(texts[3].strip()))) if texts[3].strip() else None
     depths = {"peck_mm": length_mm(texts[0]), "spot_mm": length_mm(texts[1])}
-    return {**depths, "skip_tools": tool_numbers(texts[2]), "drills": drills, "pins": pins_of(texts[4])}
+    kinds = {"pins": pins_of(texts[4]), "mill": is_yes(texts[5])}
+    return {**depths, **kinds, "skip_tools": tool_numbers(texts[2]), "drills": drills}
 
 
 def _typed_mm(value_mm: float | None) -> str:

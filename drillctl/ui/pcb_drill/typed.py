@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
 from drillctl.language import Message, message_of
-from drillctl.language.words import N_
+from drillctl.language.words import N_, _
 from drillctl.ui.widgets.dialogs import Accept, Answered
 from drillctl.viewmodel.job_options import PanelOf, PinsOf
 
@@ -66,6 +66,14 @@ def panel_of(texts: Sequence[str]) -> PanelOf | None:
 def pins_of(text: str) -> PinsOf | None:
     """Pins as ``--pins`` takes them; None where nothing is typed."""
     return PinsOf.typed(text) if text.strip() else None
+
+
+def is_yes(text: str) -> bool:
+    """Whether a yes is typed, in the operator's language or in English, or a part of it; nothing typed is a no."""
+    word = text.strip().lower()
+    if not any(yes.startswith(word) for yes in (_("yes"), "yes")):
+        raise ValueError(Message("{text!r} is neither yes nor empty", text=text))
+    return bool(word)
 
 
 def length_mm(text: str) -> float | None:
