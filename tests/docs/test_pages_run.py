@@ -54,7 +54,7 @@ def script(found: list[Block]) -> str:
     lines = ["set -e"]
     for block in found:
         lines += [f"echo '{NEXT}'", "set +e" if block.code else "", block.commands]
-        lines += [f"[ $? = {block.code} ]", "set -e"] if block.code else []
+        lines += [f"[ $? = {block.code} ] || exit 99", "set -e"] if block.code else []
     return "\n".join([*lines, f"echo '{NEXT}'"])
 
 
@@ -66,7 +66,8 @@ def new_user(tmp_path: Path) -> dict[str, str]:
     (tmp_path / "bin" / "pip").write_text("#!/bin/sh\n")
     (tmp_path / "bin" / "pip").chmod(0o755)
     path = os.pathsep.join((str(tmp_path / "bin"), str(Path(sys.executable).parent), os.environ["PATH"]))
-    return {"PATH": path, "HOME": str(tmp_path / "home"), "LANG": "C.UTF-8", "PYTEST_ADDOPTS": "-p no:cacheprovider"}
+    only_ours = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": "-p no:cacheprovider -p drillctl"}  # quicker
+    return {"PATH": path, "HOME": str(tmp_path / "home"), "LANG": "C.UTF-8", **only_ours}
 
 
 def with_marks(page: Path) -> ParameterSet:
@@ -74,6 +75,7 @@ def with_marks(page: Path) -> ParameterSet:
     return pytest.param(page, marks=[pytest.mark.paced] if "--pace real" in page.read_text("utf-8") else [])
 
 
+@pytest.mark.timeout(310)
 @pytest.mark.parametrize("page", [with_marks(page) for page in PAGES], ids=lambda page: page.stem)
 def test_a_page_can_be_done_as_it_stands(page: Path, new_user: dict[str, str], tmp_path: Path) -> None:
     found = blocks(page)
@@ -84,7 +86,7 @@ def test_a_page_can_be_done_as_it_stands(page: Path, new_user: dict[str, str], t
             (tmp_path / "work" / name).symlink_to(ROOT / name)
     done = subprocess.run(
         ["bash", "-c", script(found)], cwd=tmp_path / "work", env=new_user, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=110, check=False,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, check=False,
     )  # fmt: skip
     outputs = done.stdout.split(NEXT)[1:]
     assert done.returncode == 0, f"block {len(outputs)} of {page.name}: {outputs[-1][-2000:]}"

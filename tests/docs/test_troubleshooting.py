@@ -1,4 +1,7 @@
-"""What TROUBLESHOOTING.md quotes is what the program says: each message stands in its code, each fault is one."""
+"""What TROUBLESHOOTING.md quotes is what the program says: each message stands in its code, each fault is one.
+
+So are the messages that a tutorial or how-to lists, a point each: ``- `message`: what to do``.
+"""
 
 import ast
 import re
@@ -12,6 +15,7 @@ ROWS = [
     for row in (ROOT / "docs" / "TROUBLESHOOTING.md").read_text("utf-8").splitlines()
     if row.startswith("| ") and not row.startswith("| you ")
 ]
+OTHER_PAGES = [page for folder in ("tutorials", "howto") for page in sorted((ROOT / "docs" / folder).glob("*.md"))]
 GAP = "…"
 NOT_OURS = {"drillctl: command not found"}
 
@@ -30,7 +34,10 @@ def texts() -> list[str]:
 
 
 def messages() -> list[str]:
-    return [message for row in ROWS for message in re.findall(r"`([^`]+)`", row[0]) if message not in NOT_OURS]
+    listed = [found for page in OTHER_PAGES for found in re.findall(r"^- `([^`]+)`: ", page.read_text("utf-8"), re.M)]
+    quoted = [message for row in ROWS for message in re.findall(r"`([^`]+)`", row[0])]
+    assert listed
+    return [message for message in (*quoted, *listed) if message not in NOT_OURS]
 
 
 def test_each_quoted_message_is_one_of_the_program() -> None:
