@@ -14,7 +14,8 @@ from drillctl.lab.errors import LabError
 from drillctl.language import Message
 from drillctl.viewmodel.reports import BoardPlan
 
-LARGEST_BYTES = 64 * 2**20  # two million holes, six spindles on the largest board
+LARGEST_BYTES = 16 * 2**20  # some 250,000 rows
+MOST_TOOL = 10**9
 NAMES = ("tool", "diameter_mm", "x_mm", "y_mm", "wanted_x_mm", "wanted_y_mm")
 
 
@@ -24,9 +25,12 @@ def read_holes(file: Path) -> BoardPlan:
     """
     text = read_bytes(file, LARGEST_BYTES, Message("a holes CSV")).decode("utf-8", "replace")
     rows = csv.DictReader(text.splitlines())
-    if missing := [name for name in NAMES if name not in (rows.fieldnames or ())]:
-        raise LabError(Message("is no holes CSV: column {name} is missing", name=missing[0]).at(file, 1))
-    found = np.array([_numbers(row, file, line) for line, row in enumerate(rows, 2)]).reshape(-1, len(NAMES))
+    try:
+        if missing := [name for name in NAMES if name not in (rows.fieldnames or ())]:
+            raise LabError(Message("is no holes CSV: column {name} is missing", name=missing[0]).at(file, 1))
+        found = np.array([_numbers(row, file, line) for line, row in enumerate(rows, 2)]).reshape(-1, len(NAMES))
+    except csv.Error as error:
+        raise LabError(Message("not a row of a holes CSV: {reason}", reason=error).at(file, rows.line_num)) from error
     if not len(found):
         raise LabError(Message("has no hole to be shown").at(file))
     made = found[:, 2:4]
@@ -46,11 +50,13 @@ def with_diameters(holes: BoardPlan, by_tool: dict[int, float]) -> BoardPlan:
 
 
 def _numbers(row: "dict[str, str | None]", file: Path, line: int) -> list[float]:
-    """The values of NAMES; an empty one is not a number. Tool and place made must be there."""
+    """The values of NAMES; an empty one is not a number. Tool and place made must be there, a diameter is none or more
+    than nothing.
+    """
     try:
         found = [float(row[name] or "nan") for name in NAMES]
     except ValueError as error:
         raise LabError(Message("not a row of a holes CSV: {reason}", reason=error).at(file, line)) from error
-    if not np.isfinite([found[0], *found[2:4]]).all():
-        raise LabError(Message("a hole without tool or place").at(file, line))
+    if not (0 <= found[0] <= MOST_TOOL and np.isfinite(found[2:4]).all()) or found[1] <= 0:
+        raise LabError(Message("a hole without tool or place, or of no width").at(file, line))
     return found

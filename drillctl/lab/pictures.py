@@ -111,8 +111,9 @@ def board_picture(title: str, holes: BoardPlan, notes: tuple[str, ...] = ()) -> 
     sent, off_mm = holes.sent_mm, holes.error_mm
     by_hole = Curve.of("error", np.arange(1, len(off_mm) + 1), off_mm * 1000, Style.POINTS)
     worst = int(off_mm.argmax())
+    count = "1 hole" if len(off_mm) == 1 else f"{len(off_mm)} holes"
     note = (
-        f"{len(off_mm)} holes, off by {off_mm.mean() * 1000:.0f} um on average, {off_mm[worst] * 1000:.0f} um at most "
+        f"{count}, off by {off_mm.mean() * 1000:.0f} um on average, {off_mm[worst] * 1000:.0f} um at most "
         f"(hole {worst + 1} at {sent[worst, 0]:.2f}, {sent[worst, 1]:.2f} mm)"
     )
     scale = f"errors are drawn {holes.times} times as long as they are" if off_mm.any() else "no hole is off"

@@ -167,9 +167,8 @@ class BoardPlan(msgspec.Struct, frozen=True, eq=False):
     @property
     def times(self) -> int:
         """How many times as long errors are drawn, that the worst is seen: 1, 2, 5, 10, 20, 50, ..."""
-        longest = max(float(np.ptp(self.sent_mm, axis=0).max()), 1.0)
-        wanted = LONGEST_ERROR * longest / max(float(self.error_mm.max()), 1e-6)
-        return max((step for step in ENLARGED if step <= wanted), default=1)
+        longest, worst = max(float(np.ptp(self.sent_mm, axis=0).max()), 1.0), float(self.error_mm.max())
+        return max((step for step in ENLARGED if worst and step * worst <= LONGEST_ERROR * longest), default=1)
 
     @property
     def ends_mm(self) -> Floats:

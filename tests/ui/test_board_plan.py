@@ -28,6 +28,7 @@ PLAN = BoardPlan(
 def test_errors_are_enlarged_by_a_round_number_that_keeps_them_short() -> None:
     assert PLAN.times == 20 and PLAN.error_mm.tolist() == pytest.approx([0, 0.1, 0.05, 0])
     assert PLAN.ends_mm.tolist()[1:3] == [pytest.approx([42.0, 0.0]), pytest.approx([40.0, 21.0])]
+    assert BoardPlan(PLAN.sent_mm, PLAN.sent_mm, PLAN.diameter_mm, PLAN.tool).times == 1
     assert [(tool.number, tool.diameter_mm, tool.holes.tolist()) for tool in PLAN.tools] == [
         (1, 1.0, [0, 1]), (7, 3.0, [2]), (9, None, [3]),
     ]  # fmt: skip
@@ -104,7 +105,10 @@ def test_a_stretch_is_chosen_by_seconds(tmp_path: Path, capsys: pytest.CaptureFi
     ("text", "told"),
     [("tool,x\n1,2\n", "h.csv:1: is no holes CSV: column diameter_mm"), ("", "h.csv:1: is no holes CSV"),
      ("HEAD\n", "no hole to be shown"), ("HEAD\n1,0.8,x,2,1,1,1,0\n", "h.csv:2: not a row"),
-     ("HEAD\n1,0.8,1,2,1,1,1,0\n,0.8,1,2,1,1,1,0\n", "h.csv:3: a hole without tool")],
+     ("HEAD\n1,0.8,1,2,1,1,1,0\n,0.8,1,2,1,1,1,0\n", "h.csv:3: a hole without tool"),
+     ("HEAD\n1e99,0.8,1,2,1,1,1,0\n", "h.csv:2: a hole without"), ("HEAD\n1,-1,1,2,1,1,1,0\n", "of no width"),
+     ("HEAD\n1,0.8,inf,2,1,1,1,0\n", "h.csv:2: a hole without"), ("HEAD\n1,\0,1,2,1,1,1,0\n", "h.csv:2: not a row"),
+     ("HEAD\n" + "1" * 200_000 + ",0.8,1,2,1,1,1,0\n", "not a row")],
 )  # fmt: skip
 def test_what_is_no_holes_file_is_refused(text: str, told: str, tmp_path: Path) -> None:
     file = tmp_path / "h.csv"
