@@ -83,6 +83,8 @@ def _set(arguments: argparse.Namespace) -> int:
         name, equals, value = setting.partition("=")
         if not equals:
             raise ParameterError(Message("NAME=VALUE is wanted, not {text!r}", text=setting))
+        if not value.strip():
+            raise ParameterError(Message("{name}= has no value; say unset where there shall be none", name=name))
         if name in typed:
             raise ParameterError(Message("{name} is set twice", name=name))
         typed[name] = value

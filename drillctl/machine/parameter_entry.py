@@ -4,11 +4,15 @@ Rule: bounds and choices are those of parameter_table.py; a refusal names the pa
 """
 
 import math
+import re
 
 from drillctl.language import Message
 from drillctl.machine.parameter_table import Parameter, Value
 
 UNSET = "unset"
+LONGEST_SHOWN = 60  # characters of a value in its refusal
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
+_DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _SWITCH = {"true": True, "false": False}
 
 
@@ -61,20 +65,16 @@ def _typed_value(row: Parameter, text: str) -> object:
         return _SWITCH.get(text.lower(), text)
     if row.kind == "choice":
         return next((choice for choice in row.choices if str(choice) == text.upper()), text)
-    try:
+    if _WHOLE.fullmatch(text):
         return int(text)
-    except ValueError:
-        pass
-    try:
-        return float(text)
-    except ValueError:
-        return text
+    return float(text) if _DECIMAL.fullmatch(text) else text
 
 
 def _number(row: Parameter, value: object) -> Value:
     assert row.low is not None
     assert row.high is not None
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+    finite = isinstance(value, int) or (isinstance(value, float) and math.isfinite(value))  # an int may pass any float
+    if isinstance(value, bool) or not isinstance(value, int | float) or not finite:
         wanted = Message("a whole number is wanted") if row.kind == "whole" else Message("a number is wanted")
         raise _refused(row, value, wanted)
     if row.kind == "whole" and not isinstance(value, int):
@@ -87,5 +87,5 @@ def _number(row: Parameter, value: object) -> Value:
 
 
 def _refused(row: Parameter, value: object, why: Message) -> ValueError:
-    given = shown(value) if isinstance(value, Value) else repr(value)
+    given = (shown(value) if isinstance(value, Value) else repr(value))[:LONGEST_SHOWN]
     return ValueError(Message("{name} can't be {value}: {why}", name=row.name, value=given, why=why))

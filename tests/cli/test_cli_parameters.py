@@ -1,12 +1,18 @@
 """``drillctl parameters``: shown, explained, set with comments kept, refused by name with nothing changed."""
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from drillctl.cli import main
-from drillctl.machine import Library, shipped_tables
+from drillctl.console.parameters import save
+from drillctl.machine import Library, TableError, shipped_tables
+from drillctl.machine.parameter_edit import entry, with_parameters
+from drillctl.machine.source import Source
 
 EIGHT = shipped_tables() / "machines" / "eight-axis.toml"
 Capture = pytest.CaptureFixture[str]
@@ -75,3 +81,36 @@ def test_all_that_is_wrong_is_told_by_name_and_nothing_is_saved(own: Path, capsy
     assert "is set twice" in parameters(capsys, "set", "tool.1.kind=DRILL", "tool.1.kind=ROUTER", code=2)
     assert "has no parameters" in parameters(capsys, "list", "--machine", "pcb-drill", code=2)
     assert not own.exists()
+
+
+@pytest.mark.parametrize("value", ["", " ", "1_0", "１", "9" * 400, "nan", "1e400", "0x1"])
+def test_what_is_no_plain_number_changes_nothing(value: str, own: Path, capsys: Capture) -> None:
+    """An empty value is a variable of a shell that has none, and not ``unset``."""
+    told = parameters(capsys, "set", f"axis.x.backlash_mm={value}", code=2)
+    assert "axis.x.backlash_mm" in told or "backlash_mm can't be" in told
+    assert len(told) < 200 and not own.exists()
+
+
+def test_a_number_beyond_all_floats_in_a_file_is_refused_by_its_line(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(EIGHT.read_text("utf-8").replace("backlash_mm = 0.0", f"backlash_mm = {'9' * 400}", 1), "utf-8")
+    with pytest.raises(TableError, match=r"backlash_mm can't be 9+: the greatest is 10 mm"):
+        Library((shipped_tables(),)).machine(str(file))
+
+
+def test_changes_that_overlap_are_all_kept(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another process has saved its change between the reading of the machine and the turn of this one."""
+    library = Library((own.parent.parent, shipped_tables()))
+    machine = library.machine("eight-axis")
+
+    @contextmanager
+    def alone(file: Path) -> Iterator[None]:
+        file.parent.mkdir(parents=True)
+        file.write_text(with_parameters(Source.read(EIGHT), {"axis.z2.backlash_mm": "2"}), "utf-8")
+        yield
+
+    monkeypatch.setattr("drillctl.console.parameters.alone", alone)
+    assert not save(library, machine, own.parent.parent, partial(with_parameters, typed={"axis.z1.backlash_mm": "1"}))
+    kept = library.machine("eight-axis").parameters
+    assert kept is not None
+    assert [entry(kept, f"axis.{axis}.backlash_mm").value for axis in ("z1", "z2", "z3")] == [1.0, 2.0, 0.0]
