@@ -6,7 +6,7 @@ import argparse
 import shutil
 from pathlib import Path
 
-from drillctl.cli import streams
+from drillctl.cli import options, streams
 from drillctl.files.inputs import read_bytes
 from drillctl.files.shipped import shipped
 from drillctl.language import Message
@@ -19,7 +19,8 @@ NOT_COPIED = ("__pycache__", "INSTRUCTOR.md")
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Adds the verb to the command line."""
     verb = verbs.add_parser("examples", help="list the examples, or copy them", description=__doc__)
-    verb.add_argument("folder", nargs="?", type=Path, metavar="DIR", help="copy them into this folder, which is made")
+    into = "copy them into this folder, which is made"
+    verb.add_argument("folder", nargs="?", type=options.folder, metavar="DIR", help=into)
     verb.set_defaults(call=call)
 
 

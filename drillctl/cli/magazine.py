@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from drillctl.machine import Machine
 
 MACHINE = "eight-axis"
-SETTING = re.compile(r"(spindle|place|tool)\.(\d{1,4})(?:\.(\d{1,2}))?=(?:(empty|full|unknown|new)|tool\.(\d{1,4}))")
+SETTING = re.compile(
+    r"(spindle|place|tool)\.(\d{1,4})(?:\.(\d{1,2}))?=(?:(empty|full|unknown|new)|tool\.(\d{1,4}))", re.ASCII
+)
 
 
 def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:

@@ -44,6 +44,14 @@ def add_tables(verb: argparse.ArgumentParser) -> None:
     verb.add_argument("--tables", type=Path, metavar="DIR", help="search this folder for tables first")
 
 
+def folder(text: str) -> Path:
+    """Reads an option that is a folder to be written to. Raises ArgumentTypeError for none, and for a file."""
+    path = Path(text)
+    if not text or (path.exists() and not path.is_dir()):
+        raise argparse.ArgumentTypeError(f"{text[:200]!r} is no folder")
+    return path
+
+
 def library(arguments: argparse.Namespace) -> "Library":
     """Returns the library of tables to be searched. Raises TableError for a folder that is not there."""
     from drillctl.machine import Library, TableError

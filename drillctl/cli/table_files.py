@@ -30,7 +30,7 @@ def add(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     own = "Copies a table into the user's own tables, or another folder of tables, where it wins over the shipped one."
     copy = actions.add_parser("copy", help="copy a table to edit it", description=own)
     copy.add_argument("table", metavar="TABLE", help=NAMED)
-    copy.add_argument("--to", type=Path, metavar="DIR", help="folder of tables; default: the user's own")
+    copy.add_argument("--to", type=options.folder, metavar="DIR", help="folder of tables; default: the user's own")
     _action(copy, copy_table)
 
 
@@ -64,6 +64,7 @@ def show_file(arguments: argparse.Namespace) -> int:
 def copy_table(arguments: argparse.Namespace) -> int:
     """Copies the table; one that is there already is left as it is."""
     from drillctl.files.outputs import OutputError, write_text
+    from drillctl.machine import Library
     from drillctl.machine.library import user_tables
     from drillctl.machine.source import Source
 
@@ -72,9 +73,11 @@ def copy_table(arguments: argparse.Namespace) -> int:
     if target.exists() or target.is_symlink():
         raise OutputError(Message("is there already; edit it, or remove it first").at(target))
     text = Source.read(file).text
-    target.parent.mkdir(parents=True, exist_ok=True)
-    write_text(target, text)
-    streams.note(f"{target} is written; it wins over {file}")
+    if problems := write_text(target, text):
+        raise OutputError(*problems)
+    searched = [folder.resolve() for folder in Library.standard(None).folders]
+    found = "" if target.parents[1].resolve() in searched else f" with --tables {target.parents[1]}"
+    streams.note(f"{target} is written; it wins over {file}{found}")
     return 0
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TextIO
 
 from drillctl.files import scratch, system
-from drillctl.language import Message, Refusal, message_of, verbatim
+from drillctl.language import Message, Refusal, message_of
 
 
 class OutputError(Refusal):
@@ -128,7 +128,7 @@ def write_text(path: Path, text: str) -> tuple[Message, ...]:
     except OutputError as error:
         return error.messages
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
-        return (verbatim(str(error)),)
+        return (Message("can't be written: {why}", why=message_of(error)).at(path),)
     finally:
         if output is not None:
             output.drop()

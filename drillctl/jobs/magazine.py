@@ -100,7 +100,11 @@ def _parsed(text: str, file: Path, machine: Machine) -> Magazine:
         bits = {(bit.place, bit.spindle): THERE[bit.bit] for bit in record.bits}
         hits = {int(tool): count for tool, count in record.hits.items()}
     except (msgspec.ValidationError, json.JSONDecodeError, RecursionError, ValueError, KeyError) as error:
-        raise MagazineError(Message("is no magazine record: {why}", why=message_of(error)).at(file)) from error
+        reason = Message(
+            "is no magazine record: {why}; take it away, look at the machine, say what is there (drillctl magazine)",
+            why=message_of(error),
+        )
+        raise MagazineError(reason.at(file)) from error
     known = full_magazine(machine)
     unknown = dict.fromkeys(known.bits)  # a place that was entered since: nobody has looked
     return Magazine(

@@ -55,6 +55,25 @@ def test_a_table_is_shown_copied_and_then_in_use(tmp_path: Path, capsys: Capture
         assert words in capsys.readouterr().err
 
 
+def test_a_copy_says_how_it_is_used_and_a_failed_one_that_it_failed(tmp_path: Path, capsys: Captured) -> None:
+    for folder, used in (("mine", " with --tables mine\n"), ("tables", "two-phase-forced.toml\n")):
+        assert main(["tables", "copy", "phase/two-phase-forced", "--to", folder]) == 0
+        assert capsys.readouterr().err.endswith(used)
+    (tmp_path / "mine" / "ramp").symlink_to("/proc")
+    assert main(["tables", "copy", "ramp/seven-state", "--to", "mine"]) == 2
+    assert "mine/ramp/seven-state.toml: can't be written" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("folder", ["", "a file"])
+def test_what_is_no_folder_is_not_written_to(folder: str, tmp_path: Path, capsys: Captured) -> None:
+    """Least of all the current one, for a variable of a shell that is empty."""
+    (tmp_path / "a file").write_text("mine")
+    for command in (["examples", folder], ["tables", "copy", "phase/two-phase-forced", "--to", folder]):
+        assert main(command) == 2
+        assert f"{folder!r} is no folder" in capsys.readouterr().err
+    assert [file.name for file in tmp_path.iterdir()] == ["a file"]
+
+
 def test_where_names_the_folders(tmp_path: Path, capsys: Captured) -> None:
     assert main(["where", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
