@@ -5,11 +5,12 @@ come to from below.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drillctl.generation.pcb_drill.milling import is_slot, slots_of, stretches
+from drillctl.generation.pcb_drill.milling import slots_of, stretches
 from drillctl.generation.pcb_drill.strokes import drill_stroke, spot_stroke
 from drillctl.generation.sequences import Records, numbered, record
 from drillctl.generation.spindles import heads_of
@@ -27,15 +28,17 @@ def board_program(work: WorkList, machine: Machine, settings: WorkSettings) -> R
     spindle = dict(machine.outputs).get("spindle")
     heads = heads_of(machine, settings.spindles)
     drill = drill_stroke(machine, settings.peck_mm, heads)
-    passes = [drill] if settings.spot_mm is None else [spot_stroke(machine, settings.spot_mm, heads), drill]
+    passes = [(work, drill)]
+    if settings.spot_mm is not None:  # a spot is left where it was made, also that of a slot
+        passes.insert(0, (replace(work, ends=work.steps), spot_stroke(machine, settings.spot_mm, heads)))
     parts = [record(Op.INICJALIZACJA), *go_to_base(settings, machine)]
     here = np.zeros(2, np.int64)
     for group in work.groups:
         parts += [*switch(spindle, 0), record(Op.NARZEDZIE, [group.number])]  # hands are at the chuck meanwhile
         parts += [*switch(spindle, 1), *spin_up(machine, spindle)]
-        for number, stroke in enumerate(passes, 1):
-            parts += strokes_of(work, group, stroke, here, machine, settings if number == len(passes) else None)
-            here = (work.ends if number == len(passes) else work.steps)[group.stop - 1]
+        for made, stroke in passes:
+            parts += strokes_of(made, group, stroke, here, machine, settings)
+            here = made.ends[group.stop - 1]
     parts += [*switch(spindle, 0), gotos(np.zeros((1, 2), np.int64), machine), record(Op.KONIEC)]
     return numbered(parts)
 
@@ -48,38 +51,22 @@ def go_to_base(settings: WorkSettings, machine: Machine) -> list[Records]:
 
 
 def strokes_of(
-    work: WorkList,
-    group: Group,
-    stroke: Records,
-    here: NDArray[np.int64],
-    machine: Machine,
-    milled: WorkSettings | None,
+    work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine, settings: WorkSettings
 ) -> Iterator[Records]:
-    """All holes of a tool by the same stroke, and slots milled by these settings; None: slots have the stroke too."""
-    if milled is None or not is_slot(work)[group.start : group.stop].any():
-        yield holes_of(work, group, stroke, here, machine, left_there=milled is None)
-        return
+    """All holes of a tool by the same stroke, and its slots milled."""
     for part, are_slots in stretches(work, group):
-        each = slots_of(work, part, machine, milled) if are_slots else stroke
+        each = slots_of(work, part, machine, settings) if are_slots else stroke
         yield holes_of(work, part, each, here, machine)
         here = work.ends[part.stop - 1]
 
 
-def holes_of(
-    work: WorkList,
-    group: Group,
-    stroke: Records,
-    here: NDArray[np.int64],
-    machine: Machine,
-    left_there: bool = False,
-) -> Records:
+def holes_of(work: WorkList, group: Group, stroke: Records, here: NDArray[np.int64], machine: Machine) -> Records:
     """The holes of a tool: to each a go (two where backlash is taken up), then the stroke, (commands,) the same for all
     or (holes, commands). Where the machine's file says from where on the heads are clear, the way to the next hole
-    begins during the stroke up. ``left_there``: slots are left where they begin, too.
+    begins during the stroke up.
     """
     steps = work.steps[group.start : group.stop]
-    ends = steps if left_there else work.ends[group.start : group.stop]
-    before = approaches(steps, ends, here, backlash_of(machine))
+    before = approaches(steps, work.ends[group.start : group.stop], here, backlash_of(machine))
     blocks = np.zeros((len(steps), stroke.shape[-1] + 2), dtype=RECORD)
     blocks[:, 0] = gotos(before, machine)
     blocks[:, 1] = gotos(steps, machine)
