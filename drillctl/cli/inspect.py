@@ -21,6 +21,7 @@ def add(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     options.add_machine(verb)
     jobs.add_reading(verb)
     jobs.add_pins(verb)
+    jobs.add_mill(verb)
     jobs.add_store(verb)
     part_programs.add_language(verb)
     verb.add_argument("--json", action="store_true", help="print one JSON object, also for a refused file")

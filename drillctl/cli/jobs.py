@@ -47,8 +47,7 @@ def add_job(verb: argparse.ArgumentParser) -> None:
     drilling.add_argument("--drills", type=Path, metavar="FILE", help="file of the drills at hand")
     drilling.add_argument("--peck", type=float, metavar="MM", help="drill in pecks of MM, retracting between them")
     drilling.add_argument("--spot", type=float, metavar="MM", help="first spot every hole of a tool, MM deep")
-    mill = "mill slots from end to end with the bit down, on a machine whose file says that it can, and in G-code"
-    drilling.add_argument("--mill", action="store_true", help=mill)
+    add_mill(drilling)
     of_several = "spindles that drill, on a machine with several; default: all"
     drilling.add_argument("--spindles", type=_spindles, metavar="N,N", default=(), help=of_several)
     add_reading(drilling)
@@ -73,12 +72,22 @@ def add_pins(verb: "argparse._ActionsContainer") -> None:
     verb.add_argument("--pins", type=_pins, metavar="MM[:WHERE[:MM]]", help=where)
 
 
+def add_mill(verb: "argparse._ActionsContainer") -> None:
+    """Adds ``--mill``."""
+    slots = (
+        "mill slots, and straight cuts in rout mode, from end to end with the bit down: on a machine whose file says "
+        "that it can, and in G-code; in an Excellon file such cuts become slots"
+    )
+    verb.add_argument("--mill", action="store_true", help=slots)
+
+
 def read_drill_file(arguments: argparse.Namespace) -> "DrillFile":
-    """Returns the drill file of a verb that reads it as it is, with the holes of ``--pins``; shows how far it is.
+    """Returns the drill file of a verb that reads it as it is, with the holes of ``--pins``, and straight cuts as slots
+    by ``--mill``; shows how far it is.
 
     Raises JobError for a file that can't be read, PlacingError for pins.
     """
-    from drillctl.generation.drillfile import DrillFileError, read
+    from drillctl.generation.drillfile import DrillFileError, milled, read
     from drillctl.generation.waits import reading
 
     try:
@@ -89,6 +98,8 @@ def read_drill_file(arguments: argparse.Namespace) -> "DrillFile":
         from drillctl.generation.pcb_drill.board import refusal
 
         raise refusal(arguments.file, error) from error
+    if arguments.mill:
+        drill_file = milled(drill_file)
     if arguments.pins is None:
         return drill_file
     from drillctl.generation.pins import with_pins

@@ -65,7 +65,8 @@ def milled(drill_file: DrillFile) -> DrillFile:
     line = np.concatenate([drill_file.slot_line, cuts.line])
     order = np.lexsort((line, at))
     left = drill_file.routs - cuts.made
-    kept = tuple(each for each in drill_file.warnings if left or each.code != "routs-not-drilled")
+    over = {"no-holes"} if left else {"no-holes", "routs-not-drilled"}
+    kept = tuple(each for each in drill_file.warnings if each.code not in over)
     return replace(
         drill_file,
         slot_mm=np.concatenate([drill_file.slot_mm, cuts.mm])[order],

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import drillctl
+from drillctl.cli import main
 from drillctl.generation.drillfile import DrillFile, decode, milled
 
 HEAD = "M48\nMETRIC\nT1C1.0\nT2C1.2\n%\nG90\nG05\nT1\nX5.0Y5.0\nX20.0Y5.0\n"
@@ -63,6 +64,26 @@ def test_incremental_cuts_and_inches_are_measured_alike() -> None:
         b"M48\nINCH\nT1C.04\n%\nG91\nT1\nG05X1.Y1.\nG00X1.0Y0.\nM15\nG01X0.Y.5\nM16\nG05\nM30\n", name="b.drl"
     )
     assert milled(inches).slot_mm.tolist() == [pytest.approx([50.8, 25.4, 50.8, 38.1])]
+
+
+def test_written_anew_they_are_slots_that_any_reader_knows(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, out = tmp_path / "oval.drl", tmp_path / "slots.drl"
+    file.write_text(HEAD + OVAL + "M30\n")
+    assert main(["convert", str(file), "--to", str(out), "--mill", "-q"]) == 0
+    assert "X10.0Y10.0G85X10.0Y12.0" in out.read_text()
+    again = drillctl.inspect(out)
+    assert again.routs == 0 and again.slot_mm.tolist() == [[10.0, 10.0, 10.0, 12.0]]
+    for words, told in (["--mill"], "2 holes, 1 slots, 0 milled cuts"), ([], "2 holes, 0 slots, 1 milled cuts"):
+        capsys.readouterr()
+        assert main(["inspect", str(file), *words]) == 0 and told in capsys.readouterr().out
+
+
+def test_a_file_of_cuts_alone_is_a_board_for_whoever_mills() -> None:
+    read = decode(b"M48\nMETRIC\nT1C1.0\n%\nT1\nG00X1.0Y1.0\nM15\nG01X5.0\nM16\nG05\nM30\n", name="b.drl")
+    assert [each.code for each in read.warnings] == ["routs-not-drilled", "no-holes"]
+    assert not milled(read).warnings and len(milled(read).slot_mm) == 1
 
 
 def test_a_board_with_them_is_milled_to_its_end(tmp_path: Path) -> None:
