@@ -16,7 +16,7 @@ from drillctl.plant import PlantChoice
 from drillctl.plant.choice import IDEAL
 from drillctl.ticker.link import Link
 from drillctl.viewmodel.console import AxisView, BoardView, MachineView, ToolView
-from drillctl.viewmodel.fault_texts import fault_report
+from drillctl.viewmodel.fault_texts import axes_blamed, fault_report
 from drillctl.viewmodel.records import Estimate
 from drillctl.viewmodel.tables import FieldView
 
@@ -53,6 +53,7 @@ def machine_view(
     image = int(status["image"])
     commands = iter(_command_texts(machine, status, program, done_before))
     code = link.lost() or int(status["fault"])
+    blamed = axes_blamed(int(status["fault_axes"]), machine.axis_names)
     view = MachineView(
         machine=machine.name,
         port=port,
@@ -75,7 +76,7 @@ def machine_view(
         lost_steps=tuple(status["lost"].tolist()[: len(machine.axes)]) if link.measured else None,
         late=int(status["late"]),
         late_worst_ms=int(status["late_worst_ns"]) / 1e6,
-        fault=fault_report(code, bool(status["fault_kept"])) if code else None,
+        fault=fault_report(code, bool(status["fault_kept"]), blamed) if code else None,
         notices=tuple(link.notices()),
         hot_s=int(status["hot_ticks"]) / machine.tick_hz,
         cut_off=bool(status["cut_off"]),

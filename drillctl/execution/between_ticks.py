@@ -28,7 +28,7 @@ CODES = {"<i8": "q", "<u8": "Q", "<i4": "i", "<u4": "I", "<i2": "h", "<u2": "H",
 # The fields of the status record in pieces that lie side by side; those between them are the ticker's.
 CLOCK = ("tick", "tick_hz")
 JOB = ("underruns", "epoch", "sequence", "done", "hole_begun", "holes_done", "tool", "opcode", "condition", "fault",
-       "fault_kept", "position_known", "step", "cut_off", "hot_ticks", "job", "moving", "queued",
+       "fault_kept", "fault_axes", "position_known", "step", "cut_off", "hot_ticks", "job", "moving", "queued",
        "position", "target", "base", "steps")  # fmt: skip
 WIRES = ("state", "column", "sensors", "image")
 
@@ -56,8 +56,8 @@ def report(m: Controller, record: memoryview) -> None:
     piece, first = _JOB
     piece.pack_into(
         record, first, m.underruns, m.epoch, command.sequence if m.busy else 0, m.done, m.hole_begun, m.holes_done,
-        m.tool, command.opcode if m.busy else Op.IDLE, m.condition, m.fault, m.fault_kept, m.position_known, m.step,
-        m.cut_off, max(0, m.hot_until - m.tick), m.job, m.moving, len(m.queue),
+        m.tool, command.opcode if m.busy else Op.IDLE, m.condition, m.fault, m.fault_kept, m.fault_axes,
+        m.position_known, m.step, m.cut_off, max(0, m.hot_until - m.tick), m.job, m.moving, len(m.queue),
         *[axis.position for axis in axes], *unused, *[axis.target for axis in axes], *unused,
         *[axis.base for axis in axes], *unused, *[axis.made for axis in axes], *unused,
     )  # fmt: skip

@@ -77,8 +77,9 @@ def raise_fault(m: Controller, fault: int) -> None:
     if event == Event.FAULT_RETURN and not (m.position_known and m.homes_by_sensor):
         event = Event.FAULT_STOP
     if m.fault == Fault.NONE:
-        m.fault = fault
+        m.fault, m.fault_axes = fault, m.blamed
         m.fault_kept = True
+    m.blamed = 0
     m.stopped_by = max(m.stopped_by, ESTOP if fault == Fault.EMERGENCY_STOP else FAULT)
     in_place = event != Event.FAULT_FREEZE or stops.stops_dead_in_place(m)
     stops.keep_position(m, spec.position_kept and in_place)

@@ -57,6 +57,7 @@ class Controller:
               hole goes, 0 where that is not entered
     watched   contacts that a stroke down looks at; ``touching`` those that were on in the tick before, ``touched`` by
               contact the place of its first touch in this stroke
+    blamed    as a mask, the axes that the fault which is raised next is about; ``fault_axes`` those of the fault shown
     alarms    inputs of drives that had tripped in the tick before, none once that was acknowledged; of ``alarm_mask``
     contacts  the same of the inputs that say that a head's bit touches
     answered  the outputs beside the axes that inputs answer to
@@ -111,10 +112,12 @@ class Controller:
         self.spindle = machine.spindle
         self.speed_word, self.actual_word = machine.output_word(SPEED_WANTED), machine.input_word(SPEED_ACTUAL)
         self.levels = tuple(masks_at(machine.levels, event) for event in (POWER_ON, STOP, FAULT, ESTOP))
-        self.indexes = tuple(_index_bit(machine, axis) for axis in range(len(machine.axes)))
-        self.contacts = tuple(_contact_bit(machine, axis) for axis in range(len(machine.axes)))
+        numbers = range(len(machine.axes))
+        self.indexes, self.contacts, self.alarm_bits = (
+            tuple(bit_of(machine, axis) for axis in numbers) for bit_of in (_index_bit, _contact_bit, _alarm_bit)
+        )
         self.descents, self.breakage_ranges, self.depths = _detection(machine)
-        self.alarm_mask = sum(_alarm_bit(machine, axis.name) for axis in machine.axes)
+        self.alarm_mask = sum(self.alarm_bits)
         self._forget_findings()
         self.answered = _answered(machine)
         self.homes_by_sensor = machine.homes_by_sensor
@@ -134,7 +137,7 @@ class Controller:
         self.stopped_by = STOP
 
         self.epoch = 0
-        self.fault = 0
+        self.fault = self.fault_axes = self.blamed = 0
         self.fault_kept = self.caught = self.zero_first = self.lifting = False
         self.position_known = False
 
@@ -196,9 +199,9 @@ def _detection(machine: Machine) -> tuple[tuple[int, ...], tuple[int, ...], tupl
     return descents, ranges, depths
 
 
-def _alarm_bit(machine: Machine, axis_name: str) -> int:
+def _alarm_bit(machine: Machine, axis: int) -> int:
     """The input bit that is on where the drive of an axis has tripped, 0 of an axis without one."""
-    line = alarm_input(machine, axis_name)
+    line = alarm_input(machine, machine.axes[axis].name)
     return 0 if line is None else 1 << line.bit
 
 

@@ -31,13 +31,17 @@ def lower_to_contact(m: Controller, command: Command) -> int:
 def touched(m: Controller, command: Command) -> int:
     """Ends it at rest: notes where each bit has touched. Returns a fault code."""
     heads = _heads(m, command)
-    if any(m.axes[index].halt_mask for index in heads):
-        for index in heads:
-            m.axes[index].halt_mask = 0
+    missed = [index for index in heads if m.axes[index].halt_mask]
+    for index in missed:
+        m.axes[index].halt_mask = 0
+        m.blamed |= 1 << index
+    if missed:
         return Fault.NO_CONTACT
     found = [(index, m.axes[index].position) for index in heads]
-    broken = [index for index, place in found if place > m.surfaces.get(index, place) + m.breakage_ranges[index]]
-    if broken:
+    for index, place in found:
+        if place > m.surfaces.get(index, place) + m.breakage_ranges[index]:
+            m.blamed |= 1 << index
+    if m.blamed:
         return Fault.BIT_BROKEN
     m.surfaces.update(found)
     return Fault.NONE
@@ -67,8 +71,12 @@ def note_touches(m: Controller) -> None:
 def all_whole(m: Controller) -> bool:
     """At the end of a stroke down: whether each bit that was watched touches its board, and did so in its range."""
     watched, m.watched = m.watched, 0
-    too_deep = [index for index, place in m.touched.items() if place > m.surfaces[index] + m.breakage_ranges[index]]
-    return not too_deep and m.sensors & watched == watched
+    for index in m.machine.drill_axes:
+        if watched & m.contacts[index]:
+            deepest = m.surfaces[index] + m.breakage_ranges[index]
+            if not m.sensors & m.contacts[index] or m.touched.get(index, deepest) > deepest:
+                m.blamed |= 1 << index
+    return not m.blamed
 
 
 def _heads(m: Controller, command: Command) -> list[int]:

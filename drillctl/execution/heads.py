@@ -56,10 +56,12 @@ def drive_to_sensors(m: Controller, command: Command, direction: int) -> int:
 
 def reached_sensors(m: Controller, command: Command, direction: int) -> bool:
     """Ends what ``drive_to_sensors`` began: returns whether every head has reached its sensor."""
-    heads = [axis for index, axis in enumerate(m.axes) if _is_head(m, command, index, axis)]
-    for axis in heads:
-        axis.seek_mask = 0
-    return all(m.sensors & axis.limits[direction] for axis in heads)
+    for index, axis in enumerate(m.axes):
+        if _is_head(m, command, index, axis):
+            axis.seek_mask = 0
+            if not m.sensors & axis.limits[direction]:
+                m.blamed |= 1 << index
+    return not m.blamed
 
 
 def _drive_head(m: Controller, command: Command, direction: int) -> int:
@@ -114,5 +116,5 @@ def _at_sensors(m: Controller, command: Command, direction: int) -> bool:
             sensor = _head_sensor(m, axis, direction)
             axis.seek_mask = 0
             if sensor and not m.sensors & sensor:
-                return False
-    return True
+                m.blamed |= 1 << index
+    return not m.blamed

@@ -31,10 +31,11 @@ def guard(m: Controller) -> None:
         if sensors & pair == pair:
             raise_fault(m, Fault.SENSOR_CONTRADICTION)
             return
-    for axis in m.axes:
+    for index, axis in enumerate(m.axes):
         if axis.motion > SETTLING:
             fault = _watch(m, axis, sensors)
             if fault and axis.motion != STOPPING:  # it is being stopped already
+                m.blamed = 1 << index
                 raise_fault(m, fault)
                 return
     if m.time_limit and m.elapsed >= m.time_limit:
@@ -51,6 +52,7 @@ def _drive_trips(m: Controller, alarms: int) -> bool:
     new = alarms & ~m.alarms
     m.alarms = alarms
     if new:
+        m.blamed = sum(1 << index for index, bit in enumerate(m.alarm_bits) if bit & new)
         raise_fault(m, Fault.DRIVE_ALARM)
     return new > 0
 

@@ -71,7 +71,7 @@ def arrive_home(m: Controller) -> None:
 
 def acknowledge(m: Controller) -> None:
     """Forgets the fault, so that the next one is the first again."""
-    m.fault = Fault.NONE
+    m.fault, m.fault_axes = Fault.NONE, 0
     m.stopped_by = STOP
     m.fault_kept = False
     m.estops = m.alarms = 0

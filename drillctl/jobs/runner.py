@@ -27,7 +27,7 @@ from drillctl.language import Message
 from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link
 from drillctl.trace import Segments, Trace
-from drillctl.viewmodel.fault_texts import fault_report
+from drillctl.viewmodel.fault_texts import axes_blamed, fault_report
 from drillctl.viewmodel.records import Outcome, Progress
 
 BY_OPERATOR = Message("the operator stopped the job")
@@ -265,7 +265,7 @@ class JobRunner:
             position_known=bool(status["position_known"]) and not self.link.lost(),
             lost_steps=dict(zip(names, by_axis["lost"], strict=False)) if self.link.measured else None,
             underruns=int(status["underruns"]),
-            fault=fault_report(Fault(code), kept) if code else None,
+            fault=fault_report(Fault(code), kept, axes_blamed(int(status["fault_axes"]), names)) if code else None,
             suspect=self._suspect(code),
             late_count=int(status["late"]),
             late_greatest_ms=int(status["late_worst_ns"]) / 1e6,

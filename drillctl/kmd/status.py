@@ -41,6 +41,7 @@ STATUS = np.dtype(
         ("condition", "u1"),
         ("fault", "u1"),
         ("fault_kept", "u1"),  # 1: the position was known and still is
+        ("fault_axes", "<u2"),  # as a mask, the axes that the fault is about, as far as that is known
         ("position_known", "u1"),
         ("step", "u1"),  # the row of the tool change that is carried out, or was last, from 1; 0 for none
         ("cut_off", "u1"),  # 1: what was switched on by hand and would burn a winding was switched off

@@ -85,7 +85,7 @@ class Alerts:
 
 
 def _fault_title(fault: FaultReport) -> str:
-    return f"{_('FAULT')} {fault.name}"
+    return f"{_('FAULT')} {fault.title}"
 
 
 def _fault_lines(fault: FaultReport, was_known: bool) -> list[str]:

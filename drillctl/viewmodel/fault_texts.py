@@ -195,13 +195,18 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
 }
 
 
-def fault_report(code: int, kept: bool) -> FaultReport:
-    """A fault code in words, with the position kept or lost."""
+def fault_report(code: int, kept: bool, axes: Sequence[str] = ()) -> FaultReport:
+    """A fault code in words, with the position kept or lost, and the names of the axes that it is about."""
     fault = Fault(code)
     words = FAULT_WORDS[fault]
-    return FaultReport(code, fault.name, words.cause, words.remedy, "kept" if kept else "lost")
+    return FaultReport(code, fault.name, words.cause, words.remedy, "kept" if kept else "lost", tuple(axes))
 
 
 def local_tables(files: Sequence[str]) -> Message:
     """That these tables, which nobody named and which are not the shipped ones, are in use: for a verb and a screen."""
     return Message("local tables are in use, not the shipped ones: {files}", files=", ".join(files))
+
+
+def axes_blamed(mask: int, names: Sequence[str]) -> list[str]:
+    """The names of the axes in the mask ``fault_axes`` of a status record."""
+    return [name for index, name in enumerate(names) if mask >> index & 1]

@@ -19,13 +19,21 @@ class Progress(msgspec.Struct, frozen=True):
 
 
 class FaultReport(msgspec.Struct, frozen=True):
-    """A fault in words: what it is called, why, what to do, and whether the position was kept or lost."""
+    """A fault in words: what it is called, why, what to do, whether the position was kept or lost, and the axes that it
+    is about, as far as that is known.
+    """
 
     code: int
     name: str
     cause: str
     remedy: str
     position: str  # "kept" or "lost"
+    axes: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Its name, with the axes that it is about."""
+        return f"{self.name} ({', '.join(self.axes)})" if self.axes else self.name
 
     def as_dict(self) -> dict[str, Any]:
         """The fault as an object of the JSON output."""

@@ -129,7 +129,7 @@ def test_a_fault_is_exit_1_with_words(drillctl: Drillctl, folder: Path) -> None:
     done = drillctl("run", "far.kmd", "--json")
     fault = json.loads(done.stdout)["fault"]
     assert done.returncode == 1
-    assert list(fault) == ["code", "name", "cause", "remedy", "position"]
+    assert list(fault) == ["code", "name", "cause", "remedy", "position", "axes"]
     assert (fault["code"], fault["name"], fault["position"]) == (3, "SOFT_LIMIT", "kept")
     plain = drillctl("run", "far.kmd")
     assert plain.returncode == 1

@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 
-from drillctl.kmd import Fault
+from drillctl.kmd import Fault, Request
 from drillctl.machine import Machine, ParameterRow, Parameters
 from tests.support.bench import Bench, shipped
 
@@ -42,6 +42,7 @@ def test_each_head_stops_on_its_own_board() -> None:
 def test_a_bit_that_touches_nothing_within_the_descent_is_missed() -> None:
     b = bench("KMD_DOTYK z1 z2", machine(36.8))
     assert (b.m.fault, b.m.position_known, b.positions()[Z1:4]) == (Fault.NO_CONTACT, True, [3680, 3650])
+    assert b.m.fault_axes == 1 << Z1
 
 
 @pytest.mark.parametrize(("deeper", "fault"), [(20, Fault.NONE), (21, Fault.BIT_BROKEN)])
@@ -67,6 +68,9 @@ def test_a_stroke_down_finds_a_broken_bit_by_its_touch(deeper: int, depth_mm: fl
     chuck.short_steps = deeper
     b.finish()
     assert (b.m.fault, b.m.position_known) == (fault, True)
+    assert b.m.fault_axes == (1 << Z2 if fault else 0)
+    b.ask(Request.ACK).tick()
+    assert b.m.fault_axes == 0
 
 
 def test_a_bit_that_leaves_the_board_within_its_stroke_is_broken() -> None:

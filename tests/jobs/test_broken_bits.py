@@ -70,6 +70,7 @@ def test_a_bit_that_breaks_is_found_and_noted_and_the_rest_is_drilled_with_anoth
     plant = PlantChoice("dynamic", (f"breaks.z{broken}={third}",)) if dynamic else PlantChoice()
     first = run(job(machine, spindles, kept.magazine, set()), kept, plant, {} if dynamic else {broken: third})
     assert first.outcome.fault is not None and first.outcome.fault.code == Fault.BIT_BROKEN
+    assert first.outcome.fault.axes == (f"z{broken}",)
     assert first.outcome.position_known and not any(first.outcome.position.values())  # the bits are out of the boards
     found_at_once = first.outcome.holes_done == 1  # by the touch that ended within its own stroke
     assert first.outcome.suspect == ((1,) if found_at_once else (2,))

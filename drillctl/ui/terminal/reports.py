@@ -89,7 +89,7 @@ def summary_lines(outcome: Outcome) -> list[str]:
         kept = "kept" if outcome.position_known else "not known"
         lines.append(f"interrupted: stopped, position {kept}; outputs off")
     if fault := outcome.fault:
-        lines += [f"FAULT {fault.name}: {fault.cause}", f"  position {fault.position}", f"  remedy: {fault.remedy}"]
+        lines += [f"FAULT {fault.title}: {fault.cause}", f"  position {fault.position}", f"  remedy: {fault.remedy}"]
     lines += [f"WARNING: look at hole {hole}: a bit was found broken after it" for hole in outcome.suspect]
     if outcome.lost_steps and any(outcome.lost_steps.values()):
         lines.append(f"WARNING: lost steps: {_by_axis(outcome.lost_steps)}")
