@@ -27,7 +27,7 @@ from drillctl.generation.order.stops import Stops
 from drillctl.generation.order.travel import TravelCost
 
 FORWARD, BACKWARD = 1, -1
-LONGEST_PIECE = 3  # holes that Or-opt moves at once (Or 1976)
+LONGEST_PIECE = 8  # holes that Or-opt moves at once (Or 1976 has 3)
 
 
 class Improver:
@@ -88,7 +88,7 @@ class Improver:
         self._wake(a, b, c, d)
 
     def _or_opt(self, a: int, b: int, c: int, side: int, gain: int) -> int:
-        """Take out the piece a..e, one to three holes leading away from b; put its end a next to c."""
+        """Take out the piece a..e, up to LONGEST_PIECE holes leading away from b; put its end a next to c."""
         order, place, rows = self.path.order, self.path.place, self.rows
         far, beside_c, from_b = place[a], place[c], rows[b]
         for _ in range(LONGEST_PIECE):

@@ -1,15 +1,17 @@
-"""A short path: disturb a repaired path in one place, repair it again, keep it unless it got longer.
+"""A short path: disturb a repaired path in one place, repair it again, keep it unless it got too much longer.
 
 Rule: counted, and drawn from a fixed seed, so the same holes always give the same path, unless a budget of seconds
-cuts the search; and never longer than the path it began with. The method is iterated local search with the
-double-bridge disturbance (Martin, Otto and Felten 1991), kept within a short stretch of one tool's holes so that its
-repair looks at a few dozen holes, however large the board.
+cuts the search; and never longer than the path it began with: the best path that was met counts. The method is iterated
+local search with the double-bridge disturbance (Martin, Otto and Felten 1991), kept within a short stretch of one
+tool's holes so that its repair looks at a few dozen holes, however large the board. A path may get a little longer at
+first, and less and less towards the end (their "large-step Markov chain").
 """
 
 from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,12 +23,13 @@ from drillctl.generation.order.travel import TravelCost
 from drillctl.generation.waits import Advance, ignored
 
 NEIGHBOURS = 8
-# Chosen with benchmarks/order_quality.py: on boards of 50 and 200 holes the way is 0.3 % and 0.7 % longer than LKH's on
-# average, 1.2 % at the worst; four times the rounds gain 0.1 %.
-ROUNDS_PER_HOLE = 5
-MOST_ROUNDS = 4_000
+# Chosen with benchmarks/order_quality.py, for LKH's ways and for time: HEAT 0, stretches of 16 and pieces of 3 holes
+# (improve.py) gave ways that were 1.2 % longer at the worst, in much the same time.
+ROUNDS_PER_HOLE = 4
+MOST_ROUNDS = 3_000
 MOST_ROUNDS_TIMES_HOLES = 40_000_000  # a round may turn pieces of any length: fewer rounds for huge boards
-LONGEST_STRETCH = 16  # holes in each of the two stretches that change places
+LONGEST_STRETCH = 32  # holes in each of the two stretches that change places
+HEAT = 0.4  # of the way from hole to hole: by so much, at the most, a round may make the path longer at first
 SEED = 1996
 
 Draw = Callable[[], float]  # a number from 0 up to, not including, 1
@@ -40,13 +43,17 @@ def optimised_path(stops: Stops, travel: TravelCost, path: Tour, budget: Budget,
     improver = Improver(stops, travel, near_in_tool(stops, travel), path.tolist())
     improver.settle(range(len(path)), budget)
     draw = random.Random(SEED).random  # the one method whose numbers no later Python may change
-    rounds = [tool for tool in stops.tools for _ in range(rounds_of(len(tool)))]
-    for done, tool in enumerate(rounds):
+    rounds = [each for tool in stops.tools for each in _rounds(improver, tool)]
+    order, longer, least = improver.path.order, 0, 0
+    best = list(order)
+    for done, (tool, heat_ticks) in enumerate(rounds, 1):
         if not budget.allows():
             break
-        _disturb(improver, tool, draw)
-        advance(done + 1, len(rounds))
-    return np.array(improver.path.order[:-1])
+        longer += _disturb(improver, tool, draw, heat_ticks)
+        if longer < least:
+            least, best = longer, list(order)
+        advance(done, len(rounds))
+    return np.array(best[:-1])
 
 
 def near_in_tool(stops: Stops, travel: TravelCost) -> list[list[Near]]:
@@ -63,12 +70,24 @@ def rounds_of(holes: int) -> int:
     return min(ROUNDS_PER_HOLE * holes, MOST_ROUNDS, MOST_ROUNDS_TIMES_HOLES // holes) if holes > 1 else 0
 
 
-def _disturb(improver: Improver, tool: range, draw: Draw) -> None:
-    """Disturb, repair, and go back if that made the path longer; an equally long other path is kept."""
+def _rounds(improver: Improver, tool: range) -> list[tuple[range, float]]:
+    """The rounds of a tool, each with the ticks by which it may make the path longer: evenly fewer."""
+    count, order, rows = rounds_of(len(tool)), improver.path.order, improver.rows
+    way_ticks = sum(rows[one][other] for one, other in pairwise(order[tool.start : tool.stop])) / len(tool)
+    return [(tool, HEAT * way_ticks * (1 - number / count)) for number in range(count)]
+
+
+def _disturb(improver: Improver, tool: range, draw: Draw, heat_ticks: float) -> int:
+    """Disturb, repair, and go back if that made the path longer than chance allows; an equally long other path is kept.
+    Ticks by which the path got longer.
+    """
     improver.path.keep()
     lost, touched = _swap_stretches(improver, *_neighbouring_stretches(tool, draw))
-    if improver.settle(touched) < lost:
+    longer = lost - improver.settle(touched)
+    if longer > 0 and longer > heat_ticks * draw():
         improver.path.undo()
+        return 0
+    return longer
 
 
 def _neighbouring_stretches(tool: range, draw: Draw) -> tuple[int, int, int]:
