@@ -41,6 +41,7 @@ STEPS_PER_MM = 1200 / 25.4
 DRUM, ROW = "boiler-drum", 400  # holes of a row on it
 TICK_HOLES = 4  # of the board, that tick is measured by
 GOLDEN_TICKS = 10_000_000
+SMALL = Path(__file__).resolve().parents[1] / "examples" / "blinker.drl"
 
 
 def cpu_s(call: Callable[[], object]) -> float:
@@ -169,11 +170,14 @@ def commands(folder: Path) -> list[bool]:
     lines = [f"X{x:.3f}Y{y:.3f}" for x, y in holes_mm(False).tolist()]
     board.write_text("\n".join(["M48", "METRIC", "T1C0.800", "%", "T1", *lines, "M30", ""]), "ascii")
     run_s, help_s = child_s(folder, "run", str(board), "--trace", str(segments)), child_s(folder, "--help")
+    inspect_s, small_s = child_s(folder, "inspect", str(SMALL)), child_s(folder, "run", str(SMALL))
     size = segments.stat().st_size
     return [
         shown("drill file to segment file", f"{run_s:.2f} s", "0.8 s", run_s < 0.8),
         shown("the segment file", f"{size:,} bytes", "250,000", size < 250_000),
         shown("drillctl --help", f"{help_s:.3f} s", "0.15 s", help_s < 0.15),
+        shown("inspect of 26 holes", f"{inspect_s:.3f} s", "0.2 s", inspect_s < 0.2),
+        shown("run of 26 holes", f"{small_s:.3f} s", "0.4 s", small_s < 0.4),
     ]
 
 
