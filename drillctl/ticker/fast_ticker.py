@@ -25,6 +25,7 @@ from drillctl.ticker.ticker import NEVER, Ticker, axes_met
 from drillctl.trace import Recorder, Segments, Trace
 from drillctl.trace.tapes import Images, Tape, images
 
+MOST_KEPT_TICKS = 1 << 32  # in one turn: 4096 of rest take 16 bytes of a record, whose room is looked at between turns
 MOST_TICKS = 1 << 22  # of a batch whose images are put together at once; a command that is longer is ticked
 FAR_SIGHT = 4096  # commands that may wait: a look ahead costs the same for few as for many
 
@@ -91,7 +92,7 @@ class FastTicker(Ticker):
         m = self.controller
         first = m.tick
         for _ in self.batches(before):
-            if until is not None and until():
+            if (until is not None and until()) or (self.taped and m.tick - first > MOST_KEPT_TICKS):
                 break
         if m.tick > first:
             return m.tick - first
@@ -118,6 +119,8 @@ class FastTicker(Ticker):
             if self.traced and not self.taped:
                 left = min(left, MOST_TICKS)
             batch = self.engine.foresee(waiting) if self.in_batches else None
+            if batch is not None and self.taped and batch.end > MOST_KEPT_TICKS:
+                batch = self.engine.foresee(waiting[: np.searchsorted(batch.starts, MOST_KEPT_TICKS, side="right")])
             if batch is not None and batch.end > left:
                 batch = self.engine.foresee(waiting[: np.searchsorted(batch.starts, left, side="right") - 1])
             if batch is not None:

@@ -129,7 +129,7 @@ MODULES = ("sitecustomize.py", "json.py", "drillctl/__init__.py", "x.pth")
 FULL, HALF, WAVE = (PHASE / f"{name}.toml" for name in ("full-step", "half-step", "wave-drive"))
 IDLE = write("mine.kmd", "KMD_CZEKAJ 1\n")
 NOT_AXIS = "test_mine.py: mine.kmd:2:11: 'half:-8' is not axis=steps"
-TOO_LONG = "test_mine.py: mine.kmd: 2000000000001 ticks; a trace has room for 100000000"
+TOO_LONG = "test_mine.py: mine.kmd: 6000000000 ticks; a trace has room for 100000000"
 SUBMISSIONS: tuple[tuple[str, bool, str, Callable[[Path], None]], ...] = (
     ("anna", True, "", nothing),
     ("bartek", True, "", replace("mine.kmd", "KMD", "# first the long one\nKMD")),

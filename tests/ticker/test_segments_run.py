@@ -1,6 +1,7 @@
 """Runs kept in segments: the same run as the text form has, small, replayed, and judged by other tables."""
 
 import shutil
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -155,3 +156,18 @@ def test_a_run_of_more_ticks_than_a_trace_holds_is_refused_before_it_moves(
     assert not out and "wait.kmd: 2147483648 ticks; a trace has room for 100000000" in err
     assert [path.name for path in tmp_path.iterdir()] == ["wait.kmd"]
     assert main(["run", "wait.kmd"]) == 0
+
+
+def test_a_long_queue_of_long_waits_is_refused_without_being_kept(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A wait takes 4 MiB of a record, and all of them would take 400."""
+    monkeypatch.chdir(tmp_path)
+    Path("waits.kmd").write_text("KMD_CZEKAJ 2147483647\n" * 100)
+    tracemalloc.start()
+    try:
+        assert main(["run", "waits.kmd", "--trace=a.seg"]) == 2
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert "a trace has room for 100000000" in capsys.readouterr().err and peak < 100 * 2**20
