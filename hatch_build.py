@@ -18,6 +18,8 @@ except ModuleNotFoundError:  # run by hand
     BuildHookInterface = object
 
 LOCALE = "drillctl/locale"
+# What `drillctl examples DIR` copies to be read, as drillctl/cli/example_files.py has it. Lab sheets: pyproject.toml.
+PAGES = ("README.md", "CITATION.cff", "docs/*.md", "docs/howto/*.md", "docs/tutorials/*.md", "docs/pictures/*.svg")
 # Each .py, and the .pxd with its C types; one that calls another stands behind it.
 LOOPS = ("drillctl/plant/dynamic/motors", "drillctl/plant/dynamic/law", "drillctl/trace/vcd_lines")
 # No contraction of a product and a sum into one rounding, and no fast-math: the plain form rounds each.
@@ -39,6 +41,9 @@ class CompilingHook(BuildHookInterface):  # type: ignore[misc]
             return
         for catalogue in compiled_catalogues(Path(self.root)):
             build_data["force_include"][str(catalogue)] = str(catalogue.relative_to(self.root))
+        for pattern in PAGES:
+            for page in Path(self.root).glob(pattern):
+                build_data["force_include"][str(page)] = f"drillctl/pages/{page.relative_to(self.root).as_posix()}"
         if os.environ.get("DRILLCTL_KERNEL") == "plain":
             return
         for loop in LOOPS:

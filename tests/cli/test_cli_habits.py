@@ -2,6 +2,7 @@
 
 import json
 import logging
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -30,11 +31,24 @@ def test_examples_are_listed_and_copied_and_nothing_is_replaced(tmp_path: Path, 
     assert main(["examples", "mine"]) == 0
     board = shipped("examples", "examples") / "blinker.drl"
     assert (tmp_path / "mine/blinker.drl").read_bytes() == board.read_bytes()
-    assert (tmp_path / "mine/lab/01-phase-sequences/sheet.toml").is_file()
-    assert not (tmp_path / "mine/lab/INSTRUCTOR.md").exists()  # it has the solutions' figures
+    assert (tmp_path / "mine/docs/lab/01-phase-sequences/sheet.toml").is_file()
+    assert not (tmp_path / "mine/docs/lab/INSTRUCTOR.md").exists()  # it has the solutions' figures
     (tmp_path / "mine/blinker.drl").write_text("changed")
     assert main(["examples", "mine"]) == 2
     assert "is there already" in capsys.readouterr().err and (tmp_path / "mine/blinker.drl").read_text() == "changed"
+
+
+def test_the_links_of_copied_pages_lead_somewhere(tmp_path: Path) -> None:
+    assert main(["examples", "mine"]) == 0
+    pages = sorted((tmp_path / "mine").rglob("*.md"))
+    assert len(pages) > 40
+    links = {
+        (page, target)
+        for page in pages
+        for target in re.findall(r"\]\((?!https?:)([^)#\s]+)[^)]*\)", page.read_text("utf-8"))
+    }
+    lost = sorted(f"{page.name}: {target}" for page, target in links if not (page.parent / target).exists())
+    assert lost and all("INSTRUCTOR.md" in each for each in lost)
 
 
 def test_a_table_is_shown_copied_and_then_in_use(tmp_path: Path, capsys: Captured) -> None:

@@ -13,8 +13,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKED = ("drillctl", "tables", "examples", "docs", "hatch_build.py", "pyproject.toml", "README.md", "LICENSE")
-NOT_PACKED = shutil.ignore_patterns("*.so", "*.pyd", "__pycache__", "_site", "pictures")
+PACKED = ("drillctl", "tables", "examples", "docs", "hatch_build.py", "pyproject.toml", "README.md", "LICENSE",
+          "CITATION.cff")  # fmt: skip
+NOT_PACKED = shutil.ignore_patterns("*.so", "*.pyd", "__pycache__")
 PIP = (sys.executable, "-m", "pip", "--disable-pip-version-check", "-q")
 Done = subprocess.CompletedProcess[str]
 

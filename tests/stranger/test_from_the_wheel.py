@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from drillctl.cli import main
 from drillctl.ui.pcb_drill import examples
 from tests.stranger.submissions import SUBMISSIONS, made_sheet, submission
 
@@ -51,7 +52,7 @@ def test_without_a_compiler_a_wheel_for_every_computer_is_made(wheel: Path) -> N
 def test_an_example_is_copied_drilled_and_looked_at(stranger: Stranger, tmp_path: Path) -> None:
     assert "sheets" in stranger("drillctl", "where").stdout
     copied = stranger("drillctl", "examples", "mine")
-    assert copied.returncode == 0 and (tmp_path / "mine/lab/01-phase-sequences/sheet.toml").is_file()
+    assert copied.returncode == 0 and (tmp_path / "mine/docs/lab/01-phase-sequences/sheet.toml").is_file()
     done = stranger("drillctl", "run", "mine/blinker.drl", "--trace", "b.trace")
     assert done.returncode == 0 and done.stdout.strip() in (ROOT / "README.md").read_text("utf-8")
     assert stranger("drillctl", "replay", "b.trace").returncode == 0
@@ -59,6 +60,15 @@ def test_an_example_is_copied_drilled_and_looked_at(stranger: Stranger, tmp_path
     page = (tmp_path / "b.html").read_text("utf-8")
     assert page.startswith("<!DOCTYPE html>") and "</html>" in page[-20:]
     assert page.count("<title>b.trace</title>") == 1 and "pcb-drill" in page
+
+
+def test_what_is_copied_is_what_a_clone_copies(stranger: Stranger, tmp_path: Path) -> None:
+    assert stranger("drillctl", "examples", "wheel").returncode == 0
+    assert main(["examples", str(tmp_path / "clone")]) == 0
+    of_wheel, of_clone = (
+        {file.relative_to(tmp_path / name) for file in (tmp_path / name).rglob("*")} for name in ("wheel", "clone")
+    )
+    assert of_wheel == of_clone and Path("docs/TROUBLESHOOTING.md") in of_wheel
 
 
 def test_the_machines_are_those_of_the_clone(stranger: Stranger) -> None:
@@ -98,7 +108,7 @@ def test_a_repository_of_ones_own_is_judged_by_its_goldens(stranger: Stranger, t
 
 def test_thirty_submissions_are_graded(stranger: Stranger, tmp_path: Path) -> None:
     assert stranger("drillctl", "examples", "mine").returncode == 0
-    sheet = made_sheet(tmp_path / "sheet", tmp_path / "mine/lab")
+    sheet = made_sheet(tmp_path / "sheet", tmp_path / "mine/docs/lab")
     (tmp_path / "handed-in").mkdir()
     for name, _passes, _why, change in SUBMISSIONS:
         change(submission(tmp_path / "handed-in" / name, sheet, SOLUTION))
