@@ -54,7 +54,7 @@ class Files(Undoable[JobOptions], urwid.WidgetWrap[urwid.Widget]):
         Key(("p",), "P", "panel", N_("repeats the board in columns and rows"), N_("Panel")),
         Key(("#",), "#", "cycle", N_("the order of the holes"), N_("Order"), "order"),
         Key((">",), ">", "cycle", N_("what becomes of holes behind the end, M30 (--after-end)"), argument="after_end"),
-        Key(("h",), "H", "how_to_drill", N_("pecks, spots, tools left out, drills at hand, pins, milling")),
+        Key(("h",), "H", "how_to_drill", N_("pecks, spots, tools left out, drills, pins, milling")),
         *UNDO_KEYS,
     )
 
