@@ -33,7 +33,7 @@ DYNAMIC = [
 ]
 FAULTS = [
     "blunt=3", "broken=1", "loose.x=0.4", "jammed.y=3", "bouncing.z_top=7", "bouncing.x_min=40", "dirty.z_bottom=1",
-    "stuck.x_min=1", "stuck.z_top=0",
+    "stuck.x_min=1", "stuck.z_top=0", "worn.z3=7.999", "breaks.z2=1",
 ]  # fmt: skip
 FINE_HZ = 10_000  # ticks from here on belong to the ramps of their machine
 TICKS = 9000 if KERNEL.compiled else 3000
@@ -150,6 +150,14 @@ def test_drilling_ends_in_time_within_a_stretch() -> None:
     text = "KMD_INICJALIZACJA\nKMD_PREDKOSC 3\nKMD_WIERTLO_DOL\nKMD_WIERTLO_GORA"
     fast = check(LIBRARY.machine("pcb-drill").at_rate(100), PlantChoice("dynamic"), text, {}, 14000)
     assert fast.controller.fault == Fault.DRILLING_TIME
+
+
+def test_a_bit_breaks_in_the_same_tick_of_a_stretch() -> None:
+    text = "KMD_INICJALIZACJA\n" + "KMD_RUCHd z2=3860 z3=3860\nKMD_RUCHd z2=-3860 z3=-3860\nKMD_RUCHd x=200\n" * 2
+    fast = check(LIBRARY.machine("eight-axis"), PlantChoice("dynamic", ("worn.z3=7.999",)), text, {}, 60_000)
+    assert fast.controller.fault == Fault.NONE
+    broken = fast.plant.chucks.of(4) if fast.plant is not None else None
+    assert broken is not None and broken.short_steps > 0
 
 
 def test_the_rows_hold_every_coefficient() -> None:
