@@ -20,6 +20,9 @@ def lower_to_contact(m: Controller, command: Command) -> int:
     heads = _heads(m, command)
     if not heads or not all(m.contacts[index] for index in heads):
         return Fault.BAD_COMMAND
+    m.blamed = sum(1 << index for index in heads if m.sensors & m.contacts[index])
+    if m.blamed:
+        return Fault.NO_CONTACT  # a contact that is always on finds nothing
     for index in heads:
         axis = m.axes[index]
         axis.seek_mask, axis.clear_mask, axis.halt_mask = 0, 0, m.contacts[index]
@@ -47,16 +50,20 @@ def touched(m: Controller, command: Command) -> int:
     return Fault.NONE
 
 
-def watch_touches(m: Controller, heads: Sequence[int]) -> None:
+def watch_touches(m: Controller, heads: Sequence[int]) -> int:
     """At the beginning of a stroke down: looks from now on when the bits of these heads, by axis, touch. A head whose
-    surface is not known, or that has no breakage range, is left out.
+    surface is not known, or that has no breakage range, is left out. Returns a fault code: a contact is on above its
+    board.
     """
     m.watched = 0
     for index in heads:
         if index in m.surfaces and m.breakage_ranges[index] != NO_LIMIT:
             m.watched |= m.contacts[index]
+            if m.sensors & m.contacts[index] and m.axes[index].position < m.surfaces[index]:
+                m.blamed |= 1 << index
     m.touching = m.sensors & m.watched
     m.touched.clear()
+    return Fault.NO_CONTACT if m.blamed else Fault.NONE
 
 
 def note_touches(m: Controller) -> None:

@@ -17,8 +17,8 @@ def lower_heads(m: Controller, command: Command) -> int:
     """Starts KMD_WIERTLO_DOL, each head to its own target; drilling is limited in time. Returns a fault code."""
     m.hole_begun = command.tag or m.hole_begun
     m.time_limit = m.longest_drilling
-    watch_touches(m, [index for index, axis in enumerate(m.axes) if _is_head(m, command, index, axis)])
-    return _drive_head(m, command, DOWN)
+    heads = [index for index, axis in enumerate(m.axes) if _is_head(m, command, index, axis)]
+    return watch_touches(m, heads) or _drive_head(m, command, DOWN)
 
 
 def raise_heads(m: Controller, command: Command) -> int:

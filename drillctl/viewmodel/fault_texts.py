@@ -151,8 +151,11 @@ FAULT_WORDS: Mapping[Fault, FaultWords] = {
         Message("check whether the index is stuck; move the switch by half a turn, so that the index comes later"),
     ),
     Fault.NO_CONTACT: FaultWords(
-        Message("a head went down as far as its depth detection goes, and its bit touched nothing"),
-        Message("see whether the bit is there and whole, and whether a board lies below it"),
+        Message(
+            "a head went down as far as its depth detection goes and its bit touched nothing, or its contact was on "
+            "above the board"
+        ),
+        Message("see whether the bit is there and whole, a board lies below it, and the contact goes on and off"),
     ),
     Fault.BIT_BROKEN: FaultWords(
         Message(

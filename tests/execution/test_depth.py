@@ -73,6 +73,16 @@ def test_a_stroke_down_finds_a_broken_bit_by_its_touch(deeper: int, depth_mm: fl
     assert b.m.fault_axes == 0
 
 
+@pytest.mark.parametrize("before", ["", f"KMD_DOTYK z1 z2; {UP}; "])
+def test_a_contact_that_is_on_above_the_board_is_believed_neither_in_detection_nor_in_a_stroke(before: str) -> None:
+    last = "KMD_WIERTLO_DOL z1 z2" if before else "KMD_DOTYK z1 z2"
+    b = Bench(machine(depth_mm=1.0)).queue(f"KMD_INICJALIZACJA; {before}{last}")
+    b.until(lambda: b.m.done == (3 if before else 1))
+    b.card.stuck_high = b.input_bit("contact_2")
+    b.finish()
+    assert (b.m.fault, b.m.fault_axes, b.m.position_known) == (Fault.NO_CONTACT, 1 << Z2, True)
+
+
 def test_a_bit_that_leaves_the_board_within_its_stroke_is_broken() -> None:
     b = Bench(machine(depth_mm=1.0)).queue(f"KMD_INICJALIZACJA; KMD_DOTYK z1 z2; {UP}; KMD_WIERTLO_DOL z1 z2")
     b.until(lambda: b.m.done == 3)

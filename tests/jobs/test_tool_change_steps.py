@@ -12,6 +12,7 @@ from drillctl.generation.errors import JobError
 from drillctl.jobs.magazine import MagazineFile
 from drillctl.kmd import Fault
 from drillctl.machine import Machine
+from drillctl.machine.levels import SPEED_ACTUAL
 from drillctl.ticker.link import LocalLink
 from tests.jobs.near_machine import MACHINE, SPINDLES, check_true, runner, stepped
 
@@ -118,3 +119,18 @@ def spoil(link: LocalLink, how: str) -> None:
         magazine.take((2, 1))
     elif how == "dropped":
         chuck.drops_at = 1
+
+
+def test_no_step_is_begun_while_the_spindle_does_not_stand(kept: MagazineFile) -> None:
+    run = runner(MACHINE, kept, done={1})
+    assert isinstance(run.link, LocalLink)
+    word, before = MACHINE.input_word(SPEED_ACTUAL), MagazineFile(kept.file, MACHINE).magazine
+    assert word is not None
+    with closing(run.link):
+        port = run.link.ticker.port
+        latch = port.latch
+        port.latch = lambda: word.put(latch(), 300)  # type: ignore[method-assign]
+        for _ in stepped(run):
+            pass
+        assert (int(run.status["step"]), Fault(run.status["fault"])) == (0, Fault.SPINDLE_SPEED)
+    assert MagazineFile(kept.file, MACHINE).magazine == before
