@@ -35,6 +35,7 @@ HOLES = np.dtype(
     [
         ("number", "i8"), ("tool", "i8"), ("diameter_mm", "f8"),
         ("wanted_x_mm", "f8"), ("wanted_y_mm", "f8"), ("made_x_mm", "f8"), ("made_y_mm", "f8"), ("error_mm", "f8"),
+        ("spindle", "i8"),
     ]
 )  # fmt: skip
 RUN = Path("run")  # how messages call a run that is in no file
@@ -98,7 +99,8 @@ class Run:
     @cached_property
     def holes(self) -> NDArray[np.void]:
         """(holes,) in drilling order, a record each (dtype HOLES): where the bit was wanted and where it met the board,
-        in the file's coordinates; of a queue, which wants no hole at a place, the wanted ones are NaN.
+        in the file's coordinates; of a queue, which wants no hole at a place, the wanted ones are NaN. A machine with
+        several spindles has a record for each bit; ``spindle`` counts from 1.
         """
         return _kept(np.array([self._hole(hole) for hole in self.result.holes], HOLES))
 
@@ -219,7 +221,7 @@ class Run:
         wanted = self.job.file_place(hole.number) if self.job.work and hole.number else (np.nan, np.nan)
         error_mm = float(np.hypot(hole.x_mm - wanted[0], hole.y_mm - wanted[1]))
         diameter_mm = np.nan if hole.diameter_mm is None else hole.diameter_mm
-        return (hole.number, hole.tool, diameter_mm, *wanted, hole.x_mm, hole.y_mm, error_mm)
+        return (hole.number, hole.tool, diameter_mm, *wanted, hole.x_mm, hole.y_mm, error_mm, hole.spindle)
 
     def _index(self, axis: str) -> int:
         return self.machine.axis_names.index(self._name(axis))

@@ -27,7 +27,8 @@ def lower_to_contact(m: Controller, command: Command) -> int:
         axis = m.axes[index]
         axis.seek_mask, axis.clear_mask, axis.halt_mask = 0, 0, m.contacts[index]
         lowest = min(axis.reach[1], m.descents[index])
-        axis.set_target(max(lowest, axis.position), max(command.floor_ticks, axis.interval[1]))
+        floor = max(command.floor_ticks, command.args[index], axis.interval[1])
+        axis.set_target(max(lowest, axis.position), floor)
     return Fault.NONE
 
 

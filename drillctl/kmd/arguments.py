@@ -185,15 +185,21 @@ def _xy_out(record: Written, names: Names) -> list[str]:
     return [str(record["args"][names.axes.index(axis)]) for axis in ("x", "y")]
 
 
-def _heads_out(record: Written, names: Names) -> list[str]:
-    floors = {index: int(record["args"][index]) for index in _masked(record, names)}
+def _heads_out(record: Written, names: Names, plane: int = 0) -> list[str]:
+    """The heads in the mask. Without any, all heads are meant: they are named where one has an interval of its own.
+    ``plane``: the axes that are no heads here.
+    """
+    known = [index for index, name in enumerate(names.axes) if name in (names.heads or names.axes)]
+    heads = [index for index in known if not plane >> index & 1]
+    masked = [index for index in _masked(record, names) if not plane >> index & 1]
+    own = any(int(record["args"][index]) for index in heads)
+    floors = {index: int(record["args"][index]) for index in masked or (heads if own else ())}
     return [f"{names.axes[index]}={ticks}" if ticks else names.axes[index] for index, ticks in floors.items()]
 
 
 def _xy_heads_out(record: Written, names: Names) -> list[str]:
     plane = sum(1 << names.axes.index(axis) for axis in ("x", "y"))
-    heads = {"axes": int(record["axes"]) & ~plane, "args": record["args"]}
-    return [*_xy_out(record, names), *_heads_out(heads, names)]
+    return [*_xy_out(record, names), *_heads_out(record, names, plane)]
 
 
 def _switch_out(table: Mapping[str, int], record: Written, count: int) -> list[str]:

@@ -184,7 +184,7 @@ _ALL = (
                 "initialisation or stop"),
     ),
     Spec(
-        "KMD_DOTYK", Op.DOTYK, ArgumentForm.AXES, _AXES,
+        "KMD_DOTYK", Op.DOTYK, ArgumentForm.HEADS, _HEADS,
         Message("lower the heads slowly until their bits touch the board; one that touches too deep is broken"),
     ),
 )  # fmt: skip

@@ -123,3 +123,19 @@ def test_a_run_that_can_not_be_saved_leaves_nothing(tmp_path: Path) -> None:
             run.save(tmp_path / name)
     assert [file.name for file in tmp_path.iterdir()] == ["old.trace"]
     assert (tmp_path / "old.trace").read_text() == "old"
+
+
+@pytest.mark.parametrize(
+    ("machine", "options", "spindles"),
+    [("pcb-drill", {"peck": 0.5}, {1}), ("eight-axis", {}, {1, 2, 3, 4, 5, 6}),
+     ("eight-axis", {"spindles": (2, 5)}, {2, 5})],
+)  # fmt: skip
+def test_a_board_is_the_same_run_in_its_trace(
+    machine: str, options: dict[str, object], spindles: set[int], tmp_path: Path
+) -> None:
+    """What its commands say, the feeds of single heads among it, is all in the text of the trace."""
+    run = drillctl.run(ROOT / "examples" / "blinker.drl", machine, skip_tools=(1, 2), **options)
+    assert run.fault is None and set(run.holes["spindle"].tolist()) == spindles
+    assert {axis: run.positions(axis)[-1] for axis in run.machine.axis_names} == run.outcome.position
+    run.save(tmp_path / "board.trace")
+    assert drillctl.replay_trace(tmp_path / "board.trace").difference is None

@@ -48,6 +48,17 @@ def test_program_to_text_to_program(lines: list[str]) -> None:
     assert program.tobytes() == again.tobytes()
 
 
+def test_intervals_of_heads_that_are_all_meant_are_written_with_their_names() -> None:
+    """Planning leaves the mask empty; read back, the same heads have the same intervals."""
+    names = Names(("x", "y", "z1", "z2"), heads=("z1", "z2"))
+    program = parse_program("KMD_WIERTLO_DOL z1=2 z2\nKMD_GORA_X_Y 5 6 z1=3 z2\nKMD_DOTYK\nKMD_GORA_X_Y 5 6", names)
+    named = program.copy()
+    program["axes"] &= 0b11
+    texts = list(program_texts(program, names))
+    assert texts[:4] == ["KMD_WIERTLO_DOL z1=2 z2", "KMD_GORA_X_Y 5 6 z1=3 z2", "KMD_DOTYK", "KMD_GORA_X_Y 5 6"]
+    assert parse_program("\n".join(texts), names).tobytes() == named.tobytes()
+
+
 @given(st.lists(LINES, min_size=1, max_size=4), st.integers(1, 3))
 @settings(max_examples=100, deadline=None)
 def test_texts_of_a_program_are_those_of_its_commands(lines: list[str], times: int) -> None:

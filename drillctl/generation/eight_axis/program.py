@@ -127,7 +127,8 @@ class _Program:
         lowered = self._stroke(self._working_top())
         lowered["opcode"], lowered["flags"] = Op.RUCH, Flag.ABSOLUTE
         touch = record(Op.DOTYK, axes=mask_of(machine, heads))
-        touch["floor_ticks"] = max(interval_of(machine, head, *_detection_speed(machine)) for head in heads)
+        for head in heads:
+            touch["args"][0, head] = interval_of(machine, head, *_detection_speed(machine))
         up = self._fed(record(Op.WIERTLO_GORA, axes=mask_of(machine, self._heads)), stretch.tool)
         return [gotos(self._here[None, :], machine), self._stroke(self._working_top()), lowered, touch, up]
 
