@@ -56,6 +56,7 @@ def test_a_motor_follows_its_pulses_with_a_lag_and_comes_to_rest_on_its_step() -
     b = bench(eight()).queue(f"KMD_INICJALIZACJA; {SETTLED}; KMD_RUCH x=400", end=False)
     b.until(lambda: b.m.axes[0].made > 0 and b.m.position_known and b.positions()[0] == 200)
     assert 2 < 200 - places(b)[0] < 60
+    assert not any(b.ticker.lost_steps()), "what lags will come"
     b.queue(SETTLED).finish()
     assert places(b)[0] == pytest.approx(400 + zero()[0], abs=0.5)
 

@@ -72,8 +72,14 @@ class DynamicRotor(Rotor):
         return (*self._wires.on, *missing, *self._wires.forcing, *missing)
 
     def columns_lost(self, travelled: int) -> float:
-        """Returns the columns by which the rotor is behind, rounded to whole electrical cycles."""
-        return round(self.columns_behind(travelled) / self.columns_per_cycle) * self.columns_per_cycle
+        """Returns the columns by which the rotor is behind, rounded to whole electrical cycles. A drive that has not
+        tripped comes after its pulses, and has lost those alone that it has not counted.
+        """
+        behind = self.columns_behind(travelled)
+        if self._dynamics.kind == "drive" and not self.tripped:
+            counted = self.axis.rows[self.axis.at + motors.CURRENTS + motors.COUNT]
+            behind = travelled - counted * self.columns_per_cycle
+        return round(behind / self.columns_per_cycle) * self.columns_per_cycle
 
     def columns_behind(self, travelled: int) -> float:
         """Returns how far the rotor is from the middle of its column: lag, friction, and what was lost."""
