@@ -32,7 +32,7 @@ class MadeHole:
     number: int = 0
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Job:
     """A program (dtype kmd.RECORD) with its source. ``work`` is None for a queue written by hand; ``programmed`` makes
     the program of another work list in the same way, and on a machine with a magazine for what is known of its tools.
@@ -44,6 +44,9 @@ class Job:
     work: WorkList | None = None
     warnings: tuple[Message, ...] = ()
     programmed: Callable[..., NDArray[np.void]] | None = None
+
+    def __repr__(self) -> str:
+        return f"<Job {self.name} for {self.machine.name}: {len(self.program)} commands, {self.holes_total} holes>"
 
     @property
     def holes_total(self) -> int:

@@ -109,6 +109,7 @@ def test_what_a_run_keeps_can_not_be_written_to() -> None:
 def test_a_run_is_shown_in_a_line(tmp_path: Path) -> None:
     run = drillctl.run("KMD_GOTOdXdY 30 0", plant="dynamic")
     assert repr(run) == "<Run of commands on pcb-drill, dynamic plant: 52 ticks, no fault>"
+    assert repr(run.job) == "<Job commands for pcb-drill: 2 commands, 0 holes>"
     run.save(tmp_path / "run.trace")
     verdict = drillctl.replay_trace(tmp_path / "run.trace")
     assert verdict.headline() == "no tick differs" and len(repr(verdict)) < 200
