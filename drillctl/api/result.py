@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from drillctl.api.arguments import path_of
 from drillctl.files.outputs import Output, reserved
 from drillctl.generation.job import Job, MadeHole
-from drillctl.jobs.runner import JobResult
+from drillctl.jobs.outcome import JobResult
 from drillctl.lab.dynamic_rerun import AxisRun, axis_of_run
 from drillctl.language import Message, Refusal
 from drillctl.machine import Machine

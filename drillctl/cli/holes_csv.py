@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
     from drillctl.generation.job import Job, MadeHole
-    from drillctl.jobs.runner import JobResult
+    from drillctl.jobs.outcome import JobResult
 
 MADE = ("tool", "diameter_mm", "x_mm", "y_mm")
 WANTED = ("number", "wanted_x_mm", "wanted_y_mm", "error_mm")

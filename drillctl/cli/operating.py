@@ -9,7 +9,7 @@ from drillctl.cli import streams
 from drillctl.language import Message
 
 if TYPE_CHECKING:
-    from drillctl.jobs.runner import JobResult
+    from drillctl.jobs.outcome import JobResult
     from drillctl.jobs.session import Session
     from drillctl.ui.terminal.wait import Wait
 

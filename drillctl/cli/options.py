@@ -11,7 +11,7 @@ from drillctl.cli import streams
 from drillctl.language import Message, json_text
 
 if TYPE_CHECKING:
-    from drillctl.jobs.runner import JobResult
+    from drillctl.jobs.outcome import JobResult
     from drillctl.machine import Library, Machine
     from drillctl.plant import PlantChoice
     from drillctl.ticker.converter.card import ConverterChoice

@@ -12,7 +12,7 @@ from drillctl.language import Message
 if TYPE_CHECKING:
     from drillctl.files.outputs import Output
     from drillctl.generation.job import Job
-    from drillctl.jobs.runner import JobResult
+    from drillctl.jobs.outcome import JobResult
     from drillctl.jobs.session import Session
 
 

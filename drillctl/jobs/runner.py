@@ -21,36 +21,17 @@ from drillctl.jobs.interrupts import caught
 from drillctl.jobs.journal import Journal, JournalError
 from drillctl.jobs.magazine import MagazineError
 from drillctl.jobs.operator import HoldLimit, JobHold, Operator, ToolChange
-from drillctl.jobs.tool_keeping import ToolKeeping, last_of_bit
-from drillctl.kmd import Fault, Request, is_complete, is_over
+from drillctl.jobs.outcome import JobResult, fault_code, outcome_of
+from drillctl.jobs.tool_keeping import ToolKeeping
+from drillctl.kmd import Request, is_complete, is_over
 from drillctl.language import Message
 from drillctl.replay.header import trace_header
 from drillctl.ticker.link import Link
-from drillctl.trace import Segments, Trace
-from drillctl.viewmodel.fault_texts import axes_blamed, fault_report
 from drillctl.viewmodel.records import Outcome, Progress
 
 BY_OPERATOR = Message("the operator stopped the job")
 BY_OTHERS = Message("the job was stopped before its end")  # by a signal to a process beside this one
 Watcher = Callable[[Progress], None]
-
-
-@dataclass(frozen=True)
-class JobResult:
-    """A job that is over.
-
-    holes    made, as the plant saw the bit meet the board; none on a real port
-    signal   the number of the signal that stopped the job, None if none did
-    trouble  what else stopped it, in a sentence; None where nothing did, or a fault, which ``outcome`` has
-    notices  sentences about how it was paced
-    """
-
-    outcome: Outcome
-    holes: list[MadeHole]
-    trace: Trace | Segments | None
-    signal: int | None
-    trouble: Message | None = None
-    notices: tuple[Message, ...] = ()
 
 
 @dataclass
@@ -148,7 +129,7 @@ class JobRunner:
 
     def settle(self, interrupted: bool = False) -> Outcome:
         """Writes the end of the job into the journal and returns it; ``interrupted``: a signal stopped it."""
-        outcome = self._outcome(self.status, interrupted)
+        outcome = self._outcome(interrupted)
         self._end_journal(outcome)
         return outcome
 
@@ -246,37 +227,19 @@ class JobRunner:
         except JournalError as error:
             self.trouble = self.trouble or error.message
 
-    def _outcome(self, status: np.void, interrupted: bool) -> Outcome:
-        names = self.job.machine.axis_names
-        code = self.link.lost() or int(status["fault"])
-        complete = is_complete(status, self.last_sequence)
-        if not (code or complete or interrupted or self.trouble):
+    def _outcome(self, interrupted: bool) -> Outcome:
+        over = is_complete(self.status, self.last_sequence) or bool(fault_code(self.link, self.status))
+        if not (over or interrupted or self.trouble):
             self.trouble = BY_OPERATOR if self._stop_asked else BY_OTHERS
-        kept = bool(status["fault_kept"]) and not self.link.lost()
-        by_axis = {name: status[name].tolist() for name in ("steps", "position", "lost")}
-        return Outcome(
-            machine=self.job.machine.name,
-            holes_done=self.done_before + self.confirmed,
-            holes_total=self.done_before + self.job.holes_total,
-            ticks=int(status["tick"] - self.first["tick"]),
-            tick_hz=self.job.machine.tick_hz,
-            steps=dict(zip(names, by_axis["steps"], strict=False)),
-            position=dict(zip(names, by_axis["position"], strict=False)),
-            position_known=bool(status["position_known"]) and not self.link.lost(),
-            lost_steps=dict(zip(names, by_axis["lost"], strict=False)) if self.link.measured else None,
-            underruns=int(status["underruns"]),
-            fault=fault_report(Fault(code), kept, axes_blamed(int(status["fault_axes"]), names)) if code else None,
-            suspect=self._suspect(code),
-            late_count=int(status["late"]),
-            late_greatest_ms=int(status["late_worst_ns"]) / 1e6,
-            interrupted=interrupted or not (code or complete),
+        return outcome_of(
+            self.job,
+            self.link,
+            self.first,
+            self.status,
+            done_before=self.done_before,
+            done=self.confirmed,
+            interrupted=interrupted or not over,
         )
-
-
-    def _suspect(self, fault: int) -> tuple[int, ...]:
-        """The hole that a bit may have broken in, by its number in the whole job, where one was found broken."""
-        last = last_of_bit(self.job.program, self._commands) if fault == Fault.BIT_BROKEN and self.job.work else None
-        return () if last is None else (self.job.hole_number(last),)
 
     @property
     def _commands(self) -> int:

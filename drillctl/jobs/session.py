@@ -22,7 +22,8 @@ from drillctl.generation.readers import load_job
 from drillctl.generation.waits import FORECASTING, Waits, unwatched
 from drillctl.jobs.journal import Account, Head, Journal, check_same, head_of
 from drillctl.jobs.operator import HoldLimit, Operator, ToolChange
-from drillctl.jobs.runner import JobResult, JobRunner, Watcher, check_room
+from drillctl.jobs.outcome import JobResult
+from drillctl.jobs.runner import JobRunner, Watcher, check_room
 from drillctl.jobs.site import site_of
 from drillctl.jobs.tool_keeping import ToolKeeping, with_tools
 from drillctl.language import Message

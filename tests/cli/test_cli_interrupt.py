@@ -13,7 +13,8 @@ import pytest
 
 from drillctl.generation.job_setup import JobSetup
 from drillctl.generation.readers import load_job
-from drillctl.jobs.runner import JobResult, JobRunner
+from drillctl.jobs.outcome import JobResult
+from drillctl.jobs.runner import JobRunner
 from drillctl.machine import Library, shipped_tables
 from drillctl.ports import SAFE_IMAGE
 from drillctl.ticker.link import LocalLink

@@ -17,7 +17,8 @@ from drillctl.generation.sequences import Change
 from drillctl.generation.work_settings import WorkSettings
 from drillctl.generation.worklist import build
 from drillctl.jobs.magazine import MagazineFile
-from drillctl.jobs.runner import JobResult, JobRunner
+from drillctl.jobs.outcome import JobResult
+from drillctl.jobs.runner import JobRunner
 from drillctl.jobs.tool_keeping import ToolKeeping
 from drillctl.kmd import Fault, Op
 from drillctl.machine import Machine
