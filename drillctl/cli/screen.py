@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from drillctl.cli import options, streams
+from drillctl.cli import options, streams, verbosity
 from drillctl.language import Message, Refusal
 
 if TYPE_CHECKING:
@@ -64,15 +64,16 @@ def work(arguments: argparse.Namespace, run: "ScopeSource | None" = None) -> int
 
     plain = (sys.stdout.encoding or "").lower() != "utf-8"
     streams.speak(arguments.lang, plain)
-    with _uncollected():
-        library, console = _machine(arguments)
-    try:
+    with verbosity.held_back():
         with _uncollected():
-            app = _app(arguments, library, console, plain, run)
-        with remembered() as interrupts:
-            app.run(interrupts)
-    finally:
-        console.close()
+            library, console = _machine(arguments)
+        try:
+            with _uncollected():
+                app = _app(arguments, library, console, plain, run)
+            with remembered() as interrupts:
+                app.run(interrupts)
+        finally:
+            console.close()
     return 0
 
 

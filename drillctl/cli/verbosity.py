@@ -7,10 +7,14 @@ standard library; ``-vv``: every step of it. A program that imports drillctl set
 import argparse
 import logging
 import sys
+from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from drillctl.cli import streams
 
 LEVELS = (logging.WARNING, logging.INFO, logging.DEBUG)
+MOST_KEPT = 200  # records while a screen has the terminal; older ones are dropped
 
 
 def add(verb: argparse.ArgumentParser) -> None:
@@ -27,3 +31,29 @@ def set_from(arguments: argparse.Namespace) -> None:
     level = LEVELS[min(getattr(arguments, "verbose", 0), len(LEVELS) - 1)]
     logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="drillctl: %(message)s", force=True)
     logging.getLogger("drillctl").setLevel(level)
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Within it log records are kept, and said when it ends: a line in between would be written across the screen."""
+    root = logging.getLogger()
+    said, kept = root.handlers[:], _Kept()
+    root.handlers[:] = [kept]
+    try:
+        yield
+    finally:
+        root.handlers[:] = said
+        for record in kept.records:
+            root.handle(record)
+
+
+class _Kept(logging.Handler):
+    """Keeps the newest records."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.records: deque[logging.LogRecord] = deque(maxlen=MOST_KEPT)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keeps a record."""
+        self.records.append(record)

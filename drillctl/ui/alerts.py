@@ -37,7 +37,7 @@ class Alerts:
         if fault and fault.code and fault.code != self._fault_shown:
             lines = [*_fault_lines(fault, self._was_known), *filter(None, [_(self._initialise())])]
             lines.append(_("Enter acknowledges it; Esc only closes this box."))
-            box = dialogs.message(_fault_title(fault), lines, self._layers.pop, self._acknowledge)
+            box = dialogs.message(_fault_title(fault), lines, self._layers.pop, self._acknowledge, "acknowledge")
             self._layers.push_dialog(box)
         self._fault_shown = fault.code if fault else 0
         self._was_known = view.position_known

@@ -97,7 +97,8 @@ class App(Boxes):
         self._at_work = view.moving or view.at_work or bool(view.command)
         self.frame.show_machine(view)
         step = shown_step(self._family.next_step(self._console, view), self._open.top, view)
-        self.frame.show_step(step_line(step, self._open.top, self._family.menus, self.layers.typing))
+        typing, entered = self.layers.typing, self.layers.entered
+        self.frame.show_step(step_line(step, self._open.top, self._family.menus, typing, entered))
         if isinstance(self._open.top, Live):
             self._open.top.refresh(view)
         self._alerts.show(view)

@@ -66,6 +66,11 @@ class Layers(urwid.WidgetPlaceholder[urwid.Widget]):
         return self._layers[-1].box if self._layers else None
 
     @property
+    def entered(self) -> str:
+        """The action of a screen that Enter does in the topmost box; empty where there is none."""
+        return self.top.entered if isinstance(self.top, dialogs.Dialog) else ""
+
+    @property
     def typing(self) -> bool:
         """Whether a text field has the cursor."""
         widget: urwid.Widget | None = self

@@ -13,11 +13,14 @@ from drillctl.ui.widgets.menus import Item, hot_letter
 from drillctl.ui.widgets.texts import Line
 
 
-def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: bool = False) -> Line:
+def step_line(
+    step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: bool = False, entered: str = ""
+) -> Line:
     """A Step as marked text. An action that the screen has no key for is named by its letters in the menus; a screen
     that the action leads to says by ``keys_here`` which method of its own goes on with it.
 
-    ``typing``: a text field has the cursor, so that a letter is none of the keys.
+    ``typing``: a text field has the cursor, so that a letter is none of the keys. ``entered``: the action that Enter
+    does in the box on top.
     """
     line: Line = [(step.attribute, f" {_('Next')} "), " "]
     for index, part in enumerate(FIELD.split(_(step.text))):
@@ -26,7 +29,9 @@ def step_line(step: Step, screen: urwid.Widget, menus: Sequence[Item], typing: b
         elif part in step.values:
             line.append(("title", step.values[part]))
         else:
-            line.append(("accent", _key(*step.actions[part], screen, menus, typing)))
+            name, method = step.actions[part]
+            in_box = bool(entered) and entered in (name, method)
+            line.append(("accent", "Enter" if in_box else _key(name, method, screen, menus, typing)))
     return line
 
 

@@ -1,5 +1,6 @@
 """What people expect of a command line: examples at hand, tables by name, folders told, completion, -q and -v."""
 
+import argparse
 import json
 import logging
 import re
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from drillctl.cli import main
+from drillctl.cli import main, verbosity
 from drillctl.files.shipped import shipped
 
 BASH = shutil.which("bash")
@@ -132,6 +133,14 @@ def test_quiet_says_nothing_that_need_not_be_read_and_verbose_says_more(tmp_path
     assert "machine pcb-drill is read from" in told and "plant ideal" in told
     assert main(["run", "job.kmd"]) == 0 and "plant ideal" not in capsys.readouterr().err
     logging.getLogger("drillctl").setLevel(logging.NOTSET)
+
+
+def test_nothing_is_said_across_a_screen(capsys: Captured) -> None:
+    verbosity.set_from(argparse.Namespace(verbose=0))
+    with verbosity.held_back():
+        logging.getLogger("drillctl").warning("later")
+        assert not capsys.readouterr().err
+    assert capsys.readouterr().err == "drillctl: later\n"
 
 
 def test_quiet_hides_no_error(capsys: Captured) -> None:

@@ -43,7 +43,7 @@ CASES = {
     "no board": ({}, False, "no board: F opens one, E shows the examples"),
     "ready": ({}, True, "ready: S drills the board, D goes over it"),
     "a tool": ({"at_work": True, "tool_wanted": ToolWanted(2, 1.0)}, True, "T2, 1.000 mm is wanted: put it in, then C"),
-    "a fault": ({"condition": "latched", "fault": FAULT}, True, "FAULT EMERGENCY_STOP: put its cause right, then A"),
+    "a fault": ({"condition": "latched", "fault": FAULT}, True, "FAULT EMERGENCY_STOP: put its cause right, then E"),
     "held": ({"condition": "held", "at_work": True}, True, "held: Space goes on, X ends the job"),
     "at work": ({"moving": True, "at_work": True}, True, "at work: Space holds, X ends the job"),
     "ending": ({"condition": "stopping", "at_work": True}, True, "the job is being ended"),
@@ -101,6 +101,10 @@ def test_on_another_screen_the_letters_of_the_menu_are_named() -> None:
 
 def test_a_fault_whose_box_was_closed_still_names_the_key() -> None:
     assert "A acknowledges" in shown(replace(VIEW, condition="latched", fault=FAULT), True, "esc")
+
+
+def test_a_fault_whose_box_is_open_names_enter() -> None:
+    assert "Enter acknowledges" in shown(replace(VIEW, condition="latched", fault=FAULT), True)
 
 
 def test_a_row_names_actions_that_the_menus_have() -> None:

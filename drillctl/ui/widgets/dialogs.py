@@ -26,7 +26,10 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
     """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc and q only close.
 
     answers  the first two buttons mean no and yes: they can be pressed by the first letters of these words
+    entered  the action of a screen that Enter does here, by its name; empty where there is none
     """
+
+    entered = ""
 
     def __init__(
         self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act, answers: bool = False
@@ -90,9 +93,11 @@ def nothing() -> None:
     """Does nothing: the action of a button that only closes its dialog."""
 
 
-def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing) -> Dialog:
-    """A dialog that tells something; ``then`` is called after Enter."""
-    return Dialog(title, [Text(line) for line in lines], [(_("OK"), then)], closing)
+def message(title: str, lines: Sequence[str], closing: Act, then: Act = nothing, entered: str = "") -> Dialog:
+    """A dialog that tells something; ``then`` is called after Enter, and is the action ``entered`` of a screen."""
+    dialog = Dialog(title, [Text(line) for line in lines], [(_("OK"), then)], closing)
+    dialog.entered = entered
+    return dialog
 
 
 def explanation(
