@@ -29,7 +29,7 @@ from drillctl.jobs.tool_keeping import ToolKeeping, with_tools
 from drillctl.language import Message
 from drillctl.machine import Machine
 from drillctl.ticker.forecast import forecast
-from drillctl.ticker.launch import FREE, RunSettings, files_of, in_batches, is_soon_over, pace_of, start
+from drillctl.ticker.launch import FREE, RunSettings, check_site, files_of, in_batches, is_soon_over, pace_of, start
 from drillctl.trace.segments import MOST_STRIP_TICKS, MOST_TICKS
 
 MOST_HELD_S = 60.0
@@ -83,6 +83,7 @@ class Session:
         with ExitStack() as opened:
             journal = None
             if self.journal is not None and self.start_from is not None:
+                check_site(self.job.machine, self.running)  # a refusal leaves no journal behind
                 journal = opened.enter_context(closing(Journal(self.journal, self.start_from, site_of(self.running))))
             status_file = opened.enter_context(_status_file(self.journal))
             link = opened.enter_context(closing(start(self.job.machine, self.running, status_file)))

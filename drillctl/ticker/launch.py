@@ -160,6 +160,12 @@ def start(machine: Machine, running: RunSettings, status_file: Path, keeper: Rin
         ) from error
 
 
+def check_site(machine: Machine, running: RunSettings) -> None:
+    """Raises PortError for a rate or a plant that can't be had, without opening the port."""
+    check_rate(machine, running)
+    plant_of(machine, running)
+
+
 def _opened(machine: Machine, running: RunSettings, card: SimulatedCard | None, pace: str) -> Driver:
     """The port's driver, with the converter's card around it where there is one."""
     layout = port_layout(machine)

@@ -48,6 +48,13 @@ def test_a_blunt_drill_passes_zmax_without_the_lower_sensor(machine: str, drillc
     assert told["lost_steps"]["z"] > 0 and told["lost_steps"]["x"] == 0 and told["holes_done"] == 0
 
 
+def test_a_plant_that_can_not_be_had_leaves_no_journal(drillctl: Drillctl, folder: Path) -> None:
+    before = sorted(folder.iterdir())
+    refused = drillctl("run", "kicad.drl", *DYNAMIC, "--fault", "stuck.no_sensor=1", "--journal", "j")
+    assert refused.returncode == 2 and "no_sensor" in refused.stderr
+    assert sorted(folder.iterdir()) == before
+
+
 def test_too_fast_loses_steps_and_the_outcome_says_so(drillctl: Drillctl, folder: Path) -> None:
     """Without a sensor on the way nobody but the plant knows."""
     (folder / "far.kmd").write_text("KMD_RUCHd x=900\n")
