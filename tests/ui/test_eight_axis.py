@@ -183,9 +183,9 @@ def test_the_tool_in_use_is_that_which_serves_the_code_of_the_file() -> None:
     stepping = replace(VIEW, change_step=13, command="KMD_RUCH x=5")
     for shown in (stepping, replace(stepping, command="")):
         assert f"Command   change, step 13{': ' * bool(shown.command)}{shown.command}" in plain(
-            work_lines(shown, RECORDS, BOARD, None)
+            work_lines(shown, RECORDS, BOARD, None, 60)
         )
-    assert "Diameter  0.800 mm" in plain(work_lines(VIEW, RECORDS, BOARD, None))
+    assert "Diameter  0.800 mm" in plain(work_lines(VIEW, RECORDS, BOARD, None, 36))
     assert tool_in_use(VIEW, RECORDS, None) is RECORDS.tools[0]
 
 
@@ -203,3 +203,8 @@ def test_coordinates_count_from_the_origins_of_the_parameters_or_from_the_base()
     assert [line.split() for line in at_base[1:3]] == [["X", "-6.825", "3.175"], ["Y", "3.175", "3.175"]]
     own = plain(coordinate_lines(VIEW, replace(RECORDS, relative_mm=(1.0, 2.0))))
     assert [line.split() for line in own[1:3]] == [["X", "-6.825", "2.175"], ["Y", "3.175", "1.175"]]
+
+
+def test_a_long_command_is_told_in_as_many_words_as_there_is_room_for() -> None:
+    lifting = replace(VIEW, command="KMD_GORA_X_Y 1401 1782 z1=1 z2=1 z3=1 z4=1 z5=1 z6=1")
+    assert "Command   KMD_GORA_X_Y 1401 1782 .." in plain(work_lines(lifting, RECORDS, BOARD, None, 36))

@@ -4,6 +4,8 @@ Rule: functions of the machine's view and its records; what is on stands in brac
 that nothing is told by colour alone.
 """
 
+import textwrap
+
 from drillctl.language.words import _, translated
 from drillctl.ui.screens.machine_lines import lamp, phase_line
 from drillctl.ui.screens.window_lines import hole_text, time_text
@@ -36,9 +38,11 @@ def _coordinate(axis: AxisView, index: int, records: Records) -> Line:
 
 
 def work_lines(
-    view: MachineView, records: Records, board: BoardView | None, progress: Progress | None
-) -> list[Line]:  # fmt: skip
-    """Stroke, bottom dead centre, the tool in use with diameter and allowed offset, holes, time, command."""
+    view: MachineView, records: Records, board: BoardView | None, progress: Progress | None, columns: int
+) -> list[Line]:
+    """Stroke, bottom dead centre, the tool in use with diameter and allowed offset, holes, time, command: as many of
+    its words as there is room for, since the intervals of six heads would take three lines.
+    """
     tool, diameter_mm = tool_in_use(view, records, board), _diameter(view, board)
     if diameter_mm is None and tool is not None:
         diameter_mm = tool.diameter_mm
@@ -50,7 +54,7 @@ def work_lines(
         _labelled(_("Offset +-"), _mm(tool.offset_mm if tool else None)),
         _labelled(_("Holes"), hole_text(view, progress)),
         _labelled(_("Time"), time_text(progress)),
-        _labelled(_("Command"), _command(view)),
+        _labelled(_("Command"), textwrap.shorten(_command(view), columns - LABEL_WIDTH, placeholder=" ..")),
     ]
 
 

@@ -106,7 +106,7 @@ class MachineWindows(urwid.WidgetWrap[urwid.Widget]):
             return []
         view, records, board, progress = self._now
         assert records is not None
-        work = [*coordinate_lines(view, records), *work_lines(view, records, board, progress)]
+        work = [*coordinate_lines(view, records), *work_lines(view, records, board, progress, columns)]
         own = [work, [*missing_lines(records), *tick_lines(view)]]
         return self._paged(own if self._wide else [*own, *self._records_of(columns)], columns, rows)
 
