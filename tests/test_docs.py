@@ -1,30 +1,21 @@
 """Docs are executed: README's commands run, the generated pages are current, every link leads somewhere."""
 
-import importlib.util
 import re
 import shlex
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
 from drillctl.cli import main
 from drillctl.ui.pcb_drill.menus import MENUS
+from tests.support.scripts import script
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
 FOLDERS = ("docs/*.md", "docs/lab/*.md", "docs/tutorials/*.md", "docs/howto/*.md", "*.md")
 PAGES = [page for pattern in FOLDERS for page in sorted(ROOT.glob(pattern))]
-
-
-def generator() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("generate", ROOT / "docs" / "generate.py")
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def drillctl_lines() -> list[list[str]]:
@@ -35,7 +26,7 @@ def drillctl_lines() -> list[list[str]]:
 
 @pytest.mark.parametrize("name", ["KMD.md", "FAULTS.md", "STATES.md", "GEARS.md", "API.md", "VERBS.md", "drillctl.1"])
 def test_generated_page_is_current(name: str) -> None:
-    assert (ROOT / "docs" / name).read_text("utf-8") == generator().PAGES[name]()
+    assert (ROOT / "docs" / name).read_text("utf-8") == script("docs/generate.py").PAGES[name]()
 
 
 def test_readme_commands_run(

@@ -64,7 +64,7 @@ def add_reading(verb: "argparse._ActionsContainer") -> None:
 
 
 def add_pins(verb: "argparse._ActionsContainer") -> None:
-    """Adds ``--pins``."""
+    """Adds the option for registration pins to a verb: their diameter, and where they are."""
     where = (
         f"holes for registration pins of MM, so far outside the extent of all holes (default: 5 mm); WHERE: "
         f"{', '.join(PIN_PLACES)}. With --mirror they are there already: the board lies turned over on them"
@@ -73,7 +73,7 @@ def add_pins(verb: "argparse._ActionsContainer") -> None:
 
 
 def add_mill(verb: "argparse._ActionsContainer") -> None:
-    """Adds ``--mill``."""
+    """Adds the switch to a verb that has slots milled instead of drilled as holes in a row."""
     slots = (
         "mill slots, and straight cuts in rout mode, from end to end with the bit down: on a machine whose file says "
         "that it can, and in G-code; in an Excellon file such cuts become slots"

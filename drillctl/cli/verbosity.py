@@ -55,5 +55,5 @@ class _Kept(logging.Handler):
         self.records: deque[logging.LogRecord] = deque(maxlen=MOST_KEPT)
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Keeps a record."""
+        """Appends a record to those kept; beyond MOST_KEPT the oldest one is dropped."""
         self.records.append(record)

@@ -56,7 +56,7 @@ class Controller:
               is looked for, ``breakage_ranges`` how much deeper than before it may touch, ``depths`` how far below it a
               hole goes, 0 where that is not entered
     watched   contacts that a stroke down looks at; ``touching`` those that were on in the tick before, ``touched`` by
-              contact the place of its first touch in this stroke
+              axis the place in steps of its bit's first touch in this stroke
     blamed    as a mask, the axes that the fault which is raised next is about; ``fault_axes`` those of the fault shown
     alarms    inputs of drives that had tripped in the tick before, none once that was acknowledged; of ``alarm_mask``
     contacts  the same of the inputs that say that a head's bit touches

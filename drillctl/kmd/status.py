@@ -1,5 +1,5 @@
-"""The status record: small, of fixed size, published after each tick, up to some
-1,000 times a second. Screens, journal and summary are made from it.
+"""The status record: small, of fixed size, published after each tick, up to some 1,000 times a second. Screens, journal
+and summary are made from it.
 
 Rule: execution/between_ticks.py writes it, and the ticker adds what only it knows (lateness, lost steps); everybody
 above only reads. Integers: no file, no millimetre, no word. Whether a job is over is asked here and nowhere else.

@@ -60,7 +60,7 @@ class Chuck:
             self.break_off()
 
     def break_off(self) -> None:
-        """Its bit breaks."""
+        """A piece of PIECE_MM breaks off its bit, which reaches the board that much later from now on."""
         self.short_steps = PIECE_MM * self.steps_per_mm
 
 

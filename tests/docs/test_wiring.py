@@ -1,27 +1,19 @@
 """The drawings of wires are those of the tables, and the pins that WIRING.md names in words are the drawn ones."""
 
-import importlib.util
 import re
 from pathlib import Path
-from types import ModuleType
 from xml.etree import ElementTree
 
 import pytest
+
+from tests.support.scripts import script
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "WIRING.md").read_text("utf-8")
 TABLES = sorted((ROOT / "tables" / "machines").glob("*.toml"))
 
 
-def load() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("wiring", ROOT / "docs" / "wiring.py")
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-wiring = load()
+wiring = script("docs/wiring.py")
 
 
 @pytest.mark.parametrize("name", [file.stem for file in TABLES])

@@ -1,6 +1,5 @@
 """The law of the dynamic plant: compiled and plain give the same bits; a stretch of ticks is its single ticks."""
 
-import importlib.util
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
@@ -15,6 +14,7 @@ from drillctl.machine import Library, shipped_tables
 from drillctl.plant.dynamic import law, motors
 from drillctl.plant.dynamic.kernel import KERNEL, PLAIN, Kernel
 from drillctl.plant.dynamic.plant import DynamicPlant
+from tests.support.scripts import script
 
 LIBRARY = Library((shipped_tables(),))
 FAULTS = ((), ("blunt=3",), ("broken=1",), ("loose.x=0.4", "jammed.z=3"), ("bouncing.z_top=7", "stuck.x_min=1"))
@@ -98,19 +98,11 @@ def test_a_kernel_that_was_built_beside_another_is_not_taken(monkeypatch: pytest
     assert compiled.compiled_form(law) is None
 
 
-def build_hook() -> ModuleType:
-    path = Path(__file__).parents[2] / "hatch_build.py"
-    spec = importlib.util.spec_from_file_location("hatch_build", path)
-    assert spec is not None and spec.loader is not None
-    hook = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(hook)
-    return hook
-
-
 @pytest.mark.parametrize("name", ["motors", "law"])
 def test_the_build_and_the_program_tell_texts_apart_alike(name: str) -> None:
     folder = Path(law.__file__).parent
-    assert build_hook()._digest(folder / name) == compiled.digest(name, lambda file: (folder / file).read_bytes())
+    here = compiled.digest(name, lambda file: (folder / file).read_bytes())
+    assert script("hatch_build.py")._digest(folder / name) == here
 
 
 def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
@@ -119,7 +111,7 @@ def test_where_nothing_can_be_compiled_the_package_is_built_all_the_same(
     def no_compiler(root: Path, loop: str) -> Path:
         raise SystemExit("command 'cc' failed")
 
-    module = build_hook()
+    module = script("hatch_build.py")
     monkeypatch.setattr(module, "build", no_compiler)
     hook, build_data = SimpleNamespace(target_name="wheel", root=str(tmp_path)), {"force_include": {}}
     module.CompilingHook.initialize(hook, "editable", build_data)

@@ -1,24 +1,16 @@
 """Random boards in every way of declaring: right, told or refused (long run: benchmarks/drillfile_boards.py)."""
 
-import importlib.util
-import sys
 from collections import Counter
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
-BOARDS = Path(__file__).resolve().parents[3] / "benchmarks" / "drillfile_boards.py"
+from tests.support.scripts import script
 
 
 @pytest.fixture(scope="module")
 def boards() -> ModuleType:
-    spec = importlib.util.spec_from_file_location(BOARDS.stem, BOARDS)
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # its dataclasses look their module up
-    spec.loader.exec_module(module)
-    return module
+    return script("benchmarks/drillfile_boards.py")
 
 
 def test_no_board_is_silently_wrong(boards: ModuleType) -> None:
