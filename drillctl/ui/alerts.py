@@ -14,6 +14,8 @@ from drillctl.ui.widgets.texts import Text
 from drillctl.viewmodel.console import Console, MachineView, ToolWanted
 from drillctl.viewmodel.records import FaultReport
 
+TOOL_KEY = "c"  # as on the screens that drill boards
+
 
 class Alerts:
     """Opens and closes the boxes on faults, tool changes and mode REAL, over whatever screen is on top.
@@ -56,7 +58,7 @@ class Alerts:
     def _tool_question(self, tool: ToolWanted) -> dialogs.Dialog:
         lines = [
             _("The job waits for {tool}; the machine is at rest.").format(tool=tool_name(tool)),
-            _("Put it in, then say so here, or later with C on the Drilling screen."),
+            _("Put it in, then say so with {key}, here or later.").format(key=TOOL_KEY.upper()),
         ]
         buttons: list[tuple[str, Callable[[], object]]] = [
             (_("Not yet"), dialogs.nothing),
@@ -64,7 +66,8 @@ class Alerts:
             (_("Hold"), self._console.hold),
             (f"{_('Stop')} (X)", self._console.stop),
         ]
-        return dialogs.Dialog(_("Tool change"), [Text(line) for line in lines], buttons, self._layers.pop, answers=True)
+        body = [Text(line) for line in lines]
+        return dialogs.Dialog(_("Tool change"), body, buttons, self._layers.pop, answers=True, yes=TOOL_KEY)
 
     def _show_real(self, view: MachineView) -> None:
         """A machine whose file says REAL is driven on its port after a yes, and simulated until then."""

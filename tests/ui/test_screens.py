@@ -338,6 +338,7 @@ def test_the_tool_that_is_waited_for_is_told_on_any_screen(language: str, size: 
         (["enter"], []),
         (["esc"], []),
         (["right", "enter"], [("tool_changed",)]),
+        (["c"], [("tool_changed",)]),
         (["right", "right", "enter"], [("hold",)]),
         (["right", "right", "right", "enter"], [("stop",)]),
         (["f10"], [("emergency_stop",)]),

@@ -26,13 +26,15 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
     """A framed box of text with buttons below; ``closing`` is called before a button's own act. Esc and q only close.
 
     answers  the first two buttons mean no and yes: they can be pressed by the first letters of these words
+    yes      a further key that means yes: that by which a screen does the same
     entered  the action of a screen that Enter does here, by its name; empty where there is none
     """
 
     entered = ""
 
     def __init__(
-        self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act, answers: bool = False
+        self, title: str, body: Sequence[Part], buttons: Sequence[tuple[str, Act]], closing: Act,
+        answers: bool = False, yes: str = YES,
     ):  # fmt: skip
         self._closing = closing
         self._first = self._closed_by(buttons[0][1])
@@ -42,7 +44,7 @@ class Dialog(urwid.WidgetWrap[urwid.Widget]):
         acts = [act for _label, act in buttons]
         self._answers = {letter.lower(): self._closed_by(act) for letter, act in zip(letters, acts, strict=False)}
         if answers:
-            self._answers[YES] = self._closed_by(acts[1])
+            self._answers |= {key: self._closed_by(acts[1]) for key in (YES, yes)}
         width = max(LEAST_BUTTON, max(map(len, labels)) + len("<  >"))
         cells = [self._button(*button) for button in zip(labels, acts, strict=True)]
         self._row = urwid.GridFlow(cells, width, 1, 0, "center")
